@@ -156,7 +156,8 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
     const std::ptrdiff_t place = d - head;
     if (place == 0 || place < warmth.first || place > warmth.last) continue;
     const Beside& beside = beside_[index_of(head)];
-    if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted || beside.wait.load(std::memory_order_relaxed))
+    if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted ||
+        beside.wait.load(std::memory_order_relaxed))
       continue;
     head->run.store(beside.plain, std::memory_order_release);
     head->state.store(Decoded::Met, std::memory_order_release);

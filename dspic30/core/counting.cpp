@@ -269,13 +269,12 @@ class CountProof {
     bool was_read_first = false;
   };
 
-  // all but registers, the DO loop's count and DC is as it was, as far as instructions see it
+  // all but registers, the DO loop's count and DC is as it was
   bool only_words_change() {
-    constexpr std::uint64_t kFree = std::uint64_t{0x7FFF} << 48 | std::uint64_t{0x100} << 16;  // below N; DC
     const CoreState now(cpu_);
     for (const std::size_t i : {4u, 6u, 7u, 9u, 10u})
       if (now.words[i] != round_.state.words[i]) return false;
-    if ((now.words[5] ^ round_.state.words[5]) & ~kFree) return false;
+    if ((now.words[5] ^ round_.state.words[5]) & ~CoreState::kDc) return false;
     for (unsigned n = 0; n < 16; ++n)
       if (now.w(n) != round_.state.w(n)) changed_ |= static_cast<std::uint16_t>(1u << n);
     const std::uint64_t loops = round_.state.words[8];

@@ -128,7 +128,7 @@ void Cpu::run_each() {
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
     next = following;
-    if (++looked_at_ < kLongestLook || watching) continue;
+    if (++looked_at_ < kLongestLook) continue;
     code_is_stale = true;
     return;
   }

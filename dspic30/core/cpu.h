@@ -147,6 +147,7 @@ class Cpu final : public SfrOwner {
   }
   /// This one instruction alone, with its own function: not the translated code that begins there.
   static const Decoded* run_alone(Cpu& cpu, const Decoded* d) {
+    if (cpu.looks_at_each_) return cpu.looked_at(d)(cpu, d);
     if (!cpu.is_decoded(d)) cpu.decode(d);
     return cpu.plain(d)(cpu, d);
   }
@@ -158,6 +159,20 @@ class Cpu final : public SfrOwner {
   /// at.
   bool looks_at_each() const { return looks_at_each_; }
   void run_each();
+  /// The function of this one instruction for this robot, whose registers count as written by it.
+  Run looked_at(const Decoded* d);
+  /// Up to `deadline`, as straight as code goes.
+  void run_straight() {
+    const Decoded* d = next;
+    while (now < deadline) {
+      at = d;
+      const Decoded* following = d->run.load(std::memory_order_acquire)(*this, d);
+      now += d->cycles;
+      if (d == loop_end) following = loop_back(d, following);
+      d = following;
+    }
+    next = d;
+  }
   /// These registers were written since the reset, a bit each.
   void note_written(unsigned registers) {
     if ((registers & ~written & kAllWritten) == 0) return;
@@ -359,6 +374,7 @@ class Cpu final : public SfrOwner {
   bool stands_in_host() const;
 
   // --- waits (waits.h)
+  bool returned = false;  ///< a handler has, since Processor::run() looked last
   /// Something was done that a wait does not do.
   void note_effect() { watched_until = 0; }
   /// Accesses to RAM are noted from now on; null: no longer.
@@ -383,7 +399,7 @@ class Cpu final : public SfrOwner {
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
   bool looks_outside = false;           ///< since then a register of a peripheral was read
-  bool reads_core = false;              ///< ... or one of the core's, by its address
+  bool reads_core = false;              ///< ... or one of the core's, by its address; or DC
   RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM: watch_round()
   KnownWaits known_waits;
   KnownCounts known_counts;
@@ -481,7 +497,6 @@ class Cpu final : public SfrOwner {
       warm(target);
   }
   __attribute__((noinline)) void warm(const Decoded* target);
-  Run looked_at(const Decoded* d);
   void run_on(std::shared_ptr<CodeTable> table);
   void forget_code(bool is_other);
   void have_own_store(const std::vector<std::uint32_t>& told,

@@ -123,6 +123,7 @@ const Decoded* Cpu::return_from_handler(const Decoded* from) {
   parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), now);
   hurry_to_exception(*this);
   deadline = 0;
+  returned = true;
   const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);
   const Decoded* const following = jump_back(address, from);
   if (is_host_place(address)) host_again = true;

@@ -28,8 +28,8 @@ __attribute__((always_inline)) inline std::uint64_t state_word(const Cpu& c, std
       return four(c.shadow.w.data());
     case 5: {
       const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
-      return std::uint64_t{c.n} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 | z << 16 |
-             carry << 17 | c.shadow.flags;
+      return std::uint64_t{c.n & 0x8000u} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 |
+             z << 16 | carry << 17 | c.shadow.flags;
     }
     case 6:
     case 7:
@@ -50,6 +50,13 @@ __attribute__((always_inline)) inline std::uint64_t state_word(const Cpu& c, std
 CoreState::CoreState(const Cpu& c) {
 #pragma GCC unroll 11
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = state_word(c, i);
+}
+
+bool CoreState::is_of_but_dc(const Cpu& c) const {
+#pragma GCC unroll 11
+  for (std::size_t i = 0; i < words.size(); ++i)
+    if ((words[i] ^ state_word(c, i)) & (i == 5 ? ~kDc : ~std::uint64_t{0})) return false;
+  return true;
 }
 
 bool CoreState::is_of(const Cpu& c) const {
@@ -111,7 +118,7 @@ bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon =
 const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
   const Wait* const wait = waits_[place_of(cpu.next)].get();
   return wait && wait->first == cpu.next && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
-                 wait->state.is_of(cpu)
+                 wait->state.is_of_but_dc(cpu)
              ? wait
              : nullptr;
 }

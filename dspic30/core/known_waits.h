@@ -25,6 +25,10 @@ struct CoreState {
   explicit CoreState(const Cpu& cpu);
   /// Is the core in this state?
   bool is_of(const Cpu& cpu) const;
+  /// ... but for DC, which RETFIE leaves as the handler had it.
+  bool is_of_but_dc(const Cpu& cpu) const;
+  bool dc() const { return (words[5] & kDc) != 0; }
+  static constexpr std::uint64_t kDc = std::uint64_t{0x100} << 16;
   std::uint16_t w(unsigned n) const { return static_cast<std::uint16_t>(words[n / 4] >> 16 * (n % 4)); }
   std::array<std::uint64_t, 11> words;
 };
@@ -97,6 +101,7 @@ class KnownWaits {
   struct Wait {
     const Decoded* first = nullptr;
     Cycle took = 0;
+    bool sets_dc = false;  // else it stays as it is; nothing in the round reads it
     CoreState state;
     RoundMemory memory;
   };

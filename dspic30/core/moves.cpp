@@ -114,6 +114,7 @@ const Decoded* extend_zero(Cpu& cpu, const Decoded* d) {
 // the sum of two packed decimals, corrected; a carry out of the low digit goes into the high one [?]
 const Decoded* decimal_adjust(Cpu& cpu, const Decoded* d) {
   unsigned x = cpu.w[d->d] & 0xFF;
+  cpu.reads_core = true;  // DC
   if ((x & 15) > 9 || cpu.flag_dc()) x += 0x06;
   if (x > 0x9F || cpu.flag_c()) {
     x += 0x60;
@@ -136,6 +137,7 @@ const Decoded* pop_file(Cpu& cpu, const Decoded* d) {
 const Decoded* push_shadow(Cpu& cpu, const Decoded* d) {
   for (unsigned i = 0; i < 4; ++i) cpu.shadow.w[i] = cpu.w[i];
   cpu.shadow.flags = cpu.sr() & 0x010F;
+  cpu.reads_core = true;  // DC
   return d + 1;
 }
 const Decoded* pop_shadow(Cpu& cpu, const Decoded* d) {

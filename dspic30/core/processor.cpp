@@ -54,7 +54,6 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 // straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
   Cpu& cpu = *cpu_;
-  if (cpu.looks_at_each()) return cpu.run_each();
   const Cycle end = cpu.deadline;
   const std::int64_t writes = cpu.parts.bus.writes();
   while (cpu.now < end) {
@@ -66,17 +65,13 @@ void Processor::execute() {
     }
     const Cycle pause = std::min(end, cpu.clocks.program_at(std::max(waits_->look_at(cpu), cpu.now + 1)));
     cpu.deadline = pause;
-    const Decoded* d = cpu.next;
-    while (cpu.now < cpu.deadline) {
-      cpu.at = d;
-      const Decoded* next = d->run.load(std::memory_order_acquire)(cpu, d);
-      cpu.now += d->cycles;
-      if (d == cpu.loop_end) next = cpu.loop_back(d, next);
-      d = next;
-    }
-    cpu.next = d;
+    if (cpu.looks_at_each())
+      cpu.run_each();
+    else
+      cpu.run_straight();
     if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
-    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes) return;
+    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes || cpu.is_code_stale())
+      return;
     cpu.deadline = end;
   }
 }
@@ -86,6 +81,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
   while (true) {
     if (cpu.reset_due) return cpu.reset_due;
     cpu.settle();
+    if (cpu.returned) waits_->resume(cpu);
     if (cpu.now >= until) return std::nullopt;
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);

@@ -37,10 +37,6 @@ void Waits::begin(Cpu& cpu) {
   }
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_delayed_ = cpu.delayed;
-  if (was_cut_) {
-    resumed_ = round_began_;
-    resumed_delayed_ = round_delayed_;
-  }
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
@@ -54,17 +50,9 @@ void Waits::begin(Cpu& cpu) {
   if (of_head && !of_head->memory.are_as_read(cpu.ram.data())) {
     cpu.still_since = kNever;
     cpu.passes_head = true;
-    was_cut_ = false;
     if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + kRarestLooks;
     return;
   }
-  // behind an interrupt it comes to the wait's first instruction by itself
-  if (was_cut_ && cpu.has_heads()) {
-    was_cut_ = false;
-    schedule(cpu).at = look_began_ + kRarestLooks;
-    return;
-  }
-  was_cut_ = false;
   state_ = State::Looking;
   chances_ = 2;
   again_ = 0;
@@ -81,7 +69,6 @@ bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
   cpu.still_since = kNever;
   cpu.heads_from = look_began_ + (rounds + 2) * took;
   cpu.passes_head = at_head_;
-  was_cut_ = false;
   if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + (rounds + 2) * took;
   return true;
 }
@@ -92,6 +79,7 @@ void Waits::begin_round(Cpu& cpu) {
   round_.memory.clear();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_delayed_ = cpu.delayed;
+  cpu.dc |= kNotSet;
   steps_ = 0;
   trace_.clear();
   behind_ = {};
@@ -138,6 +126,7 @@ bool Waits::goes_elsewhere(Cpu& cpu) {
 
 void Waits::end_round(Cpu& cpu) {
   round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
+  round_.sets_dc = !(cpu.dc & kNotSet);
   const bool is_whole = round_.memory.is_whole(),
              is_fixed = cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core;
   if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
@@ -184,18 +173,17 @@ void Waits::fail(Cpu& cpu) {
 
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
-  was_cut_ = false;
   wait_ = wait;
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
   // ... and so was the rest of the one that an interrupt had come into
   delayed_ = round_delayed_;
-  if (resumed_ >= 0 && cut_ == wait->first && entered_ - resumed_ <= wait->took) {
+  if (cut_ == wait->first && entered_ - resumed_ <= wait->took) {
     entered_ = resumed_;
     delayed_ = resumed_delayed_;
   }
   cpu.delayed = delayed_;
-  resumed_ = -1;
+  cut_ = nullptr;
   head_pause_ = kFirstPause;
   cpu.heads_from = 0;
   schedule(cpu).between = kFirstLooks;
@@ -220,7 +208,7 @@ void Waits::wait(Cpu& cpu) {
     if (counts_)
       counts_->advance(cpu, rounds);
     else
-      wait_->memory.put_written(cpu.ram.data());
+      jump_over(cpu);
     cpu.now += rounds * took;
     jumped_ += rounds * took;
   }
@@ -239,6 +227,12 @@ void Waits::wait(Cpu& cpu) {
   schedule(cpu).at = now;  // perhaps it goes on
 }
 
+// what whole rounds leave behind
+void Waits::jump_over(Cpu& cpu) {
+  wait_->memory.put_written(cpu.ram.data());
+  if (wait_->sets_dc) cpu.dc = wait_->state.dc() ? 0x100 : 0;
+}
+
 void Waits::leave(Cpu& cpu) {
   waited_ += cpu.clocks.own_cycles(cpu.now) - entered_;
   state_ = State::Away;
@@ -251,8 +245,11 @@ void Waits::cut(Cpu& cpu) {
     cut_ = wait_->first;
     leave(cpu);
   }
-  if (waits || state_ == State::Looking) schedule(cpu).at = 0;
-  was_cut_ = was_cut_ || waits;
+  // behind the handler it comes to a wait's first instruction by itself, and stops there
+  if (waits && cpu.is_own_head(cut_))
+    schedule(cpu).at = cpu.true_now() + kRarestLooks;
+  else if (waits || state_ == State::Looking)
+    schedule(cpu).at = 0;
   state_ = State::Away;
   cpu.head_met = false;
   // handlers seldom wait, so they may work on for a while first
@@ -268,8 +265,8 @@ void Waits::stir(Cpu& cpu) {
 void Waits::forget(Cpu& cpu) {
   if (is_waiting()) leave(cpu);
   state_ = State::Away;
-  was_cut_ = at_head_ = false;
-  resumed_ = -1;
+  at_head_ = false;
+  cut_ = nullptr;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }
 

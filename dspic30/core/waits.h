@@ -35,6 +35,12 @@ class Waits {
   Cycle look_at(const Cpu& cpu) const { return schedule(cpu).at; }
   /// An interrupt is about to be entered.
   void cut(Cpu& cpu);
+  /// A handler has returned.
+  void resume(Cpu& cpu) {
+    cpu.returned = false;
+    resumed_ = cpu.clocks.own_cycles(cpu.now);
+    resumed_delayed_ = cpu.delayed;
+  }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
   /// A reset.
@@ -63,6 +69,7 @@ class Waits {
   static constexpr int kLongestRound = 256;                        // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
+  static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
     return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0];
@@ -80,15 +87,15 @@ class Waits {
   /// By the program's clock.
   Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
+  void jump_over(Cpu& cpu);
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
 
   State state_ = State::Away;
   std::array<Schedule, 2> schedules_;  // of the program, of its handlers
   bool at_head_ = false;               // the look began at a known wait's first instruction
-  bool was_cut_ = false;               // ... behind an interrupt that came into a wait
-  const Decoded* cut_ = nullptr;       // its first instruction
-  Cycle resumed_ = -1;                 // cycles of the program behind the interrupt; -1: there was none
+  const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
+  Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
   Cycle resumed_delayed_ = 0;          // Cpu::delayed then
   Cycle head_pause_ = kFirstPause;
   // the round that is looked at

@@ -106,7 +106,7 @@ struct Bench : CoreBench {
   Bench(const std::string& text, int share) : CoreBench(text, {}, false) {
     if (share < 0) return;
     library = std::make_unique<Library>(symbol("callback"), share);
-    cpu = std::make_unique<dspic::Processor>(*chip, program, library.get(), 0x820);
+    cpu = std::make_unique<dspic::Processor>(*chip, program, nullptr, library.get(), 0x820);
   }
   std::unique_ptr<Library> library;
 };
