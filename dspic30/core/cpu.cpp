@@ -32,13 +32,7 @@ constexpr unsigned kNoPointer = 15;  // as XWM, YWM or BWM: none is chosen [DS70
 
 // a wait is known to begin here
 const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
-  const bool passes = cpu.passes_head;
-  cpu.passes_head = false;
-  if (passes || cpu.watching || !cpu.is_own_head(d) || cpu.true_now() < cpu.heads_from)
-    return cpu.beside_wait(d)(cpu, d);
-  cpu.head_met = true;
-  cpu.kept_deadline = cpu.deadline;
-  cpu.deadline = 0;
+  if (!cpu.stops_at(d)) return cpu.beside_wait(d)(cpu, d);
   cpu.now -= d->cycles;
   return d;
 }
@@ -124,11 +118,13 @@ Run Cpu::looked_at(const Decoded* d) {
 void Cpu::run_each() {
   while (now < deadline) {
     const Decoded* const d = at = next;
+    if (is_own_head(d) && stops_at(d)) return;
     const Decoded* following = looked_at(d)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
     next = following;
-    if (++looked_at_ < kLongestLook) continue;
+    if (address_of_host_place(d) || ++looked_at_ < kLongestLook)
+      continue;  // a wait there has any number of steps
     code_is_stale = true;
     return;
   }
@@ -182,6 +178,16 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   }
   bad_address_ = address;
   return code_ + kFlashWords;
+}
+
+bool Cpu::stops_at(const Decoded* head) {
+  const bool passes = passes_head;
+  passes_head = false;
+  if (passes || watching || !is_own_head(head) || true_now() < heads_from) return false;
+  head_met = true;
+  kept_deadline = deadline;
+  deadline = 0;
+  return true;
 }
 
 void Cpu::mark_head(const Decoded* first) {

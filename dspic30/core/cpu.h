@@ -393,6 +393,8 @@ class Cpu final : public SfrOwner {
   bool is_own_head(const Decoded* d) const {
     return std::find(own_heads_.begin(), own_heads_.end(), d - code_) != own_heads_.end();
   }
+  /// The program comes to one: does it stop?
+  bool stops_at(const Decoded* head);
   bool head_met = false;     ///< the program has stopped at one; kept_deadline was its deadline
   bool passes_head = false;  ///< the one where it stands is passed
   Cycle heads_from = 0, kept_deadline = 0;
