@@ -31,14 +31,16 @@ void pack(Cpu& cpu, std::uint32_t sign, int e, std::uint32_t m) {
   logic(cpu, cpu.w[1]);
 }
 
-// --- from_unsigned(); 2^27 and above takes calls of 64-bit shifts, so it runs
+// --- from_unsigned()
 
-constexpr unsigned kSavedAt = 5, kReturnAt = 11;  // words above W15: behind W14 and locals; behind W8 to W13
-constexpr unsigned kBehindPacking = 0xEC, kBehindPackingLarge = 0xDA;
+// words above W15: behind W14 and four locals, behind W8 to W13, behind a return address
+constexpr unsigned kSavedAt = 5, kReturnAt = 11, kShiftAt = 13;
+constexpr unsigned kBehindPacking = 0xEC, kBehindPackingLarge = 0xDA, kBehindPackingLargest = 0x13E;
+constexpr int kWorked = kFraction + 3;  // leading bit of what packed() rounds
+constexpr int kShifts = 99;             // a shift down, and another to see what it lost
 
 int from_unsigned(Cpu& cpu, std::int64_t limit, std::uint32_t v, std::uint32_t sign, unsigned place,
                   int cycles) {
-  if (v >> 27) return 0;
   if (v == 0) {
     cycles += 37;
     if (cycles > limit) return 0;
@@ -47,18 +49,26 @@ int from_unsigned(Cpu& cpu, std::int64_t limit, std::uint32_t v, std::uint32_t s
     sub_pair(cpu, 0, 0);
     cpu.set_z(false);
   } else {
-    const int leading = 31 - __builtin_clz(v);
-    const std::uint32_t m = leading <= 26 ? v << (26 - leading) : v;
-    cycles += 22 + 15 + cycles_of_packing(m);
-    if (leading == kFraction)
-      cycles += 30;
-    else if (leading < kFraction)
+    const int leading = 31 - __builtin_clz(v), down = leading - kWorked;
+    const std::uint32_t cut = down > 0 ? v >> down : v << -down;
+    const std::uint32_t m = cut | (down > 0 && (v & ((1u << down) - 1)) != 0);
+    cycles += 37 + cycles_of_packing(m);
+    if (leading <= kFraction)
       cycles += 30 + 11 * (kFraction - leading);
     else
-      cycles += 45 + 26 * (leading - kFraction);
+      cycles += 45 + 26 * (leading - kFraction) + (down > 0 ? kShifts : 0);
     if (cycles > limit) return 0;
     if (leading > kFraction) leave(cpu, 1, 0);
-    leave_return(cpu, kReturnAt, place + (leading > kFraction ? kBehindPackingLarge : kBehindPacking));
+    if (down > 0) {
+      leave(cpu, 2, sign >> 16);
+      leave(cpu, 3, cut >> 16);
+      leave(cpu, 4, cut & 0xFFFF);
+      leave(cpu, kShiftAt, static_cast<unsigned>(down));
+    }
+    leave_return(cpu, kReturnAt,
+                 place + (down > 0              ? kBehindPackingLargest
+                          : leading > kFraction ? kBehindPackingLarge
+                                                : kBehindPacking));
     pack(cpu, sign, kBias + leading, m);
   }
   leave(cpu, 0, cpu.w[14]);
