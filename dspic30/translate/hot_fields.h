@@ -32,6 +32,7 @@ struct Hot {
     const std::uint64_t n = (f.offset - begin) / 2;
     return n <= 7 || n == 15;
   }
+  bool is_flag(const Field& f) const { return f.offset - begin >= 2 * 16 && &f != &fields.back(); }
   bool holds(std::uint64_t offset) const { return offset >= begin && offset < end; }
   /// `writer`: null where it is read.
   void touch(std::uint64_t offset, std::uint64_t bytes, const Item* writer) {

@@ -24,13 +24,13 @@ void* address_of(const std::string& name, void* self, const std::vector<Item>& i
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
   if (name == kGoOn) return reinterpret_cast<void*>(&Cpu::go_on);
   if (name == kReturn) return reinterpret_cast<void*>(&Cpu::return_from);
+  if (name == kAnswered) return reinterpret_cast<void*>(&answered);
   if (name == kHost) return reinterpret_cast<void*>(&call_host);
   if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
   if (name[0] == kKnownMark) {
     const auto item = static_cast<std::size_t>(std::strtoul(name.c_str() + 1, nullptr, 10));
-    return item < items.size() && items[item].routine
-               ? reinterpret_cast<void*>(items[item].routine->function)
-               : nullptr;
+    return item < items.size() && items[item].routine ? const_cast<KnownRoutine*>(items[item].routine)
+                                                      : nullptr;
   }
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(
@@ -61,7 +61,7 @@ std::string part_of(Cursor& in) {
 
 std::string interpreter(std::uint32_t word) { return kWordMark + hex(word, 6).substr(2); }
 
-std::string known_function(std::size_t item) { return kKnownMark + std::to_string(item); }
+std::string known_routine(std::size_t item) { return kKnownMark + std::to_string(item); }
 
 Run placed(const MachineCode& code, const std::vector<Item>& items) {
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));

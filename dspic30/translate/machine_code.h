@@ -24,13 +24,13 @@ struct MachineCode {
 
 /// What Address::name calls the function that interprets a word, those that leave a stretch, by a jump,
 /// straight on or by a return, the one that runs an instruction as it is decoded by then: never the stretch
-/// that begins there; and the one of a call of the host's.
+/// that begins there; the one of a call of the host's, and answered().
 std::string interpreter(std::uint32_t word);
 inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone",
-                            *kHost = "host";
+                            *kHost = "host", *kAnswered = "answered";
 
-/// What it calls the function of the known routine that an item calls.
-std::string known_function(std::size_t item);
+/// What it calls the known routine that an item calls.
+std::string known_routine(std::size_t item);
 
 /// Put into memory, for as long as the process lives, as the code of these items. Null: a name is not known
 /// here, or no memory.

@@ -73,7 +73,6 @@ bool is_beyond_ram(const CallInst& call) {
 
 // most cycles between two looks at the time: what is left of them before something happens is interpreted
 constexpr int kSection = 16;
-constexpr std::uint16_t kReturnAddressBytes = 4;
 constexpr std::ptrdiff_t kGap = 16;  // words that were not met, within a piece
 
 // --- one stretch ----------------------------------------------------------------------------------------
@@ -101,7 +100,6 @@ class Maker {
   void leave(const Item& item, BasicBlock* block, Value* next);
   void leave_by_return(const Item& item, BasicBlock* block);
   void leave_by_answer(const Item& item, BasicBlock* block);
-  Value* can_be_answered();
   BasicBlock* edge(const Item& item, Value* next, int frame);
   BasicBlock* passed(const Item& item);
   Value* jump_to(std::ptrdiff_t place, int frame);
@@ -205,7 +203,7 @@ class Maker {
   struct Effect {
     WeakVH what;
     const Item* item;
-    enum Scope { All, ClockOnly, HostCall } scope;  // what is put back before it and taken behind it
+    enum Scope { All, ClockOnly, HostCall, Routine } scope;  // what is put back before it, taken behind it
   };
   std::vector<Effect> effects_;
   // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch ends
@@ -613,67 +611,35 @@ void Maker::leave_by_return(const Item& item, BasicBlock* block) {
   ir_.CreateCondBr(ir_.CreateICmpEQ(return_address_, expected), back, out);
 }
 
-// the answer of the routine that is called, or else a jump there; as recall() (known_calls.h)
+// the answer of the routine that is called, or else a jump there
 void Maker::leave_by_answer(const Item& item, BasicBlock* block) {
-  Type* const word = ir_.getInt16Ty();
-  ir_.SetInsertPoint(block);
-  Value* const now = field(&cpu_.now, long_);
-  BasicBlock* const ask = BasicBlock::Create(context_, "", function_);
   BasicBlock* const done = BasicBlock::Create(context_, "", function_);
   BasicBlock* const out = passed(item);
   ir_.SetInsertPoint(out);
   ir_.CreateBr(ways_[0].block);
   ways_[0].where->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(item.target)), out);
   ir_.SetInsertPoint(block);
-  ir_.CreateCondBr(can_be_answered(), ask, out);
-  // its function, of W0 to W3
-  ir_.SetInsertPoint(ask);
-  Value* registers = ir_.getInt64(0);
-  for (unsigned i = 0; i < 4; ++i) {
-    Value* const w = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.w[i], word)), long_);
-    registers = ir_.CreateOr(registers, ir_.CreateShl(w, 16 * i));
-  }
-  FunctionType* const type =
-      FunctionType::get(StructType::get(long_, ir_.getInt32Ty()), {long_}, false);  // KnownAnswer, by the ABI
-  Value* const answer =
-      ir_.CreateCall(semantics_.module->getOrInsertFunction(known_function(index_of(item)), type), registers);
-  Value* const cycles = ir_.CreateSExt(ir_.CreateExtractValue(answer, 1), long_);
-  Value* const until = ir_.CreateAdd(ir_.CreateAdd(ir_.CreateLoad(long_, now), cycles),
-                                     ir_.getInt64(item.decoded.cycles + item.way));
-  Value* const in_time = ir_.CreateICmpSLT(until, ir_.CreateLoad(long_, field(&cpu_.deadline, long_)));
-  ir_.CreateCondBr(ir_.CreateAnd(in_time, ir_.CreateICmpSGT(cycles, ir_.getInt64(0))), done, out);
+  Value* const now = field(&cpu_.now, long_);
+  Value* const begin =
+      ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(item.decoded.cycles + item.way));
+  FunctionType* const no_type = FunctionType::get(ir_.getVoidTy(), false);
+  Value* const routine = ir_.CreateBitCast(
+      semantics_.module->getOrInsertFunction(known_routine(index_of(item)), no_type).getCallee(),
+      byte_->getPointerTo());
+  const std::array<Value*, 4> arguments = {cpu_arg_, place(item.routine_place), routine, begin};
+  FunctionType* const type = FunctionType::get(
+      long_, {arguments[0]->getType(), arguments[1]->getType(), arguments[2]->getType(), long_}, false);
+  CallInst* const cycles = ir_.CreateCall(semantics_.module->getOrInsertFunction(kAnswered, type), arguments);
+  effects_.push_back({cycles, &item, Effect::Routine});
+  ir_.CreateCondBr(ir_.CreateICmpEQ(cycles, ir_.getInt64(0)), out, done);
   // behind its RETURN
   ir_.SetInsertPoint(done);
-  for (unsigned i = 0; i < 4; ++i)
-    ir_.CreateStore(ir_.CreateTrunc(ir_.CreateLShr(ir_.CreateExtractValue(answer, 0), 16 * i), word),
-                    field(&cpu_.w[i], word));
-  Value* const stack = field(&cpu_.w[15], word);
-  ir_.CreateStore(ir_.CreateSub(ir_.CreateLoad(word, stack), ir_.getInt16(kReturnAddressBytes)), stack);
-  ir_.CreateStore(ir_.CreateSub(until, ir_.getInt64(item.decoded.cycles)), now);
+  ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.CreateAdd(cycles, ir_.getInt64(item.way))),
+                  now);
   Value* const where = jump_to(item.place + item.words, item.frame);
   takes_long_ = true;
   BranchInst::Create(edge(item, where, item.frame), done);
   takes_long_ = false;
-}
-
-// no loop of the chip can end in the routine, and pointers and stack are as everywhere
-Value* Maker::can_be_answered() {
-  Type *const word = ir_.getInt16Ty(), *const number = ir_.getInt32Ty();
-  const auto is_zero = [&](const void* which, Type* type) {
-    return ir_.CreateICmpEQ(ir_.CreateLoad(type, field(which, type)), ConstantInt::get(type, 0));
-  };
-  Value* all = ir_.CreateAnd(is_zero(&cpu_.loop_end, long_),
-                             ir_.CreateAnd(is_zero(&cpu_.rcount, word), is_zero(&cpu_.modcon, word)));
-  Value* const top = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.w[15], word)), number);
-  Value* const limit = ir_.CreateZExt(ir_.CreateLoad(word, field(&cpu_.splim, word)), number);
-  Value* const has_limit =
-      ir_.CreateICmpNE(ir_.CreateLoad(byte_, field(&cpu_.splim_on, byte_)), ConstantInt::get(byte_, 0));
-  Value* const ram_end = ir_.getInt32(Cpu::kRamEnd);
-  Value* const end =
-      ir_.CreateSelect(ir_.CreateAnd(has_limit, ir_.CreateICmpULT(limit, ram_end)), limit, ram_end);
-  Value* const lowest = ir_.getInt32(Cpu::kRamStart + kReturnAddressBytes);
-  all = ir_.CreateAnd(all, ir_.CreateICmpUGE(top, lowest));
-  return ir_.CreateAnd(all, ir_.CreateICmpULE(ir_.CreateAdd(top, ir_.getInt32(KnownCalls::kStack)), end));
 }
 
 // a block in which the instruction's time passes
@@ -811,14 +777,15 @@ bool Maker::keep_state() {
       const Hot::Field& clock = hot.fields.back();
       const auto sees = [&](const Hot::Field& f) {
         return effect.scope == Effect::All || &f == &clock ||
-               (effect.scope == Effect::HostCall && hot.is_of_call(f));
+               (effect.scope == Effect::HostCall && hot.is_of_call(f)) ||
+               (effect.scope == Effect::Routine && !hot.is_flag(f));
       };
       for (const Hot::Field& f : hot.fields)
         if (!f.writers.empty() && sees(f)) put_back(f);
       ir_.CreateStore(place(effect.item->place), field(&cpu_.at, byte_->getPointerTo()));
       ir_.SetInsertPoint(what->getNextNode());
       for (const Hot::Field& f : hot.fields)
-        if (f.is_used && sees(f)) take(f);
+        if (f.is_used && (sees(f) || effect.scope == Effect::Routine)) take(f);
     }
     ir_.SetInsertPoint(what->getNextNode());
     ir_.CreateStore(ir_.getTrue(), left_);

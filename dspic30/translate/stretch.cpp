@@ -14,7 +14,7 @@ constexpr std::size_t kMostItems = 120;          // with the functions that are 
 constexpr int kDeepest = 3;                      // calls within calls
 constexpr int kMostPieces = 3;                   // of a function, from GOTO to GOTO
 constexpr int kGotoCycles = 2;
-constexpr int kMostReads = 2;                    // of an instruction
+constexpr int kMostReads = 2;  // of an instruction
 
 bool has(const Row& row, Operand kind) {
   return std::find(row.kinds.begin(), row.kinds.end(), kind) != row.kinds.end();
@@ -136,15 +136,15 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
 
 // does it call a routine that is known by heart, perhaps by a handle?
 bool Scanner::is_answered(Item& call) const {
-  if (~cpu_.written & KnownCalls::kWrites) return false;
   auto address = static_cast<unsigned>(2 * (head_ - cpu_.code() + call.target));
   const std::uint32_t word = cpu_.program.read(address);
   const Row* const row = find_row(word);
   const bool by_handle = row && row->id == Insn::Goto_Expr && !cpu_.known_at(address);
   if (by_handle) address = (cpu_.program.read(address + 2) & 0x7F) << 16 | (word & 0xFFFE);
   const KnownRoutine* const routine = cpu_.known_at(address);
-  if (!routine || !routine->function) return false;
+  if (!routine) return false;
   call.routine = routine;
+  call.routine_place = static_cast<std::ptrdiff_t>(address / 2) - (head_ - cpu_.code());
   call.way = by_handle ? kGotoCycles : 0;
   return true;
 }
@@ -210,6 +210,7 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.callee);
     add(item.is_host);
     add(item.way);
+    add(item.routine_place);
     add(item.routine ? item.routine->code : 0);
     if (item.routine) key += item.routine->name;
   }

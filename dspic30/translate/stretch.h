@@ -16,15 +16,16 @@ struct Item {
   std::uint32_t word = 0;
   int words = 1;
   int most_cycles = 0;
-  bool is_last = false;       ///< it runs by the interpreter's function, and the stretch ends
-  bool is_host = false;       ///< it calls a function of the host's: call_host()
-  const KnownRoutine* routine = nullptr;  ///< that it calls, and whose answer is a function of W0 to W3
+  bool is_last = false;                   ///< it runs by the interpreter's function, and the stretch ends
+  bool is_host = false;                   ///< it calls a function of the host's: call_host()
+  const KnownRoutine* routine = nullptr;  ///< that it calls
+  std::ptrdiff_t routine_place = 0;       ///< words from the head
   int way = 0;                            ///< cycles from the call to there: a GOTO's
   bool returns = false;                   ///< RETURN or RETLW
-  std::ptrdiff_t target = 0;  ///< of a GOTO or a call: words from the head
-  int frame = 0;              ///< 0: the stretch itself; else the call that it belongs to (Item::callee)
-  int callee = 0;             ///< frame of the function that it calls, whose instructions come next; 0: none
-  int caller = -1;            ///< in a function that was called: which item called it
+  std::ptrdiff_t target = 0;              ///< of a GOTO or a call: words from the head
+  int frame = 0;    ///< 0: the stretch itself; else the call that it belongs to (Item::callee)
+  int callee = 0;   ///< frame of the function that it calls, whose instructions come next; 0: none
+  int caller = -1;  ///< in a function that was called: which item called it
 };
 
 /// The instructions from `head` on, as far as they were met and jumps lead, with those of short functions
