@@ -104,7 +104,9 @@ std::string hal_of(const Options& options, const std::string& path) {
   constexpr const char* kUsual = "";
   if (!options.hal.empty()) return options.hal;
   if (options.way == "chip") return "dspic";
-  return !options.way.empty() || programs::is_pc_program(path) ? "" : kUsual;
+  // what only code for the PC has
+  const bool is_of_pc = !options.way.empty() || options.sanitize || options.coverage;
+  return is_of_pc || programs::is_pc_program(path) ? "" : kUsual;
 }
 
 std::string image_file(const std::string& folder, const Options& options) {
