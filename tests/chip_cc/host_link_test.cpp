@@ -69,6 +69,7 @@ Pair linked(const fs::path& folder, const fs::path& cache) {
     EXPECT_TRUE(dspic::load_firmware(bytes.str(), options.output.string(), file, error)) << error;
     EXPECT_EQ(dspic::hal_of(file), hal);
   }
+  EXPECT_EQ(pair.of_dspic.compiled, 0);  // the same objects
   return pair;
 }
 
