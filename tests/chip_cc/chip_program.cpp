@@ -64,7 +64,7 @@ ChipProgram::ChipProgram(const std::string& name, const std::string& source, con
   constexpr std::uint32_t kEeprom = 0x7FF000, kEepromEnd = 0x800000;
   for (const auto& [address, word] : file_.words)
     if (address >= kEeprom && address < kEepromEnd)
-      eeprom_[(address - kEeprom) / 2] = static_cast<std::uint16_t>(word);
+      eeprom_.words()[(address - kEeprom) / 2] = static_cast<std::uint16_t>(word);
     else
       program_.write(address, word);
   dspic::Configuration c;

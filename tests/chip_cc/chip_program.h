@@ -59,7 +59,7 @@ class ChipProgram {
   bench::FakeOutside outside_;
   bench::Notes notes_;
   dspic::ProgramMemory program_;
-  std::array<std::uint16_t, 2048> eeprom_{};
+  dspic::EepromMemory eeprom_;
   std::unique_ptr<dspic::Dspic30f6014a> chip_;
   std::unique_ptr<dspic::Processor> cpu_;
   unsigned done_ = 0, result_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The parts of the contract: every program of parts/ in both ways against the text beside it. A line of the
-// text: name, value, tolerance, why. The world: a white wall 40 mm before the robot's rim, no noise of light;
-// selector 5.
+// The parts of the contract: every program of parts/ in both ways and with both HALs (chip: hal_dspic)
+// against the text beside it. A line of the text: name, value, tolerance, why. The world: a white wall 40 mm
+// before the robot's rim, no noise of light; selector 5.
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
@@ -53,7 +53,7 @@ class Parts : public firmware_test::FirmwareTest,
 
 TEST_P(Parts, says_what_is_expected) {
   const auto& [part, way] = GetParam();
-  options.way = way;
+  (way == std::string("sim") ? options.hal : options.way) = way;
   wall(0.0775, -0.5, 0.0775, 0.5);
   std::string source = text_of(kParts / (part + ".c"));
   const std::string include = "#include \"say.h\"\n";
@@ -78,7 +78,7 @@ TEST_P(Parts, says_what_is_expected) {
 
 INSTANTIATE_TEST_SUITE_P(Contract, Parts,
                          ::testing::Combine(::testing::ValuesIn(parts()),
-                                            ::testing::Values("native", "register")),
+                                            ::testing::Values("native", "register", "sim", "chip")),
                          [](const auto& p) { return std::get<0>(p.param) + "_" + std::get<1>(p.param); });
 
 }  // namespace

@@ -43,7 +43,10 @@ class Controllers : public ::testing::TestWithParam<Course> {
     struct Run : RegisterTest {
       void TestBody() override {}
       Seen go(const Course& c, const char* chosen_way) {
-        options.way = chosen_way;
+        if (chosen_way == std::string("sim"))
+          options.way.clear(), options.hal = chosen_way;
+        else
+          options.way = chosen_way;
         Robot& robot = place(c);
         // in one of seven samples the ways draw different noise (board/noise.h); what noise decides is
         // compared over many seeds: docs/ways.md
@@ -106,6 +109,11 @@ TEST_P(Controllers, behave_alike_as_images) {
   if (std::string("e-puck") == GetParam().controller)
     GTEST_SKIP() << "its text goes to UART 1 there; tests/programs/webots_chip_test.cpp has it";
   expect_alike(GetParam(), run(GetParam(), "native"), run(GetParam(), "chip"));
+}
+
+TEST_P(Controllers, behave_alike_with_both_hals) {
+  if (std::string("e-puck") == GetParam().controller) GTEST_SKIP() << "as above";
+  expect_alike(GetParam(), run(GetParam(), "sim"), run(GetParam(), "chip"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
