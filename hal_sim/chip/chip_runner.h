@@ -43,8 +43,7 @@ class ChipRunner final : public host::Runner,
   ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
              board::Board& board, Cycle start = 0);
 
-  /// By the HAL that the image is linked with.
-  const char* way() const override { return library_ ? "sim" : "dspic"; }
+  const char* way() const override { return "chip"; }
 
   void begin_window(Cycle now) override;
   void run_until(Cycle end) override;
