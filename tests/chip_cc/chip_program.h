@@ -10,6 +10,7 @@
 
 #include "dspic30/core/processor.h"
 #include "dspic30/load/firmware_file.h"
+#include "dspic30/periph/nvm.h"
 #include "tests/dspic30/bench.h"
 
 namespace chip_cc {
@@ -59,7 +60,7 @@ class ChipProgram {
   bench::FakeOutside outside_;
   bench::Notes notes_;
   dspic::ProgramMemory program_;
-  dspic::EepromMemory eeprom_;
+  dspic::OwnEeprom eeprom_;
   std::unique_ptr<dspic::Dspic30f6014a> chip_;
   std::unique_ptr<dspic::Processor> cpu_;
   unsigned done_ = 0, result_ = 0;
