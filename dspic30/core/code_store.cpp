@@ -18,12 +18,6 @@ const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
-// where a function begins that the onlooker wants to know of
-const Decoded* tell(Cpu& cpu, const Decoded* d) {
-  if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
-  return cpu.plain(d)(cpu, d);
-}
-
 // where a routine begins that is known by heart
 const Decoded* answer(Cpu& cpu, const Decoded* d) {
   if (const KnownRoutine* const routine = cpu.known_at(cpu.address_of(d)))
@@ -45,6 +39,12 @@ T* zeroed() {
 }
 
 }  // namespace
+
+// where a function begins that the onlooker wants to know of
+const Decoded* tell(Cpu& cpu, const Decoded* d) {
+  if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
+  return cpu.plain(d)(cpu, d);
+}
 
 // the course has not come there yet
 const Decoded* meet(Cpu& cpu, const Decoded* d) {
@@ -121,7 +121,9 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   {
     const std::lock_guard lock(mutex_);
     d->heat.store(0, std::memory_order_relaxed);
-    if (d->state.load(std::memory_order_relaxed) == Decoded::Fronted) return;
+    if (d->state.load(std::memory_order_relaxed) == Decoded::Fronted &&
+        d->run.load(std::memory_order_relaxed) != &tell)
+      return;
     Warmth& warmth = warmth_[d];
     if (warmth.is_busy) return;
     const int times = ++warmth.times;
@@ -159,8 +161,8 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
     if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted ||
         beside.wait.load(std::memory_order_relaxed))
       continue;
-    head->run.store(beside.plain, std::memory_order_release);
-    head->state.store(Decoded::Met, std::memory_order_release);
+    head->run.store(beside.tells ? &tell : beside.plain, std::memory_order_release);
+    head->state.store(beside.tells ? Decoded::Fronted : Decoded::Met, std::memory_order_release);
     head->heat.store(0xFF, std::memory_order_relaxed);
     --translated_;
   }

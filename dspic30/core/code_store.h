@@ -79,6 +79,8 @@ struct WordRegisters {
 /// The functions of words that are no instructions, and of those that are not decoded yet.
 const Decoded* illegal(Cpu& cpu, const Decoded* d);
 const Decoded* meet(Cpu& cpu, const Decoded* d);
+/// An instruction that the onlooker wants to know of: it hears, and then it runs.
+const Decoded* tell(Cpu& cpu, const Decoded* d);
 
 class CodeTable {
  public:

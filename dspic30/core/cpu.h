@@ -28,6 +28,7 @@
 #include "dspic30/core/program_watch.h"
 #include "dspic30/core/two_clocks.h"
 #include "dspic30/device/chip_parts.h"
+#include "dspic30/memory/host_places.h"
 #include "dspic30/memory/program_memory.h"
 
 namespace dspic {
@@ -64,10 +65,17 @@ inline constexpr bool kIsTranslated = true;
 inline constexpr bool kIsTranslated = false;
 #endif
 
-/// Where the host stands in for code: is_host_place(address).
-const Decoded* host_place(unsigned address);
+inline constexpr unsigned kHostPlaces = (kHostEnd - kHostStart) / 2;
+/// Where the host stands in for code, one a place (host_places.h), for all robots.
+extern const std::array<Decoded, kHostPlaces> host_places;
+/// `address`: is_host_place().
+inline const Decoded* host_place(unsigned address) { return &host_places[(address - kHostStart) / 2]; }
 /// The address of such a place; 0: it is none.
-unsigned address_of_host_place(const Decoded* d);
+inline unsigned address_of_host_place(const Decoded* d) {
+  const auto bytes =
+      reinterpret_cast<std::uintptr_t>(d) - reinterpret_cast<std::uintptr_t>(host_places.data());
+  return bytes < sizeof host_places ? kHostStart + 2 * static_cast<unsigned>(bytes / sizeof(Decoded)) : 0;
+}
 
 class Cpu final : public SfrOwner {
  public:

@@ -13,7 +13,6 @@ namespace dspic {
 
 namespace {
 
-constexpr unsigned kPlaces = (kHostEnd - kHostStart) / 2;
 constexpr unsigned kRcount = sfr("RCOUNT"), kPsvpag = sfr("PSVPAG");
 
 void push_address(Cpu& cpu, unsigned address) {
@@ -57,11 +56,10 @@ const Decoded* at_handler_return(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
-std::array<Decoded, kPlaces> make_places() {
-  std::array<Decoded, kPlaces> places;
-  for (unsigned i = 0; i < kPlaces; ++i) {
+std::array<Decoded, kHostPlaces> make_places() {
+  std::array<Decoded, kHostPlaces> places;
+  for (unsigned i = 0; i < kHostPlaces; ++i) {
     Decoded& d = places[i];
-    d = Decoded{};
     d.run = i < kMostHostFunctions ? &at_function : &at_handler_return;
     d.imm = static_cast<std::int32_t>(i);
     d.cycles = 1;
@@ -70,19 +68,9 @@ std::array<Decoded, kPlaces> make_places() {
   return places;
 }
 
-const std::array<Decoded, kPlaces>& places() {
-  static const std::array<Decoded, kPlaces> all = make_places();
-  return all;
-}
-
 }  // namespace
 
-const Decoded* host_place(unsigned address) { return &places()[(address - kHostStart) / 2]; }
-
-unsigned address_of_host_place(const Decoded* d) {
-  const Decoded* const first = places().data();
-  return d >= first && d < first + kPlaces ? kHostStart + 2 * static_cast<unsigned>(d - first) : 0;
-}
+const std::array<Decoded, kHostPlaces> host_places = make_places();
 
 // a function that does not wait needs no return address; d->cycles are the call's
 const Decoded* call_host(Cpu& cpu, const Decoded* d) {

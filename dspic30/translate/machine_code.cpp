@@ -26,6 +26,7 @@ void* address_of(const std::string& name, void* self, const std::vector<Item>& i
   if (name == kReturn) return reinterpret_cast<void*>(&Cpu::return_from);
   if (name == kAnswered) return reinterpret_cast<void*>(&answered);
   if (name == kHost) return reinterpret_cast<void*>(&call_host);
+  if (name == kTold) return reinterpret_cast<void*>(&tell);
   if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
   if (name[0] == kKnownMark) {
     const auto item = static_cast<std::size_t>(std::strtoul(name.c_str() + 1, nullptr, 10));

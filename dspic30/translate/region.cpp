@@ -140,14 +140,14 @@ bool Maker::put_item(const Item& item) {
     return true;
   }
   Value* const d = place(item.place);
-  Function* const own = item.is_host ? nullptr : semantics_.of(item.word);
+  Function* const own = item.is_host || item.is_told ? nullptr : semantics_.of(item.word);
   CallInst* call;
   if (own) {
     const FunctionType* const type = own->getFunctionType();
     call = ir_.CreateCall(own, {ir_.CreateBitCast(cpu_arg_, type->getParamType(0)),
                                 ir_.CreateBitCast(d, type->getParamType(1))});
   } else {  // not by Decoded::run, which at the head is this very stretch
-    call = called(item.is_host ? kHost : kAlone, {cpu_arg_, d});
+    call = called(item.is_host ? kHost : item.is_told ? kTold : kAlone, {cpu_arg_, d});
   }
   ir_.CreateRet(ir_.CreateBitCast(call, byte_->getPointerTo()));
   if (own) {

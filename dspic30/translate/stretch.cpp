@@ -96,9 +96,12 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
     const Row* const row = find_row(item.word);
     if (!row || d == cpu_.loop_end) return false;
     if (cpu_.is_wait_head(d) && d != head_) return false;  // the program stops there to look
-    const Run plain = cpu_.is_decoded(d) && !cpu_.is_told(d) ? cpu_.plain(d) : nullptr;
+    const bool is_routine = cpu_.known_at(cpu_.address_of(d));
+    const Run plain = cpu_.is_decoded(d) && !is_routine ? cpu_.plain(d) : nullptr;
     item.is_host = plain == &call_host;
-    const bool is_known = plain && (item.is_host || plain == function_of(item.word));
+    item.is_told = plain && cpu_.is_told(d);
+    const bool is_known = plain && (item.is_host || plain == function_of(item.word)) &&
+                          !(item.is_told && (item.is_host || ends_a_stretch(row->id)));
     if (!is_known && (items.size() == first || place >= reach)) return false;
     bool ends = ends_a_stretch(row->id) && !item.is_host;
     if (is_known) {
@@ -209,6 +212,7 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.frame);
     add(item.callee);
     add(item.is_host);
+    add(item.is_told);
     add(item.way);
     add(item.routine_place);
     add(item.routine ? item.routine->code : 0);

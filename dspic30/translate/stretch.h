@@ -18,6 +18,7 @@ struct Item {
   int most_cycles = 0;
   bool is_last = false;                   ///< it runs by the interpreter's function, and the stretch ends
   bool is_host = false;                   ///< it calls a function of the host's: call_host()
+  bool is_told = false;                   ///< the onlooker hears that it begins: tell()
   const KnownRoutine* routine = nullptr;  ///< that it calls
   std::ptrdiff_t routine_place = 0;       ///< words from the head
   int way = 0;                            ///< cycles from the call to there: a GOTO's
