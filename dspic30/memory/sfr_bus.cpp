@@ -21,9 +21,14 @@ void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
 }
 
 void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) {
+  Slot& slot = slots_[address / 2];
   if (bits == 0) return;
-  slots_[address / 2] |= kUnmodelled;
-  unmodelled_.push_back({static_cast<std::uint16_t>(address & ~1u), bits});
+  if (slot >> kUnmodelledShift == 0) {
+    unmodelled_.push_back(0);
+    if (unmodelled_.size() > kMostUnmodelled) std::abort();
+    slot |= static_cast<Slot>(unmodelled_.size() << kUnmodelledShift);
+  }
+  unmodelled_[(slot >> kUnmodelledShift) - 1u] |= bits;
 }
 
 void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
@@ -64,15 +69,14 @@ void SfrBus::warn_of_hole(unsigned address, Cycle now) {
 }
 
 void SfrBus::warn(unsigned address, std::uint16_t value, Cycle now) {
-  for (Unmodelled& u : unmodelled_) {
-    const auto bits = static_cast<std::uint16_t>(u.address == (address & ~1u) ? u.bits & value : 0);
-    u.bits &= static_cast<std::uint16_t>(~bits);
-    for (int bit = 0; bit < 16; ++bit) {
-      if (!(bits >> bit & 1)) continue;
-      const std::string name = sfr_bit_name(*sfr_info(address), bit);
-      diagnostics_.report(Cause::UnmodelledBit, name,
-                          name + ": not modelled; the bit is kept and does nothing", now);
-    }
+  std::uint16_t& unmodelled = unmodelled_[(slots_[address / 2] >> kUnmodelledShift) - 1u];
+  const unsigned bits = value & unmodelled;
+  unmodelled &= static_cast<std::uint16_t>(~bits);
+  for (int bit = 0; bit < 16; ++bit) {
+    if (!(bits >> bit & 1)) continue;
+    const std::string name = sfr_bit_name(*sfr_info(address), bit);
+    diagnostics_.report(Cause::UnmodelledBit, name, name + ": not modelled; the bit is kept and does nothing",
+                        now);
   }
 }
 

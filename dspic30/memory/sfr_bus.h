@@ -97,7 +97,8 @@ class SfrBus {
     }
     if (!(slot & kWritten)) note_written(address);
     value &= implemented(slot, address);
-    if (slot & kUnmodelled) warn(address, value, now);
+    if (const unsigned u = slot >> kUnmodelledShift; u > 0 && (value & unmodelled_[u - 1]))
+      warn(address, value, now);
     return {owner, value, lanes};
   }
 
@@ -114,14 +115,15 @@ class SfrBus {
     if (bits > 8) return word;
     return (address & 1) ? word >> 8 : word & 0xFF;
   }
-  // of a register: its owner's number from 1 on, and what else is known of it
+  // of a register: its owner's number from 1 on, 0 for nobody; what else is known of it; and from
+  // kUnmodelledShift on, the number of its bits in unmodelled_ from 1 on, 0 for none
   using Slot = std::uint16_t;
-  static constexpr unsigned kOwner = 0xFF, kDisabled = 0x100,
-                            kWritten = 0x200,     // since power-on; or it was told that it is read before
-      kUnmodelled = 0x400,                        // has bits in unmodelled_
-      kAllBits = 0x800,                           // take_all_bits()
-      kSlow = 0x1000;                             // a read is more than its owner's answer
-  static constexpr std::size_t kMostOwners = 32;  // and 0 for nobody
+  static constexpr std::size_t kMostOwners = 32, kMostUnmodelled = 63;
+  static constexpr unsigned kOwner = 0x1F, kDisabled = 0x20,
+                            kWritten = 0x40,  // since power-on; or it was told that it is read before
+      kAllBits = 0x80,                        // take_all_bits()
+      kSlow = 0x100;                          // a read is more than its owner's answer
+  static constexpr int kUnmodelledShift = 10;
   SfrOwner* owner_of(unsigned slot) const { return owners_[slot & kOwner]; }
   static std::uint16_t implemented(unsigned slot, unsigned address) {
     return slot & kAllBits ? std::uint16_t{0xFFFF} : kSfrImplemented[address / 2];
@@ -135,10 +137,7 @@ class SfrBus {
   bool warn_uninitialised_;
   std::array<Slot, kSfrBytes / 2> slots_{};
   std::array<SfrOwner*, kMostOwners> owners_{};
-  struct Unmodelled {
-    std::uint16_t address, bits;
-  };
-  std::vector<Unmodelled> unmodelled_;  // and not reported yet
+  std::vector<std::uint16_t> unmodelled_;  // and not reported yet
   std::int64_t writes_ = 0;
   std::vector<std::uint16_t> written_;
 };
