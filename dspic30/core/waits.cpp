@@ -46,11 +46,10 @@ void Waits::begin(Cpu& cpu) {
     if (is_passed(cpu, *known, rounds)) return;
   }
   const KnownWaits::Wait* const of_head = at_head_ ? cpu.known_waits.at(cpu.next) : nullptr;
-  // what it waited for has come: the program goes on, and will come back
-  if (of_head && !of_head->memory.are_as_read(cpu.ram.data())) {
-    cpu.still_since = kNever;
-    cpu.passes_head = true;
-    if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + kRarestLooks;
+  // what it waited for has come: the program goes on, and will come back. Where it is back at once, it waits
+  // for more
+  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && !was_passed(*of_head, 2)) {
+    pass(cpu, *of_head, 0, kRarestLooks);
     return;
   }
   state_ = State::Looking;
@@ -62,15 +61,23 @@ void Waits::begin(Cpu& cpu) {
 // a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does
 // so still
 bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
-  const Cycle took = count.round().took, own = cpu.clocks.own_cycles(cpu.now);
-  if (rounds < 0 || (passed_ == &count && own - passed_at_ <= (kFewestRounds + 4) * took)) return false;
-  passed_ = &count;
-  passed_at_ = own;
-  cpu.still_since = kNever;
-  cpu.heads_from = look_began_ + (rounds + 2) * took;
-  cpu.passes_head = at_head_;
-  if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + (rounds + 2) * took;
+  if (rounds < 0 || was_passed(count.round(), kFewestRounds + 4)) return false;
+  const Cycle pause = (rounds + 2) * count.round().took;
+  pass(cpu, count.round(), pause, pause);
   return true;
+}
+
+bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
+  return passed_ == &wait && round_began_ - passed_at_ <= rounds * wait.took;
+}
+
+void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in) {
+  passed_ = &wait;
+  passed_at_ = round_began_;
+  cpu.still_since = kNever;
+  cpu.heads_from = look_began_ + heads_in;
+  cpu.passes_head = at_head_;
+  if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + look_in;
 }
 
 void Waits::begin_round(Cpu& cpu) {
@@ -173,6 +180,7 @@ void Waits::fail(Cpu& cpu) {
 
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
+  is_by_head_ = at_head_ || cpu.is_own_head(wait->first);
   wait_ = wait;
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
@@ -246,7 +254,7 @@ void Waits::cut(Cpu& cpu) {
     leave(cpu);
   }
   // behind the handler it comes to a wait's first instruction by itself, and stops there
-  if (waits && cpu.is_own_head(cut_))
+  if (waits && is_by_head_)
     schedule(cpu).at = cpu.true_now() + kRarestLooks;
   else if (waits || state_ == State::Looking)
     schedule(cpu).at = 0;

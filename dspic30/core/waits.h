@@ -81,6 +81,8 @@ class Waits {
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
+  bool was_passed(const KnownWaits::Wait& wait, Cycle rounds) const;
+  void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in);
   void fail(Cpu& cpu);
   void enter(Cpu& cpu, const KnownWaits::Wait* wait);
   void enter_count(Cpu& cpu, const Count* count, Cycle rounds);
@@ -93,6 +95,7 @@ class Waits {
 
   State state_ = State::Away;
   std::array<Schedule, 2> schedules_;  // of the program, of its handlers
+  bool is_by_head_ = false;            // the wait's first instruction is one where the program stops
   bool at_head_ = false;               // the look began at a known wait's first instruction
   const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
   Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
@@ -109,9 +112,9 @@ class Waits {
   struct Range {
     const Decoded *first = nullptr, *last = nullptr;
   } behind_;
-  int behind_in_ = 0, again_ = 0;  // instructions; looks
-  const Count* passed_ = nullptr;  // such a loop, met at its head
-  Cycle passed_at_ = 0;            // cycles of the program
+  int behind_in_ = 0, again_ = 0;             // instructions; looks
+  const KnownWaits::Wait* passed_ = nullptr;  // met at its head last, in another state
+  Cycle passed_at_ = 0;                       // cycles of the program
   // the wait
   const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
   const Count* counts_ = nullptr;           // it is a loop that counts
