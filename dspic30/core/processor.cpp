@@ -87,7 +87,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
     if (cpu.is_code_stale()) {
       cpu.choose_code();
-      waits_->stir(cpu);
+      waits_->forget(cpu);
     }
     if (cpu.host) follow_host();
     if (cpu.power != Cpu::Power::On) {

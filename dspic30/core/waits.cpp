@@ -275,6 +275,9 @@ void Waits::forget(Cpu& cpu) {
   state_ = State::Away;
   at_head_ = false;
   cut_ = nullptr;
+  passed_ = nullptr;
+  head_pause_ = kFirstPause;
+  cpu.heads_from = 0;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }
 
