@@ -72,8 +72,9 @@ struct CodeState {
 
 /// Registers of a word that matter to what may run.
 struct WordRegisters {
-  std::uint16_t uses = 0;   ///< as pointers
-  std::uint16_t gives = 0;  ///< they count as written from then on
+  std::uint16_t uses = 0;          ///< as pointers
+  std::uint16_t gives = 0;         ///< they count as written from then on
+  std::uint16_t touches = 0xFFFF;  ///< that it may read or write, W15 among them; others as well
 };
 
 /// The functions of words that are no instructions, and of those that are not decoded yet.

@@ -149,6 +149,10 @@ class Cpu final : public SfrOwner {
   void decode(const Decoded* d) { table_->decode(d, program, hot == 0 ? 1 : 0xFF); }
   const Decoded* code() const { return code_; }
   const WordRegisters& registers_of(const Decoded* d) const { return table_->registers(d); }
+  /// W registers that an instruction that was met may read or write, a bit each.
+  unsigned touched_by(const Decoded* d) const {
+    return address_of_host_place(d) ? 0xFFFFu : table_->registers(d).touches;
+  }
   /// The function of this one instruction.
   Run plain(const Decoded* d) const {
     return address_of_host_place(d) ? d->run.load(std::memory_order_relaxed) : table_->plain(d);

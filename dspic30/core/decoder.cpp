@@ -3,6 +3,7 @@
 // suffers behind the word before it.
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/memory/host_places.h"
@@ -334,6 +335,23 @@ void lead_to_host(Decoded& d, const Row& row, const ProgramMemory& program, unsi
 
 }  // namespace
 
+namespace {
+
+/// W registers that it may read or write, and some more: W0 and the stack pointer always.
+std::uint16_t touched_by(const Decoded& d, const Row& row, const Registers& r) {
+  const std::string_view name = row.mnemonic;
+  const auto begins = [&](std::string_view with) { return name.substr(0, with.size()) == with; };
+  if (row.has(Operand::Prefetch) || d.run.load(std::memory_order_relaxed) == &call_host) return 0xFFFF;
+  unsigned all = bit(0) | bit(15) | bit(d.s) | bit(d.d) | bit(d.b) | r.written | r.moved | r.sources |
+                 r.destinations | r.offsets;
+  if (begins("MUL") || begins("DIV") || begins("MOV")) all |= all << 1;  // pairs
+  if (begins("MUL") || begins("PUSH") || begins("POP")) all |= 0x000F;   // MUL f, the shadow registers
+  if (begins("LNK") || begins("ULNK")) all |= bit(14);
+  return static_cast<std::uint16_t>(all);
+}
+
+}  // namespace
+
 Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeState& state,
                     WordRegisters& registers) {
   const std::uint32_t word = program.read(address), second = program.read(address + 2);
@@ -360,6 +378,7 @@ Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeSt
     d.d = static_cast<std::uint8_t>(next ? next->words : 1);
   }
   lead_to_host(d, *row, program, address);
+  registers.touches = touched_by(d, *row, r);
   registers.uses = (r.sources | r.destinations) & kAllWritten;
   if (!f.B || row->has(Operand::Prefetch)) registers.gives = r.written & kAllWritten;
   // a pointer that nobody has written since the reset resets the chip again

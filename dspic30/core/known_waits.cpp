@@ -16,6 +16,13 @@ std::uint64_t four(const std::uint16_t* of) {
   return all;
 }
 
+// four words, those of `bits`
+std::uint64_t lanes(unsigned bits) {
+  constexpr std::uint64_t kEach = 0x0001000100010001u;
+  const std::uint64_t spread = ((bits & 0xFu) * 0x0000200040008001u) & kEach;
+  return spread * 0xFFFF;
+}
+
 // word `i` of the state; a constant where it is called
 __attribute__((always_inline)) inline std::uint64_t state_word(const Cpu& c, std::size_t i) {
   switch (i) {
@@ -52,10 +59,12 @@ CoreState::CoreState(const Cpu& c) {
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = state_word(c, i);
 }
 
-bool CoreState::is_of_but_dc(const Cpu& c) const {
+bool CoreState::is_of_round(const Cpu& c, unsigned registers) const {
 #pragma GCC unroll 11
-  for (std::size_t i = 0; i < words.size(); ++i)
-    if ((words[i] ^ state_word(c, i)) & (i == 5 ? ~kDc : ~std::uint64_t{0})) return false;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::uint64_t counts = i < 4 ? lanes(registers >> 4 * i & 0xF) : i == 5 ? ~kDc : ~std::uint64_t{0};
+    if ((words[i] ^ state_word(c, i)) & counts) return false;
+  }
   return true;
 }
 
@@ -118,7 +127,7 @@ bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon =
 const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
   const Wait* const wait = waits_[place_of(cpu.next)].get();
   return wait && wait->first == cpu.next && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
-                 wait->state.is_of_but_dc(cpu)
+                 wait->state.is_of_round(cpu, wait->registers)
              ? wait
              : nullptr;
 }

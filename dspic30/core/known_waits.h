@@ -25,8 +25,9 @@ struct CoreState {
   explicit CoreState(const Cpu& cpu);
   /// Is the core in this state?
   bool is_of(const Cpu& cpu) const;
-  /// ... but for DC, which RETFIE leaves as the handler had it.
-  bool is_of_but_dc(const Cpu& cpu) const;
+  /// ... as far as a round with these W registers goes, a bit each; and but for DC, which RETFIE leaves as
+  /// the handler had it.
+  bool is_of_round(const Cpu& cpu, unsigned registers) const;
   bool dc() const { return (words[5] & kDc) != 0; }
   static constexpr std::uint64_t kDc = std::uint64_t{0x100} << 16;
   std::uint16_t w(unsigned n) const { return static_cast<std::uint16_t>(words[n / 4] >> 16 * (n % 4)); }
@@ -103,6 +104,7 @@ class KnownWaits {
     Cycle took = 0;
     bool sets_dc = false;  // else it stays as it is; nothing in the round reads it
     CoreState state;
+    unsigned registers = 0xFFFF;  // W registers that an instruction of it may read or write, a bit each
     RoundMemory memory;
   };
   /// If the program goes round from cpu.next on, reading nothing that can change without an interrupt; null:

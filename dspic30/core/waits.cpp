@@ -83,6 +83,7 @@ void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle l
 void Waits::begin_round(Cpu& cpu) {
   round_.first = cpu.next;
   round_.state = CoreState(cpu);
+  round_.registers = 0;
   round_.memory.clear();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_delayed_ = cpu.delayed;
@@ -106,6 +107,7 @@ void Waits::look(Cpu& cpu) {
     }
     const bool goes_on = cpu.repeating;
     step(cpu);
+    round_.registers |= cpu.touched_by(d);
     if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
     if (cpu.deadline != end) {
       fail(cpu);
