@@ -263,7 +263,7 @@ void Waits::cut(Cpu& cpu) {
   state_ = State::Away;
   cpu.head_met = false;
   // handlers seldom wait, so they may work on for a while first
-  schedules_[1] = {cpu.true_now() + kFirstLooks, kFirstLooks};
+  schedules_[1] = {cpu.true_now() + kFirstInHandler, kFirstInHandler};
 }
 
 void Waits::stir(Cpu& cpu) {

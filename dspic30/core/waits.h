@@ -65,6 +65,7 @@ class Waits {
     Cycle between = kFirstLooks;
   };
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;  // cycles between two looks
+  static constexpr Cycle kFirstInHandler = 4096;                   // ... since it began
   static constexpr Cycle kFirstPause = 50;                         // ... at a wait's first instruction
   static constexpr int kLongestRound = 256;                        // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
