@@ -99,7 +99,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   if (!address_of_host_place(next) && !is_decoded(next)) decode(next);
   known_waits.forget();
   known_counts.forget();
-  own_heads_ = no_heads();
+  own_heads_ = {};
   heads_marked_ = 0;
   find_loop_end();
   code_is_stale = false;
@@ -180,10 +180,24 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   return code_ + kFlashWords;
 }
 
+void Cpu::pause_head(const Decoded* head, bool is_wait) {
+  constexpr Cycle kMostPause = 65536;
+  OwnHead* const own = own_head(head);
+  if (!own) return;
+  if (is_wait) {
+    own->pause = kFirstPause;
+    return;
+  }
+  own->from = true_now() + own->pause;
+  own->pause = std::min(2 * own->pause, kMostPause);
+}
+
 bool Cpu::stops_at(const Decoded* head) {
   const bool passes = passes_head;
   passes_head = false;
-  if (passes || watching || !is_own_head(head) || true_now() < heads_from) return false;
+  if (passes || watching) return false;
+  const OwnHead* const own = own_head(head);
+  if (!own || true_now() < std::max(heads_from, own->from)) return false;
   head_met = true;
   kept_deadline = deadline;
   deadline = 0;
@@ -192,7 +206,7 @@ bool Cpu::stops_at(const Decoded* head) {
 
 void Cpu::mark_head(const Decoded* first) {
   if (hot == 0) return;  // all shall be translated
-  if (!is_own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = first - code_;
+  if (!own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = {first - code_, 0, kFirstPause};
   table_->mark_wait(first, &meet_head);
 }
 

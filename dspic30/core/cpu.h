@@ -402,9 +402,10 @@ class Cpu final : public SfrOwner {
   /// A wait was proven that begins here: from now on the program stops there to look, if heads_from says so.
   void mark_head(const Decoded* first);
   bool has_heads() const { return heads_marked_ > 0; }
-  bool is_own_head(const Decoded* d) const {
-    return std::find(own_heads_.begin(), own_heads_.end(), d - code_) != own_heads_.end();
-  }
+  bool is_own_head(const Decoded* d) const { return const_cast<Cpu*>(this)->own_head(d) != nullptr; }
+  /// A look from there found a wait, or none: then the program does not stop there for a while, each time for
+  /// longer.
+  void pause_head(const Decoded* head, bool is_wait);
   /// The program comes to one: does it stop?
   bool stops_at(const Decoded* head);
   bool head_met = false;     ///< the program has stopped at one; kept_deadline was its deadline
@@ -502,7 +503,17 @@ class Cpu final : public SfrOwner {
   void hurry_to(Cycle at) { deadline = std::min(deadline, clocks.program_at(at)); }
   unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);
-  static constexpr std::array<std::ptrdiff_t, 8> no_heads() { return {-1, -1, -1, -1, -1, -1, -1, -1}; }
+  static constexpr Cycle kFirstPause = 50;
+  struct OwnHead {
+    std::ptrdiff_t place = -1;  // word of flash
+    Cycle from = 0;             // true time from which on the program stops there
+    Cycle pause = kFirstPause;
+  };
+  OwnHead* own_head(const Decoded* d) {
+    const auto own = std::find_if(own_heads_.begin(), own_heads_.end(),
+                                  [&](const OwnHead& h) { return h.place == d - code_; });
+    return own == own_heads_.end() ? nullptr : &*own;
+  }
   void count_jump(const Decoded* target) {
     const std::uint8_t left = target->heat.load(std::memory_order_relaxed);
     if (left > 1)
@@ -522,9 +533,9 @@ class Cpu final : public SfrOwner {
   std::uint64_t code_version_ = 0;  // of the flash that they were made of
   bool is_own_ = false;             // the store: nobody else has it
   bool looks_at_each_ = false;
-  int looked_at_ = 0;                                     // instructions, since a register was written first
-  unsigned bad_address_ = 0;                              // where no flash is
-  std::array<std::ptrdiff_t, 8> own_heads_ = no_heads();  // words of flash where waits of this program begin
+  int looked_at_ = 0;                 // instructions, since a register was written first
+  unsigned bad_address_ = 0;          // where no flash is
+  std::array<OwnHead, 8> own_heads_;  // where waits of this program begin
   std::size_t heads_marked_ = 0;
 };
 

@@ -28,6 +28,7 @@ void Waits::go_on(Cpu& cpu) {
 
 void Waits::begin(Cpu& cpu) {
   at_head_ = cpu.head_met;
+  look_head_ = cpu.next;
   cpu.head_met = false;
   look_began_ = cpu.true_now();
   // a function of the host that waits is none of these
@@ -168,10 +169,7 @@ void Waits::fail(Cpu& cpu) {
   state_ = State::Away;
   cpu.still_since = kNever;
   const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
-  if (at_head_) {
-    cpu.heads_from = now + head_pause_;
-    head_pause_ = std::min(2 * head_pause_, kRarestLooks);
-  }
+  if (at_head_) cpu.pause_head(look_head_, false);
   Schedule& next = schedule(cpu);
   if (next.at > now) return;
   next.at = now + next.between;
@@ -194,7 +192,7 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   }
   cpu.delayed = delayed_;
   cut_ = nullptr;
-  head_pause_ = kFirstPause;
+  cpu.pause_head(wait->first, true);
   cpu.heads_from = 0;
   schedule(cpu).between = kFirstLooks;
   cpu.still_since = until_ == kNever && !cpu.looks_outside ? std::min(cpu.still_since, look_began_) : kNever;
@@ -278,7 +276,6 @@ void Waits::forget(Cpu& cpu) {
   at_head_ = false;
   cut_ = nullptr;
   passed_ = nullptr;
-  head_pause_ = kFirstPause;
   cpu.heads_from = 0;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }

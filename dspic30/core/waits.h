@@ -66,7 +66,6 @@ class Waits {
   };
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;  // cycles between two looks
   static constexpr Cycle kFirstInHandler = 4096;                   // ... since it began
-  static constexpr Cycle kFirstPause = 50;                         // ... at a wait's first instruction
   static constexpr int kLongestRound = 256;                        // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
@@ -95,13 +94,13 @@ class Waits {
   static void step(Cpu& cpu);
 
   State state_ = State::Away;
-  std::array<Schedule, 2> schedules_;  // of the program, of its handlers
-  bool is_by_head_ = false;            // the wait's first instruction is one where the program stops
-  bool at_head_ = false;               // the look began at a known wait's first instruction
-  const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
-  Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
-  Cycle resumed_delayed_ = 0;          // Cpu::delayed then
-  Cycle head_pause_ = kFirstPause;
+  std::array<Schedule, 2> schedules_;   // of the program, of its handlers
+  bool is_by_head_ = false;             // the wait's first instruction is one where the program stops
+  bool at_head_ = false;                // the look began at a known wait's first instruction
+  const Decoded* cut_ = nullptr;        // first instruction of the wait that an interrupt came into last
+  Cycle resumed_ = 0;                   // cycles of the program when the latest handler returned
+  Cycle resumed_delayed_ = 0;           // Cpu::delayed then
+  const Decoded* look_head_ = nullptr;  // where the look began
   // the round that is looked at
   KnownWaits::Wait round_;
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
