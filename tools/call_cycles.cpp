@@ -51,13 +51,16 @@ const Scene kScenes[] = {
     {"activate_first", "", "e_activate_agenda(f0, 0);"},
     {"activate_1_merge", "e_destroy_agenda(f0);", "e_activate_agenda(f0, 0);"},
     {"activate_1", "", "e_activate_agenda(f1, 0);"},
+    {"activate_1_merged", "e_destroy_agenda(f1);", "e_activate_agenda(f1, 0);"},
     {"activate_2", "", "e_activate_agenda(f2, 0);"},
     {"activate_3_merges", "e_destroy_agenda(f0); e_destroy_agenda(f1); e_destroy_agenda(f2);",
      "e_activate_agenda(f0, 0);"},
     // 3 2 1 0, then its blocks from the front
     {"", "e_activate_agenda(f1, 0); e_activate_agenda(f2, 0); e_activate_agenda(f3, 0);", ""},
     {"activate_whole_3", "e_destroy_agenda(f0);", "e_activate_agenda(f0, 0);"},
-    {"activate_whole_2", "e_destroy_agenda(f1); e_destroy_agenda(f0);", "e_activate_agenda(f0, 0);"},
+    {"activate_whole_2", "e_destroy_agenda(f1); e_destroy_agenda(f3);", "e_activate_agenda(f1, 0);"},
+    {"activate_followed", "e_activate_agenda(f3, 0); e_destroy_agenda(f0); e_destroy_agenda(f1);",
+     "e_activate_agenda(f0, 0);"},
     // 0 3 2
     {"activate_known_0", "", "e_activate_agenda(f0, 0);"},
     {"activate_known_1", "", "e_activate_agenda(f3, 0);"},
@@ -86,12 +89,14 @@ const Scene kScenes[] = {
     {"destroy_first", "", "e_destroy_agenda(f0);"},
     // what is held off meanwhile comes again
     {"destroy_tick", "e_activate_agenda(f0, 0); IEC0bits.T2IE = 1;", "e_destroy_agenda(f0);"},
-    {"activate_tick", "e_activate_agenda(f0, 0);", "e_activate_agenda(f1, 0);"},
+    {"destroy_missing_tick", "e_activate_agenda(f0, 0);", "e_destroy_agenda(f5);"},
+    {"activate_tick", "", "e_activate_agenda(f1, 0);"},
     {"activate_edge",
      "e_destroy_agenda(f1); e_destroy_agenda(f0); IEC0bits.T2IE = 0; e_activate_agenda(f0, 0); "
      "IEC0bits.INT0IE = 1;",
      "e_activate_agenda(f1, 0);"},
     {"destroy_edge", "", "e_destroy_agenda(f1);"},
+    {"destroy_missing_edge", "", "e_destroy_agenda(f5);"},
     {"agendas_start", "IEC0bits.INT0IE = 0; e_destroy_agenda(f0);", "e_start_agendas_processing();"},
     {"agendas_stop", "", "e_end_agendas_processing();"},
     // the handler's walk
@@ -388,12 +393,17 @@ std::map<std::string, int> call_cycles(const std::string& level, std::vector<std
   c["activate_known"] = m["activate_known_0"];
   c["activate_known_step"] = m["activate_known_1"] - m["activate_known_0"];
   c["malloc_merge"] = (m["activate_3_merges"] - m["activate_1_merge"]) / 2;
-  c["activate_empty"] = m["activate_1_merge"] - c["malloc_merge"];
+  c["malloc_merges"] = m["activate_1_merged"] - m["activate_1"] - c["malloc_merge"];
+  c["activate_empty"] = m["activate_1_merge"] - c["malloc_merge"] - c["malloc_merges"];
   c["malloc_first"] = m["activate_first"] - c["activate_empty"];
-  c["activate_step"] = m["activate_whole_3"] - m["activate_whole_2"];
-  c["malloc_used"] = m["activate_2"] - m["activate_1"] - c["activate_step"];
+  // the first two with a block more to pass, the others with one less
+  const int both = m["activate_2"] - m["activate_1"], one = m["activate_whole_3"] - m["activate_whole_2"];
+  c["activate_step"] = (both + one) / 2;
+  c["malloc_used"] = (both - one) / 2;
   c["activate_new"] = m["activate_1"] - c["malloc_used"];
-  c["malloc_whole"] = m["activate_whole_2"] - c["activate_new"] - c["activate_step"];
+  c["malloc_whole"] = m["activate_whole_3"] - c["activate_new"] - 2 * c["activate_step"];
+  c["malloc_followed"] = m["activate_followed"] - c["activate_new"] - c["activate_step"] - c["malloc_merge"] -
+                         c["malloc_merges"];
   c["activate_tick_on"] = m["activate_tick"] - m["activate_1"];
   c["activate_edge_on"] = m["activate_edge"] - m["activate_1"];
   // destroy
@@ -404,6 +414,8 @@ std::map<std::string, int> call_cycles(const std::string& level, std::vector<std
   c["destroy_second"] = m["destroy_second"];
   c["destroy_step"] = m["destroy_third"] - m["destroy_second"];
   c["destroy_tick_on"] = m["destroy_tick"] - m["destroy_first"];
+  c["destroy_missing_tick_on"] = m["destroy_missing_tick"] - m["destroy_missing_1"];
+  c["destroy_missing_edge_on"] = m["destroy_missing_edge"] - m["destroy_missing_1"];
   c["destroy_edge_on"] = m["destroy_edge"] - m["destroy_first"];
   c["destroy_running"] = m["destroy_self"] - m["destroy_first"] - c["destroy_tick_on"];
   c["destroy_following"] = m["destroy_next"] - m["destroy_second"] - c["destroy_tick_on"];
@@ -511,7 +523,9 @@ std::string call_cycles_text(const std::vector<std::map<std::string, int>>& leve
       {"malloc_first", "the heap's first block"},
       {"malloc_used", "each block that is taken"},
       {"malloc_merge", "each free block that is joined to another"},
+      {"malloc_merges", "any, beside that"},
       {"malloc_whole", "a block that is not cut"},
+      {"malloc_followed", "one that is cut, with another behind it"},
       {"destroy_empty", "e_destroy_agenda(), empty list"},
       {"destroy_missing", "not in a list of one"},
       {"destroy_missing_step", "each further agenda of the list"},
@@ -520,6 +534,8 @@ std::string call_cycles_text(const std::vector<std::map<std::string, int>>& leve
       {"destroy_step", "each further agenda that is passed"},
       {"destroy_tick_on", "with the tick's interrupt enabled"},
       {"destroy_edge_on", "with the remote control's enabled"},
+      {"destroy_missing_tick_on", "with the tick's, not in the list"},
+      {"destroy_missing_edge_on", "with the remote control's"},
       {"destroy_running", "the one that runs"},
       {"destroy_following", "the one that comes next"},
       {"left_zero", "e_set_speed_left(0), beside e_set_agenda_cycle()"},

@@ -72,7 +72,8 @@ Cycle HostLibrary::activate(const Call& call, Function function, std::uint16_t c
   const NodeHeap::Search search = heap_.take(function);
   Cycle cost = nodes == 0 ? c.activate_empty : c.activate_new + c.activate_step * (nodes - 1);
   cost += (search.first ? c.malloc_first : 0) + search.used * c.malloc_used + search.merged * c.malloc_merge;
-  if (!search.split) cost += c.malloc_whole;
+  if (search.merged > 0) cost += c.malloc_merges;
+  cost += !search.split ? c.malloc_whole : search.followed ? c.malloc_followed : 0;
   cost += cost_while_held(call, c.activate_tick_on, c.activate_edge_on);
   agendas().activate(function, cycle, at);
   return cost;
@@ -92,10 +93,12 @@ HostResult HostLibrary::e_destroy_agenda(const Call& call) {
   const CallCycles& c = cycles_;
   const Function function = function_at(call.cpu, call.word(0));
   const int passed = agendas().nodes_passed(function), nodes = agendas().nodes();
-  Cycle cost = cost_while_held(call, c.destroy_tick_on, c.destroy_edge_on);
+  Cycle cost = 0;
   if (passed == nodes) {
+    cost = cost_while_held(call, c.destroy_missing_tick_on, c.destroy_missing_edge_on);
     cost += nodes == 0 ? c.destroy_empty : c.destroy_missing + c.destroy_missing_step * (nodes - 1);
   } else {
+    cost = cost_while_held(call, c.destroy_tick_on, c.destroy_edge_on);
     cost += passed == 0 ? c.destroy_first : c.destroy_second + c.destroy_step * (passed - 1);
     if (agendas().running() == function) cost += c.destroy_running;
     if (agendas().following() == function) cost += c.destroy_following;

@@ -23,6 +23,7 @@ NodeHeap::Search NodeHeap::take(const void* key) {
       ++search.merged;
     }
     if (blocks_[i].bytes < kNode) break;
+    search.followed = i + 1 < blocks_.size();
     if (blocks_[i].bytes >= kNode + kHeader + kRest) {
       search.split = true;
       const unsigned rest = blocks_[i].bytes - kNode - kHeader;

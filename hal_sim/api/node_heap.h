@@ -10,10 +10,11 @@ class NodeHeap {
  public:
   /// What a search for room has met.
   struct Search {
-    bool first = false;  ///< the heap was made ready
-    int used = 0;        ///< blocks that were passed
-    int merged = 0;      ///< free blocks that were joined to the one before
-    bool split = false;  ///< the block was cut to size
+    bool first = false;     ///< the heap was made ready
+    int used = 0;           ///< blocks that were passed
+    int merged = 0;         ///< free blocks that were joined to the one before
+    bool split = false;     ///< the block was cut to size
+    bool followed = false;  ///< it had another one behind it
   };
   /// Room for the node of an agenda, which is known by `key`.
   Search take(const void* key);

@@ -77,7 +77,15 @@ ScanVariables::Written* ScanVariables::written_at(Place place) const {
   }
 }
 
+/// The turret's sensors, when the scan does not take them.
+bool ScanVariables::is_left_out(Place place) const {
+  const bool is_sensor =
+      place.which == HostVariable::e_ambient_ir || place.which == HostVariable::e_ambient_and_reflected_ir;
+  return is_sensor && place.index >= board::kRingSensors && !scan_.five_pairs();
+}
+
 std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
+  if (is_left_out(place)) return -1;
   switch (place.which) {
     case HostVariable::e_ambient_ir:
       return scan_.dark_number(static_cast<int>(place.index), at);
@@ -225,7 +233,7 @@ Cycle ScanVariables::horizon(unsigned address, Cycle at) {
       return scan_.acc_until(at);
     case HostVariable::e_ambient_ir:
     case HostVariable::e_ambient_and_reflected_ir:
-      return scan_.horizon(static_cast<int>(place.index), at);
+      return is_left_out(place) ? board::kNever : scan_.horizon(static_cast<int>(place.index), at);
     default:
       return board::kNever;
   }

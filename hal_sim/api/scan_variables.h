@@ -59,6 +59,7 @@ class ScanVariables {
   /// Number of the newest sample of a ring's element, -1: none yet.
   static std::int64_t newest(std::int64_t count, std::int64_t offset, unsigned index, int ring);
   Written* written_at(Place place) const;
+  bool is_left_out(Place place) const;
   std::int64_t number_of(Place place, Cycle at) const;
   std::uint16_t sample(Place place, Cycle at, bool keep) const;
   std::uint16_t value(unsigned address, Cycle at, bool keep) const;

@@ -63,6 +63,8 @@ class AdcScan {
   int starts() const { return starts_; }
   bool is_on() const { return on_; }
   bool micro_only() const { return run_.micro_only; }
+  /// Does it take the turret's pair, too?
+  bool five_pairs() const { return pairs_ == 5; }
 
   /// Interrupts so far, in both modes.
   std::int64_t interrupts(Cycle at) const { return run_.first + frames(at); }

@@ -162,7 +162,7 @@ void run_right_motor(void);
 // has it
 const std::string kCalls = std::string(kHead) + R"(
 #define CALLS 600
-unsigned int took[CALLS], gave[CALLS];
+unsigned int took[CALLS], gave[CALLS], asked[CALLS];
 volatile int done;
 static void f0(void) {}
 static void f1(void) { done = 0; }
@@ -204,6 +204,7 @@ int main(void) {
     if (chance(2)) number = -number;
     if (chance(2)) other = -other;
     IEC0bits.T2IE = chance(2);
+    asked[i] = what;
     begun = TMR4;
     gave[i] = call(what, function, number, other);
     took[i] = TMR4 - begun;
@@ -223,7 +224,11 @@ TEST_P(HalLevelTest, calls_take_the_same_cycles_and_give_the_same) {
   ASSERT_EQ(sim.words("done", 1)[0], 1);
   ASSERT_EQ(dspic.words("done", 1)[0], 1);
   EXPECT_EQ(sim.words("gave", kCallsMade), dspic.words("gave", kCallsMade));
-  EXPECT_EQ(sim.words("took", kCallsMade), dspic.words("took", kCallsMade));
+  const auto here = sim.words("took", kCallsMade), there = dspic.words("took", kCallsMade),
+             asked = sim.words("asked", kCallsMade);
+  for (std::size_t i = 0; i < kCallsMade; ++i)
+    EXPECT_EQ(here[i], there[i]) << "call " << i << ", kind " << asked[i] << ", gave "
+                                 << sim.words("gave", kCallsMade)[i];
 }
 
 INSTANTIATE_TEST_SUITE_P(Levels, HalLevelTest, ::testing::Values("-O0", "-O1", "-O2", "-Os"),
@@ -288,7 +293,7 @@ TEST(HalArrays, what_is_written_stays_until_the_handler_writes) {
     ASSERT_EQ(flight.words("done", 1)[0], 1);
     const auto zeros = flight.words("zeros", 2), counters = flight.words("counters", 4),
                sensors = flight.words("sensors", 2);
-    EXPECT_NEAR(zeros[0], 3 * (100 - 20), 3);  // a frame may come while they are filled
+    EXPECT_NEAR(zeros[0], 3 * (100 - 20), 6);  // a frame may come while they are filled
     EXPECT_EQ(static_cast<std::uint16_t>(counters[0]), 65535);
     EXPECT_EQ(counters[1], 64);
     EXPECT_EQ(counters[2], 1);
