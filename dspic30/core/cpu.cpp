@@ -181,7 +181,7 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
 }
 
 void Cpu::pause_head(const Decoded* head, bool is_wait) {
-  constexpr Cycle kMostPause = 65536;
+  constexpr Cycle kMostPause = 1 << 23;  // half a second
   OwnHead* const own = own_head(head);
   if (!own) return;
   if (is_wait) {
