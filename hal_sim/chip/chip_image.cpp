@@ -13,4 +13,12 @@ std::shared_ptr<const dspic::KnownCalls> ChipImage::known(const dspic::ProgramMe
   return known_;
 }
 
+bool ChipImage::is_endless(const std::string& line, std::uint64_t enabled,
+                           const std::function<bool()>& find) const {
+  const std::lock_guard lock(mutex_);
+  const auto [known, is_new] = endless_.try_emplace({line, enabled});
+  if (is_new) known->second = find();
+  return known->second;
+}
+
 }  // namespace chip

@@ -2,8 +2,12 @@
 // A program of the chip, loaded once for all robots that run it, on whatever thread: its file, and what is
 // made of it on the way.
 #pragma once
+#include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 #include <utility>
 
 #include "dspic30/core/code_store.h"
@@ -30,6 +34,9 @@ class ChipImage final {
   /// Its routines that are known by heart. `program` holds its words. Null: nothing shall be, as the
   /// environment (TWINPUCK_INTERPRET) says.
   std::shared_ptr<const dspic::KnownCalls> known(const dspic::ProgramMemory& program) const;
+  /// What `find` says of a wait at a line while these interrupts are enabled, a bit a vector; asked once for
+  /// all robots, since it reads sources.
+  bool is_endless(const std::string& line, std::uint64_t enabled, const std::function<bool()>& find) const;
 
  private:
   const dspic::FirmwareFile file_;
@@ -37,6 +44,8 @@ class ChipImage final {
   dspic::ProgramMemory program_;
   unsigned shared_handler_ = 0;
   const std::shared_ptr<dspic::CodeStore> code_ = std::make_shared<dspic::CodeStore>();
+  mutable std::mutex mutex_;
+  mutable std::map<std::pair<std::string, std::uint64_t>, bool> endless_;
   mutable std::once_flag looked_for_;
   mutable std::shared_ptr<const dspic::KnownCalls> known_;
 };

@@ -227,8 +227,9 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   if (asked_since_ != since) {
     asked_since_ = since;
     wait_.reset();
-    bool any = false;
-    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v) any = any || device().is_enabled(v);
+    std::uint64_t enabled = 0;
+    for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
+      enabled |= std::uint64_t{device().is_enabled(v)} << v;
     const auto by_name = [this](const std::string& name) {
       for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
         if (dspic::vector_name(v) == name) return device().is_enabled(v);
@@ -237,7 +238,9 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
     // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
     const unsigned here = processor_->pc(), own = places_->own(here);
     const host::Place place = place_of(own);
-    if (any ? own == here && host::is_written_by_none(*this, place, by_name) : place.line > 0)
+    const auto find = [&] { return host::is_written_by_none(*this, place, by_name); };
+    const std::string line = place.file + ":" + std::to_string(place.line);
+    if (enabled ? own == here && image_->is_endless(line, enabled, find) : place.line > 0)
       wait_ = host::endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);

@@ -79,13 +79,17 @@ LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) {
   for (const char* name : {"run_left_motor", "run_right_motor"})
     if (const auto found = file.functions.find(name); found != file.functions.end())
       motors_.insert(found->second);
-  for (const auto& [address, site] : sites_)
+  for (const auto& [address, site] : sites_) {
     if (!dspic::is_host_place(address)) addresses_.push_back(address);
+    const std::size_t slot = slot_of(address);
+    if (slot >= by_slot_.size()) by_slot_.resize(slot + 1);
+    by_slot_[slot] = &site;
+  }
 }
 
 void LibraryCalls::forget_starts() {
   look(processor_.now());
-  started_.clear();
+  started_ = 0;
   wheels_ = {};
   first_speed_ = -1;
   idle_agendas_.clear();
@@ -96,9 +100,9 @@ void LibraryCalls::forget_starts() {
 void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
 void LibraryCalls::entered(unsigned address) {
-  const auto found = functions_.sites_.find(address);
-  if (found == functions_.sites_.end()) return;
-  const Site& site = found->second;
+  const Site* const found = functions_.at(address);
+  if (!found) return;
+  const Site& site = *found;
   const auto signed_w = [this](int n) {
     return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
   };
@@ -107,7 +111,7 @@ void LibraryCalls::entered(unsigned address) {
       note_range(site, what, processor_.w(0), 0, count - 1, "what lies behind the array is read");
   };
   const auto scanned = [&] {
-    if (!site.prefix.empty() || started_.count(Function::StartScan)) return;
+    if (!site.prefix.empty() || has_started(Function::StartScan)) return;
     if (chip_.device().peek(kAdcon1, chip_.latest()) & kAdon) return;  // started by other means
     note("sensors not started", "e_init_ad_scan()",
          std::string(site.known->name) +
@@ -150,10 +154,10 @@ void LibraryCalls::entered(unsigned address) {
     case Function::ActivateAgenda:
       return activate_agenda(site);
     case Function::SetAgendaCycle:
-      if (processor_.w(1) != 0) idle_agendas_.erase(processor_.w(0));
+      if (processor_.w(1) != 0 && !idle_agendas_.empty()) idle_agendas_.erase(processor_.w(0));
       return;
     default:
-      started_.insert(site.known->function);
+      started_ |= bit(site.known->function);
   }
 }
 
@@ -238,7 +242,7 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
   if (steps_of(0, now) + steps_of(1, now) != first_steps_) return all;  // started by other means
   for (const auto& [start, name] : {std::pair{Function::InitMotors, "e_init_motors()"},
                                     std::pair{Function::StartAgendas, "e_start_agendas_processing()"}}) {
-    if (started_.count(start)) continue;
+    if (has_started(start)) continue;
     all.push_back({"motors stand", name,
                    "speed set, but " + std::string(name) + " was never called: no motor turns; set at " +
                        places_.text_of(first_speed_at_),

@@ -61,6 +61,8 @@ class LibraryCalls final {
   static bool starts(Function f);
   void set_speed(const Site& site, int wheel, int speed);
   void activate_agenda(const Site& site);
+  static unsigned bit(Function f) { return 1u << static_cast<unsigned>(f); }
+  bool has_started(Function f) const { return (started_ & bit(f)) != 0; }
   bool is_of_agendas(const Site& site) const { return site.prefix.empty(); }
   std::int64_t steps_of(int wheel, Cycle now) const;
   std::string where() const;
@@ -71,7 +73,7 @@ class LibraryCalls final {
   const ProgramPlaces& places_;
   SolderedChip& chip_;
   const board::Board& board_;
-  std::set<Function> started_;
+  unsigned started_ = 0;  // functions that start something, a bit each
   std::array<Wheel, 2> wheels_;
   Cycle first_speed_ = -1;  // of one that agendas shall turn into steps
   unsigned first_speed_at_ = 0;
@@ -89,9 +91,19 @@ class LibraryCalls::Functions {
 
  private:
   friend class LibraryCalls;
+  static std::size_t slot_of(unsigned address) {
+    return dspic::is_host_place(address) ? (address - dspic::kHostStart) / 2
+                                         : dspic::kMostHostFunctions + address / 2;
+  }
+  /// What is known of the function at an address; null: nothing.
+  const Site* at(unsigned address) const {
+    const std::size_t slot = slot_of(address);
+    return slot < by_slot_.size() ? by_slot_[slot] : nullptr;
+  }
   std::map<unsigned, Site> sites_;  // by address; of the host's functions the place beyond the flash
   std::set<unsigned> motors_;       // the library's own agendas
   std::vector<std::uint32_t> addresses_;
+  std::vector<const Site*> by_slot_;
 };
 
 }  // namespace chip
