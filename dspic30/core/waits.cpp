@@ -47,9 +47,9 @@ void Waits::begin(Cpu& cpu) {
     if (is_passed(cpu, *known, rounds)) return;
   }
   const KnownWaits::Wait* const of_head = at_head_ ? cpu.known_waits.at(cpu.next) : nullptr;
-  // what it waited for has come: the program goes on, and will come back. Where it is back at once, it waits
-  // for more
-  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && !was_passed(*of_head, 2)) {
+  // what it waited for has come: the program goes on, and will come back. Where it is back at once, and
+  // again, it waits for more; once may be the rest of the round that an interrupt came into
+  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && !(passes_ > 1 && was_passed(*of_head, 2))) {
     pass(cpu, *of_head, 0, kRarestLooks);
     return;
   }
@@ -73,6 +73,7 @@ bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
 }
 
 void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in) {
+  passes_ = was_passed(wait, 2) ? passes_ + 1 : 1;
   passed_ = &wait;
   passed_at_ = round_began_;
   cpu.still_since = kNever;

@@ -114,6 +114,7 @@ class Waits {
   } behind_;
   int behind_in_ = 0, again_ = 0;             // instructions; looks
   const KnownWaits::Wait* passed_ = nullptr;  // met at its head last, in another state
+  int passes_ = 0;                            // in a row
   Cycle passed_at_ = 0;                       // cycles of the program
   // the wait
   const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
