@@ -307,6 +307,7 @@ bool is_handler(const std::string& name) {
   return false;
 }
 
+// as XC16 does, all of the program's own variables stay: somebody may look at them, or set them
 void keep_used(Program& program) {
   place_commons(program);
   std::vector<Section*> todo;
@@ -319,7 +320,7 @@ void keep_used(Program& program) {
         (symbol->section && symbol->section->kind == Kind::Configuration))
       keep(symbol->section);
   for (Section& s : program.sections)
-    if (s.kind == Kind::Eeprom) keep(&s);
+    if (s.kind == Kind::Eeprom || (s.kind == Kind::Ram && s.is_program)) keep(&s);
   while (!todo.empty()) {
     Section* s = todo.back();
     todo.pop_back();

@@ -212,6 +212,7 @@ class Reader {
       s.name = name->str();
       s.from = member.name;
       s.is_hal = member.is_hal;
+      s.is_program = !member.is_of_library;
       s.kind = kind_of(h, *name);
       s.flags = h.sh_flags;
       s.size = h.sh_size;

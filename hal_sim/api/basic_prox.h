@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Proximity sensors of the basic variants, which differ in their timer only. Included once a variant, after its e_prox.h.
- * The state machine of the timer is the board's (hal_sim/board/basic_prox.h).
+ * Proximity sensors of the basic variants, which differ in their timer only. Included once a variant, after
+ * its e_prox.h. The state machine of the timer is the board's (hal_sim/board/basic_prox.h).
  */
 #include "a_d/e_ad_conv.h"
 #include "hal_sim/host/pins.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * Timers 1 to 3 for the fast agenda (firmware/library/e_agenda_fast.c, its only includer), the native way: interrupts are not
- * evaluated in closed form but delivered one by one.
+ * Timers 1 to 3 for the fast agenda (firmware/library/e_agenda_fast.c, its only includer), the native way:
+ * interrupts are not evaluated in closed form but delivered one by one.
  */
 #ifndef TWINPUCK_API_FAST_TIMERS_H
 #define TWINPUCK_API_FAST_TIMERS_H
@@ -54,8 +54,8 @@ static INTO_CALLER void request_matches(struct timer* t) {
     tp_irq_every(t->vector, t->started + (first_match(t) << t->shift), ((tp_i64)t->period + 1) << t->shift);
 }
 
-/* What the timers' bookkeeping takes is not the robot's: there it is a bit of a register. Names with tp_image_ are not
- * charged, and the callers add what the access takes. */
+/* What the timers' bookkeeping takes is not the robot's: there it is a bit of a register. Names with
+ * tp_image_ are not charged, and the callers add what the access takes. */
 #define REGISTER_CYCLES 12 /* call, choice of the timer, one bit, return [measured: the register way] */
 void tp_image_start_timer(int index);
 void tp_image_stop_timer(int index);

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * What firmware/library asks of the native way: pins, converter, time, each through the seam (hal_sim/host/pins*.h). The
- * chip's answers to the same questions are in hal_dspic/hal.h.
+ * What firmware/library asks of the native way: pins, converter, time, each through the seam
+ * (hal_sim/host/pins*.h). The chip's answers to the same questions are in hal_dspic/hal.h.
  *
  *   ring LED   0    1    2    3    4    5    6    7        front  body
  *   pin       RA6  RA7  RA9  RA12 RA10 RA13 RA14 RA15       RC1   RC2
  *
- * The driver's variables (adc_arrays.h): on the robot the interrupt writes them; here they are brought up to date when
- * a function of the driver is called (e_get_prox() its own two entries, e_ad_is_*() and the stopwatch everything), and
- * when a controller looks at them itself (adc_seen.c).
- * Source of the pins: [lib: motor_led/e_epuck_ports.h], facts restated.
+ * The driver's variables (adc_arrays.h): on the robot the interrupt writes them; here they are brought up to
+ * date when a function of the driver is called (e_get_prox() its own two entries, e_ad_is_*() and the
+ * stopwatch everything), and when a controller looks at them itself (adc_seen.c). Source of the pins: [lib:
+ * motor_led/e_epuck_ports.h], facts restated.
  */
 #ifndef TWINPUCK_API_HAL_H
 #define TWINPUCK_API_HAL_H
@@ -81,25 +81,26 @@ void twinpuck_remote_edge(void);
 #define CAMERA_RESET_PIN 13 /* of port C */
 #define CAMERA_RESET_ROUNDS 50
 /** A low pulse; first high, so that there is an edge however the pin stood. */
-#define hal_camera_reset()                 \
-  do {                                     \
+#define hal_camera_reset()                    \
+  do {                                        \
     tp_latch_write('C', CAMERA_RESET_PIN, 1); \
     tp_latch_write('C', CAMERA_RESET_PIN, 0); \
-    hal_pause(CAMERA_RESET_ROUNDS);        \
+    hal_pause(CAMERA_RESET_ROUNDS);           \
     tp_latch_write('C', CAMERA_RESET_PIN, 1); \
-    hal_pause(CAMERA_RESET_ROUNDS);        \
+    hal_pause(CAMERA_RESET_ROUNDS);           \
   } while (0)
 /** Word of the data EEPROM. */
 #define hal_eeprom_word(offset) ((int)tp_eeprom_read(offset))
 
 /* --- Bluetooth ---------------------------------------------------------------------------------------- */
 
-/* 14,746 rounds, each a conversion and a comparison of floats [estimated: 60 and 35 cycles, 7 for the counter] */
+/* 14,746 rounds, each a conversion and a comparison of floats [estimated: 60 and 35 cycles, 7 for the
+ * counter] */
 #define BREAK_CYCLES (14746LL * 102)
 /** Holds UART 1's line low. */
-#define hal_uart1_break()                \
-  do {                                   \
-    tp_uart_break(1, BREAK_CYCLES);      \
+#define hal_uart1_break()                   \
+  do {                                      \
+    tp_uart_break(1, BREAK_CYCLES);         \
     tp_wait_until(tp_now() + BREAK_CYCLES); \
   } while (0)
 

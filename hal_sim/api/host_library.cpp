@@ -79,8 +79,8 @@ void HostLibrary::effect(const Call& call) {
   note(std::uint64_t{call.index} << 48 | std::uint64_t{call.word(1)} << 16 | call.word(0), call.at);
 }
 
-/// How the two handlers are in each other's way may be other than before; a hair's breadth is not worth a look
-/// at all samples.
+/// How the two handlers are in each other's way may be other than before; a hair's breadth is not worth a
+/// look at all samples.
 void HostLibrary::follow_ticks(Cycle at) {
   const Cycle round = rhythm_.round(agendas().tick_cycles()), old = scan().full_round();
   if (std::abs(round - old) > old / 1000) scan().set_round(round, at);
@@ -159,6 +159,7 @@ HandlerStep HostLibrary::next_in_handler(Cycle at) {
   if (!function && !is_empty) step.cycles += cycles_.walk_end;
   if (step.divides_by_zero) step.cycles += cycles_.run_divides;
   note(step.function, at);
+  if (watch_ && step.function) watch_->calls_back(step.function, at + step.cycles);
   return step;
 }
 

@@ -34,6 +34,8 @@ class CallWatch {
  public:
   virtual ~CallWatch() = default;
   virtual void called(HostFunction function) = 0;
+  /// An agenda's function, at this program address, is about to be called.
+  virtual void calls_back(unsigned function, Cycle at) = 0;
 };
 
 class HostLibrary final : public dspic::HostCalls {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * TAKES(n): a call of this function takes n processor cycles, RETURN included, whatever the compiler estimates for its
- * body: those of the driver's function of that name. The numbers are those of timings.h.
+ * TAKES(n): a call of this function takes n processor cycles, RETURN included, whatever the compiler
+ * estimates for its body: those of the driver's function of that name. The numbers are those of timings.h.
  */
 #ifndef TWINPUCK_API_TAKES_H
 #define TWINPUCK_API_TAKES_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Motors of the variants with timers of their own; DRIVER says which: 0 timers 5 and 4, 1 timer 3. Included once a
- * variant, after its e_motors.h. Steps and coils are evaluated by the board (hal_sim/board/timer_motors.h).
+ * Motors of the variants with timers of their own; DRIVER says which: 0 timers 5 and 4, 1 timer 3. Included
+ * once a variant, after its e_motors.h. Steps and coils are evaluated by the board
+ * (hal_sim/board/timer_motors.h).
  */
 #include "hal_sim/host/pins.h"
 #include "motor_led/e_init_port.h"

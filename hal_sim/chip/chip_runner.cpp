@@ -51,15 +51,14 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   configuration.synchronised_ports = true;
   configuration.program = &program_;
   chip_.power_up(configuration);
-  unsigned plain_from = kRamStart;
   if (const auto end = file_.marks.find(dspic::kServedEndSymbol); end != file_.marks.end()) {
-    plain_from = end->second;
+    plain_from_ = end->second;
     library_ = std::make_unique<api::HostLibrary>(board, served_by(file_));
     library_->tell_calls(this);
     chip_.share_coils();
   }
   processor_ =
-      std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from);
+      std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from_);
   processor_->set_translator(translation());
   processor_->know(image_->known(program_));
   places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
@@ -359,8 +358,11 @@ void ChipRunner::read_memory(std::uintptr_t address, void* to, std::size_t bytes
       return program_.read(in_register(kPsvpag) << 15 | (at & 0x7FFE));
     };
     const std::uint32_t word = at < kRamStart ? in_register(at & ~1u) : at >= kPsvStart ? in_flash() : 0;
-    out[i] = at >= kRamStart && at < kRamEnd ? processor_->ram(at)
-                                             : static_cast<unsigned char>(word >> 8 * (at & 1));
+    if (is_served(at))
+      out[i] = static_cast<unsigned char>(library_->peek(at & ~1u, chip_.latest()) >> 8 * (at & 1));
+    else
+      out[i] = at >= kRamStart && at < kRamEnd ? processor_->ram(at)
+                                               : static_cast<unsigned char>(word >> 8 * (at & 1));
   }
 }
 
@@ -368,8 +370,13 @@ void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::siz
   const auto* in = static_cast<const unsigned char*>(from);
   for (std::size_t i = 0; i < bytes; ++i) {
     const auto at = static_cast<unsigned>(address + i);
-    if (at >= kRamStart && at < kRamEnd) processor_->set_ram(at, in[i]);
+    if (is_served(at))
+      library_->write(at & ~1u, static_cast<std::uint16_t>(in[i] << 8 * (at & 1)),
+                      static_cast<std::uint16_t>(0xFF << 8 * (at & 1)), chip_.latest());
+    else if (at >= kRamStart && at < kRamEnd)
+      processor_->set_ram(at, in[i]);
     if (at < kRamStart) device().write(at, in[i], 8, chip_.latest());
+    chip_.digest().note(EventDigest::Kind::Written, at << 8 | in[i], end_);
   }
   wake();
 }

@@ -118,6 +118,13 @@ class ChipRunner final : public host::Runner,
   void went_to_reset_vector(unsigned from) override;
   void entered(unsigned address) override { calls_->entered(address); }
   void called(api::HostFunction function) override { calls_->called(function); }
+  void calls_back(unsigned function, Cycle at) override {
+    if (observer_) observer_->callback(function, at);
+  }
+  /// Is it a register of the library's, which hal_sim serves?
+  bool is_served(unsigned address) const {
+    return address >= dspic::Processor::kRamStart && address < plain_from_;
+  }
   void catch_up(Cycle now);
   void report(const Ending& ending);
   bool is_ending(const board::Diagnosis& diagnosis) const;
@@ -134,6 +141,7 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<ProgramPlaces> places_;
   std::unique_ptr<Endings> endings_;
   std::unique_ptr<LibraryCalls> calls_;
+  unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
   host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;

@@ -12,7 +12,7 @@ namespace chip {
 
 class EventDigest {
  public:
-  enum class Kind : std::uint8_t { Pins, UartFrame, I2c, CodecWord, Trap, Reset };
+  enum class Kind : std::uint8_t { Pins, UartFrame, I2c, CodecWord, Trap, Reset, Written };
   void note(Kind kind, std::uint64_t what, dspic::Cycle at) {
     sum_ += sim::mix64(sim::mix64(static_cast<std::uint64_t>(at)) ^ what ^
                        static_cast<std::uint64_t>(kind) << 56);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * Sensors that no robot has and that a supervisor program defines (docs/supervisor.md), for firmware on the
- * e-puck's own library; programs for Webots' interfaces find them as distance sensors. In the simulator only: on
- * the robot there is nobody who could define them, and a program that calls this does not link.
+ * e-puck's own library; programs for Webots' interfaces find them as distance sensors. On a robot
+ * nobody could define them, so there are none, and there is no console.
  */
 #ifndef TWINPUCK_VIRTUAL_H
 #define TWINPUCK_VIRTUAL_H
