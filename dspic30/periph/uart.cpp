@@ -225,11 +225,6 @@ std::uint16_t Uart::peek(unsigned address, Cycle now) const {
       return word;
     }
     case kTxReg:
-      if (!enabled())
-        f_.diagnostics.report(Cause::UartOff, name("TXREG"),
-                              name("TXREG") + " is written while " + name("MODE.UARTEN") +
-                                  " is 0: nothing is sent, and what is written is lost",
-                              now);
       return 0;
     case kRxReg:
       return in_.count ? in_.words[0].word : 0;
@@ -263,6 +258,11 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
       break;
     }
     case kTxReg:
+      if (!enabled())
+        f_.diagnostics.report(Cause::UartOff, name("TXREG"),
+                              name("TXREG") + " is written while " + name("MODE.UARTEN") +
+                                  " is 0: nothing is sent, and what is written is lost",
+                              now);
       if ((lanes & 0xFF) && !out_.full()) {
         out_.push(value & 0x1FF);
         if (out_.count == 1) schedule_transmit(now);
