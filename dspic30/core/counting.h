@@ -16,6 +16,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "dspic30/core/known_waits.h"
@@ -70,12 +71,17 @@ class KnownCounts {
  public:
   /// null: none is known there.
   const Count* at(const Decoded* first) const {
-    const Count& count = counts_[place_of(first)];
-    return count.round_.first == first ? &count : nullptr;
+    const auto& count = counts_[place_of(first)];
+    return count && count->round_.first == first ? count.get() : nullptr;
   }
-  const Count& add(const Count& count) { return counts_[place_of(count.round_.first)] = count; }
+  const Count& add(const Count& count) {
+    auto& place = counts_[place_of(count.round_.first)];
+    if (!place) place = std::make_unique<Count>();
+    return *place = count;
+  }
   void forget() {
-    for (Count& count : counts_) count.round_.first = nullptr;
+    for (const auto& count : counts_)
+      if (count) count->round_.first = nullptr;
   }
 
  private:
@@ -83,7 +89,7 @@ class KnownCounts {
     return reinterpret_cast<std::uintptr_t>(first) / 32 % kMost;
   }
   static constexpr std::size_t kMost = 8;
-  std::array<Count, kMost> counts_{};
+  std::array<std::unique_ptr<Count>, kMost> counts_;
 };
 
 }  // namespace dspic

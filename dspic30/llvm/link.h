@@ -62,8 +62,8 @@ struct Symbol {
   std::uint32_t value = 0;     ///< octets from the section's start
   std::uint32_t size = 0, align = 1;
   bool is_defined = false, is_weak = false, is_common = false, is_function = false;
-  bool is_hal = false;      ///< of Options::host_library
-  std::string from;         ///< the module that defines it: "main.c", "libmotor.a(step.o)"
+  bool is_hal = false;  ///< of Options::host_library
+  std::string from;     ///< the module that defines it: "main.c", "libmotor.a(step.o)"
 };
 
 struct Relocation {
@@ -81,7 +81,7 @@ struct Section {
   std::uint32_t size = 0, align = 1;
   bool zeroed = false, used = false;
   bool is_program = false;  ///< of an object of Options::inputs
-  bool is_hal = false;  ///< of Options::host_library
+  bool is_hal = false;      ///< of Options::host_library
   std::vector<std::uint8_t> bytes;
   std::vector<Relocation> relocations;
   std::uint32_t address = 0;  ///< as the program sees it: bytes of data, program address of code

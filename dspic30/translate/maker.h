@@ -91,7 +91,9 @@ class Maker {
   std::unique_ptr<Module> moved_out();
 
   /// What runs an instruction in the interpreter's stead, by its name in MachineCode::Address.
-  static std::string alone(const Item& item) { return item.is_host ? kHost : item.is_told ? kTold : interpreter(item.word); }
+  static std::string alone(const Item& item) {
+    return item.is_host ? kHost : item.is_told ? kTold : interpreter(item.word);
+  }
   /// A call of a function that is the simulator's, by its name in MachineCode::Address.
   CallInst* called(const std::string& name, ArrayRef<Value*> arguments) {
     SmallVector<Type*, 3> types;
