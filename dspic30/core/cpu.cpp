@@ -118,7 +118,7 @@ Run Cpu::looked_at(const Decoded* d) {
 void Cpu::run_each() {
   while (now < deadline) {
     const Decoded* const d = at = next;
-    if (is_own_head(d) && stops_at(d)) return;
+    if (has_heads() && is_own_head(d) && stops_at(d)) return;
     const Decoded* following = looked_at(d)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
