@@ -382,6 +382,7 @@ class Cpu final : public SfrOwner {
   /// A function of the host waits here.
   void stand(Cycle until, const Decoded* d);
   Cycle stands_until = 0;
+  const Decoded* stands_at = nullptr;
   /// Does it wait now?
   bool stands_in_host() const;
 

@@ -30,6 +30,12 @@ bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result)
 // the function is called here, or asked again: it stands until its time has come, then it returns
 const Decoded* at_function(Cpu& cpu, const Decoded* d) {
   const Cycle at = cpu.true_now();
+  // it is not asked before its time, however often the clock is looked at
+  if (cpu.host_again && cpu.stands_at == d && at < cpu.stands_until) {
+    cpu.note_effect();
+    cpu.stand(cpu.stands_until, d);
+    return d;
+  }
   HostResult result;
   if (is_done(cpu, static_cast<unsigned>(d->imm), at, cpu.host_again, result)) {
     cpu.host_again = false;
@@ -84,6 +90,7 @@ const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   push_address(cpu, cpu.address_of(d) + 2u * d->b);
   cpu.host_again = result.wait_until > at;
   cpu.stands_until = result.wait_until;
+  cpu.stands_at = host_place(kHostStart + 2 * index);
   cpu.note_effect();
   return host_place(kHostStart + 2 * index);
 }
@@ -99,6 +106,7 @@ bool Cpu::stands_in_host() const { return host_again && address_of_host_place(ne
 void Cpu::stand(Cycle until, const Decoded* d) {
   const Cycle began = now;
   stands_until = until;
+  stands_at = d;
   now = std::max(now + 1, std::min(deadline, clocks.program_at(until)));
   delayed += now - began;
   now -= d->cycles;

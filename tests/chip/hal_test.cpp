@@ -305,20 +305,34 @@ TEST(HalArrays, what_is_written_stays_until_the_handler_writes) {
 }
 
 // whoever looks, and wherever time is cut, sees the same
+/// Looks at each instruction.
+struct Onlooker : host::Observer {
+  int reaches = 0;
+  void reached(host::Cycle) override { ++reaches; }
+  void handler_begins(int, host::Cycle, host::Cycle, host::Cycle) override {}
+  void handler_ends(host::Cycle) override {}
+  void callback(std::uintptr_t, host::Cycle) override {}
+  void waited(host::Cycle, host::Cycle, int) override {}
+  void ended(host::Cycle) override {}
+};
+
+// now and then, or at each instruction: the scan's first fill is waited for as long
 TEST(HalDigest, is_the_same_whoever_looks) {
   const Case maze{"maze", "obstacle"};
   for (const char* hal : {"sim", "dspic"}) {
     SCOPED_TRACE(hal);
-    std::uint64_t digests[2];
-    for (int looks = 0; looks < 2; ++looks) {
+    std::uint64_t digests[3];
+    for (int looks = 0; looks < 3; ++looks) {
+      Onlooker onlooker;
       std::vector<std::string> problems;
       twin::Options options;
       options.hal = hal;
       const auto twin = twin::Twin::open(world_of(maze), options, problems);
       ASSERT_TRUE(twin);
+      if (looks == 2) twin->mind(0).runner()->observe(&onlooker);
       while (sim::to_seconds(twin->simulation().now()) < 1) {
         twin->simulation().step();
-        if (looks) {
+        if (looks == 1) {
           std::int16_t word = 0;
           twin->mind(0).runner()->read_memory(0x80C, &word, 2);
           twin->mind(0).runner()->diagnoses();
@@ -327,6 +341,7 @@ TEST(HalDigest, is_the_same_whoever_looks) {
       digests[looks] = twin->mind(0).state_hash();
     }
     EXPECT_EQ(digests[0], digests[1]);
+    EXPECT_EQ(digests[0], digests[2]);
   }
 }
 
