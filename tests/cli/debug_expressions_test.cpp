@@ -177,9 +177,9 @@ TEST_P(DebugExpressions, mistakes_are_named) {
       debug(
           "break main\nc\nprint k +\nprint (k\nprint k)\nprint 5 / 0\nprint 3 = 4\nprint nodes + n->x\n"
           "print nodes[0] + 1\nprint k[0]\nprint k.x\nprint nodes[0].\nprint 'a\nprint 12abc\nprint 0b\n"
-          "print *k\nprint main(3)\nprint f % 2\nprint &3\nprint (struct none *)k\nprint n ? nodes[0] : 1\n"),
+          "print *k\nprint main(3)\nprint f % 2\nprint &3\nprint (struct none *)k\nprint m ? nodes[0] : 1\n"),
       {"a value is missing", "')' is missing", "unexpected ')'", "division by zero", "unexpected '= 4'",
-       "unknown symbol 'n'"});
+       "unknown symbol 'm'"});
 }
 
 TEST_P(DebugExpressions, a_step_by_lines_from_the_beginning_goes_to_main) {
