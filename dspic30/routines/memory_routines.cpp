@@ -57,6 +57,13 @@ int nothing(Cpu& cpu, int cycles) {
   return cycles;
 }
 
+// of no bytes two are the same
+int equal_as_none(Cpu& cpu) {
+  set(cpu, 3, cpu.w[0]);
+  set(cpu, 0, 0);
+  return nothing(cpu, 8);
+}
+
 // the last count came down to 0
 void counted_down(Cpu& cpu) {
   set(cpu, 2, 0);
@@ -111,12 +118,7 @@ int set_memory(Cpu& cpu, std::int64_t limit) {
 
 int compare_memory(Cpu& cpu, std::int64_t limit) {
   const unsigned n = cpu.w[2];
-  if (n == 0) {
-    if (limit < 8) return 0;
-    set(cpu, 3, cpu.w[0]);
-    set(cpu, 0, 0);
-    return nothing(cpu, 8);
-  }
+  if (n == 0) return limit < 8 ? 0 : equal_as_none(cpu);
   const Source a(cpu, cpu.w[0]), b(cpu, cpu.w[1]);
   const int more = a.cycles() + b.cycles();
   std::int64_t cycles = 4;
@@ -217,12 +219,7 @@ int compare_text(Cpu& cpu, std::int64_t limit) {
 
 int compare_text_within(Cpu& cpu, std::int64_t limit) {
   const unsigned n = cpu.w[2];
-  if (n == 0) {
-    if (limit < 8) return 0;
-    set(cpu, 3, cpu.w[0]);
-    set(cpu, 0, 0);
-    return nothing(cpu, 8);
-  }
+  if (n == 0) return limit < 8 ? 0 : equal_as_none(cpu);
   const Source a(cpu, cpu.w[0]), b(cpu, cpu.w[1]);
   const int more = a.cycles() + b.cycles();
   std::int64_t cycles = 4 + more;
