@@ -41,9 +41,11 @@ T* zeroed() {
 }  // namespace
 
 // where a function begins that the onlooker wants to know of
-const Decoded* tell(Cpu& cpu, const Decoded* d) {
+const Decoded* tell(Cpu& cpu, const Decoded* d) { return cpu.plain(hear(cpu, d))(cpu, d); }
+
+const Decoded* hear(Cpu& cpu, const Decoded* d) {
   if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));
-  return cpu.plain(d)(cpu, d);
+  return d;
 }
 
 // the course has not come there yet

@@ -82,6 +82,8 @@ const Decoded* illegal(Cpu& cpu, const Decoded* d);
 const Decoded* meet(Cpu& cpu, const Decoded* d);
 /// An instruction that the onlooker wants to know of: it hears, and then it runs.
 const Decoded* tell(Cpu& cpu, const Decoded* d);
+/// ... it only hears.
+const Decoded* hear(Cpu& cpu, const Decoded* d);
 
 class CodeTable {
  public:

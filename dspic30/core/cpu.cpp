@@ -534,16 +534,20 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   return read_other(ea, bits, t);
 }
 
+unsigned Cpu::read_served(unsigned ea, unsigned bits) {
+  const unsigned word = host->read(ea & ~1u, true_now() + at->lead);
+  return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
+}
+
 // all but results of the converter
 unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
   if (bits == 16 && (ea & 1)) {
     trap(Trap::AddressError);
     return 0;
   }
-  if (ea - kRamStart < plain_start - kRamStart) {
+  if (is_served(ea)) {
     if (watching) note_look(host->horizon(ea & ~1u, t));
-    const unsigned word = host->read(ea & ~1u, t);
-    return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
+    return read_served(ea, bits);
   }
   if (ea - kRamStart < kRamBytes) {
     round_memory->note_read(ram.data(), ea - kRamStart);
@@ -598,7 +602,7 @@ void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned b
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
-  if (const unsigned i = ea - kRamStart; i < plain_start - kRamStart) {
+  if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();
     const unsigned shift = bits == 8 && (ea & 1) ? 8 : 0;
     host->write(ea & ~1u, static_cast<std::uint16_t>(value << shift),

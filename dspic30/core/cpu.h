@@ -84,8 +84,8 @@ class Cpu final : public SfrOwner {
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
   /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
-  /// about as long as translating it will. 0: at once, for tests.
-  int hot = 256;
+  /// about a quarter of what translating it will, which later runs need not do again. 0: at once, for tests.
+  int hot = 64;
 
   void reset();
   /// All words are decoded again, for this robot alone.
@@ -146,7 +146,7 @@ class Cpu final : public SfrOwner {
     if (cpu.is_decoded(d)) cpu.count_jump(d);
     return d;
   }
-  void decode(const Decoded* d) { table_->decode(d, program, hot == 0 ? 1 : 0xFF); }
+  void decode(const Decoded* d) { table_->decode(d, program, hot == 0 ? 1 : kFewJumps); }
   const Decoded* code() const { return code_; }
   const WordRegisters& registers_of(const Decoded* d) const { return table_->registers(d); }
   /// W registers that an instruction that was met may read or write, a bit each.
@@ -244,8 +244,10 @@ class Cpu final : public SfrOwner {
   // --- data space
   unsigned read16(unsigned ea) {
     if (ea - plain_start < plain_ram() && !(ea & 1)) return load(ea - kRamStart);
-    if constexpr (kIsTranslated)
+    if constexpr (kIsTranslated) {
       if (is_flash_constant(ea) && !(ea & 1)) return flash_constant(ea);
+      if (is_served(ea) && !(ea & 1)) return read_served(ea, 16);
+    }
     return read_elsewhere(ea, 16);
   }
   /// The second word of a pair: through the PSV window it costs nothing.
@@ -260,8 +262,10 @@ class Cpu final : public SfrOwner {
   }
   unsigned read8(unsigned ea) {
     if (ea - plain_start < plain_ram()) return ram[ea - kRamStart];
-    if constexpr (kIsTranslated)
+    if constexpr (kIsTranslated) {
       if (is_flash_constant(ea)) return flash_constant(ea) >> 8 * (ea & 1) & 0xFF;
+      if (is_served(ea)) return read_served(ea, 8);
+    }
     return read_elsewhere(ea, 8);
   }
   void write16(unsigned ea, unsigned value) {
@@ -366,13 +370,19 @@ class Cpu final : public SfrOwner {
     watched_until = std::min(watched_until, until);
   }
   /// What handlers take, or when one comes, may be another from now on.
-  void host_changed() {
-    host_stale = true;
-    deadline = 0;
-  }
+  void host_changed() { host_stale = true; }
+  /// Goes by it, `ahead` cycles from now, unless it stops before its next instruction.
+  void follow_changed_host(Cycle ahead);
   bool host_stale = true;
-  bool host_again = false;  ///< the function of the host that stands there has been called already
-  int host_handlers = 0;    ///< handlers known by heart under way
+  bool host_followed = false;  ///< since Processor::run() looked last: its deadlines are of a clock of before
+  bool host_comes = false;     ///< the handler that calls the program is not switched off
+  bool host_held = true;       ///< ... but held off
+  Cycle host_due = kNever;     ///< when it comes next
+  Cycle stop_at = kNever;      ///< true time: `deadline` but for that handler and for looks
+  Cycle pause_at = kNever;     ///< ... when a look for a wait comes
+  std::int64_t writes_seen = 0;  ///< to registers, when Processor::run() looked last
+  bool host_again = false;       ///< the function of the host that stands there has been called already
+  int host_handlers = 0;         ///< handlers known by heart under way
   /// A handler known by heart is due: it begins, as an interrupt does.
   void begin_handler();
   /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
@@ -495,15 +505,23 @@ class Cpu final : public SfrOwner {
     return program.flash()[static_cast<unsigned>(psvpag) << 14 | (ea & 0x7FFE) >> 1] & 0xFFFF;
   }
   static int psv_cost();
+  /// Does whoever plays the library hold it?
+  bool is_served(unsigned ea) const { return ea - kRamStart < plain_start - kRamStart; }
+  /// What it holds there by now: nothing else comes of the look, so translated code goes on behind it.
+  unsigned read_served(unsigned ea, unsigned bits);
   unsigned read_elsewhere(unsigned ea, unsigned bits);
   __attribute__((noinline)) unsigned read_other(unsigned ea, unsigned bits, Cycle t);
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
   /// The deadline is no later than `at`, which is true time.
-  void hurry_to(Cycle at) { deadline = std::min(deadline, clocks.program_at(at)); }
+  void hurry_to(Cycle at) {
+    deadline = std::min(deadline, clocks.program_at(at));
+    stop_at = std::min(stop_at, at);
+  }
   unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);
+  static constexpr std::uint8_t kFewJumps = 16;  // until a translation of an earlier run is looked for
   static constexpr Cycle kFirstPause = 50;
   struct OwnHead {
     std::ptrdiff_t place = -1;  // word of flash

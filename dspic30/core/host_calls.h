@@ -66,7 +66,8 @@ class HostCalls {
   /// Behind its last step; registers are given back and RETFIE comes.
   virtual void end_handler(Cycle at) = 0;
   /// Vectors of the handlers known by heart (vectors.h): the one that calls the program, then one that does
-  /// not; kNoVector: there is none. Their IEC bits, and priority() of both, say whether they can come.
+  /// not; kNoVector: there is none. Their IEC bits and priorities say whether they can come. Stay as they
+  /// are.
   virtual int vector(int handler) const = 0;
   virtual int priority() const = 0;
   /// From `at` on the program holds this handler off (its level, DISI, its IEC bit), or does no longer. A

@@ -39,6 +39,7 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
   HostResult result;
   if (is_done(cpu, static_cast<unsigned>(d->imm), at, cpu.host_again, result)) {
     cpu.host_again = false;
+    if (cpu.host_stale) cpu.deadline = 0;
     cpu.now += result.cycles - d->cycles;
     const unsigned high = cpu.pop() & 0x7F, low = cpu.pop();
     return cpu.jump(high << 16 | (low & 0xFFFE), d);
@@ -47,6 +48,7 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
     cpu.trap(Trap::AddressError);  // there is none
     return d;
   }
+  if (cpu.host_stale) cpu.deadline = 0;
   cpu.note_effect();
   cpu.host_again = true;
   cpu.stand(result.wait_until, d);
@@ -85,8 +87,10 @@ const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   HostResult result;
   if (is_done(cpu, index, at, false, result)) {
     cpu.now += result.cycles;
+    if (cpu.host_stale) cpu.follow_changed_host(d->cycles);
     return d + d->b;
   }
+  if (cpu.host_stale) cpu.deadline = 0;
   push_address(cpu, cpu.address_of(d) + 2u * d->b);
   cpu.host_again = result.wait_until > at;
   cpu.stands_until = result.wait_until;
@@ -101,6 +105,23 @@ const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
 }
 
 bool Cpu::stands_in_host() const { return host_again && address_of_host_place(next) != 0; }
+
+void Cpu::follow_changed_host(Cycle ahead) {
+  // it stops anyway, or what was written may hold handlers off
+  if (deadline <= now || parts.bus.writes() != writes_seen) {
+    deadline = 0;
+    return;
+  }
+  host_stale = false;
+  host_followed = true;
+  now += ahead;
+  settle();
+  clocks.set_share(host->share_q32());
+  host_due = host_comes ? host->due() : kNever;
+  const Cycle due = host_held && host_due <= now ? kNever : host_due;
+  deadline = clocks.program_at(std::min({stop_at, pause_at, due}));
+  now -= ahead;
+}
 
 // time goes on without the program, up to `until` or the deadline
 void Cpu::stand(Cycle until, const Decoded* d) {

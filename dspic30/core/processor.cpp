@@ -26,6 +26,9 @@ Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_pt
       chip_(chip) {
   cpu_->host = host;
   cpu_->serve_ram(plain_from);
+  for (std::size_t h = 0; host && h < irqs_.size(); ++h)
+    if (const int vector = host->vector(static_cast<int>(h)); vector != kNoVector)
+      irqs_[h] = vector - kFirstIrqVector;
 }
 
 Processor::~Processor() = default;
@@ -55,22 +58,25 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 void Processor::execute() {
   Cpu& cpu = *cpu_;
   const Cycle end = cpu.deadline;
-  const std::int64_t writes = cpu.parts.bus.writes();
+  const std::int64_t writes = cpu.writes_seen = cpu.parts.bus.writes();
   while (cpu.now < end) {
     if (waits_->is_due(cpu)) {
       waits_->go_on(cpu);
-      if (cpu.deadline != end || cpu.parts.bus.writes() != writes) return;
+      if (cpu.deadline != end || cpu.host_followed || cpu.parts.bus.writes() != writes) return;
       if (cpu.repeating) return;
       continue;  // it may be due again at once, as it would be in a window that begins here
     }
-    const Cycle pause = std::min(end, cpu.clocks.program_at(std::max(waits_->look_at(cpu), cpu.now + 1)));
+    cpu.pause_at = std::max(waits_->look_at(cpu), cpu.now + 1);
+    const Cycle pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
     cpu.deadline = pause;
     if (cpu.looks_at_each())
       cpu.run_each();
     else
       cpu.run_straight();
+    cpu.pause_at = kNever;
     if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
-    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes || cpu.is_code_stale())
+    if (cpu.deadline != pause || cpu.host_followed || cpu.repeating || cpu.parts.bus.writes() != writes ||
+        cpu.is_code_stale())
       return;
     cpu.deadline = end;
   }
@@ -107,7 +113,11 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       if (outlook.horizon <= cpu.now) continue;
     }
     cpu.deadline = std::min(until, outlook.horizon);
-    if (cpu.host) cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
+    if (cpu.host) {
+      cpu.host_followed = false;
+      cpu.stop_at = std::min(cpu.deadline, disi_horizon());
+      cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
+    }
     if (cpu.repeating && waits_->is_away()) cpu.next = cpu.run_repeated(cpu.next);
     execute();
   }
@@ -116,7 +126,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  const Cycle wakes = std::min(cpu.parts.interrupts.wakes_at(), due_);
+  const Cycle wakes = std::min(cpu.parts.interrupts.wakes_at(), cpu.host_due);
   if (wakes <= cpu.now || cpu.parts.system.woke()) {
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
@@ -131,51 +141,55 @@ void Processor::sleep(Cycle until) {
 
 // --- whoever plays the library --------------------------------------------------------------------------
 
+/// Does the program hold a handler known by heart off? In Sleep, timer and converter stand.
+bool Processor::is_held(int irq) const {
+  const Interrupts& interrupts = cpu_->parts.interrupts;
+  const int priority = interrupts.priority(irq);
+  return !interrupts.enabled(irq) || priority <= interrupts.level() || cpu_->power == Cpu::Power::Sleep ||
+         (priority < 7 && interrupts.disi_active(cpu_->now));
+}
+
 // which handlers known by heart the program holds off, when the next one comes, and what they take
 void Processor::follow_host() {
   Cpu& cpu = *cpu_;
-  const Interrupts& interrupts = cpu.parts.interrupts;
-  for (int h = 0; h < HostCalls::kHandlers; ++h) {
-    const int vector = cpu.host->vector(h);
-    if (vector == kNoVector) continue;
-    const int irq = vector - kFirstIrqVector, priority = interrupts.priority(irq);
-    const bool sleeps = cpu.power == Cpu::Power::Sleep;  // timer and converter stand
-    const bool held = sleeps || !interrupts.enabled(irq) || priority <= interrupts.level() ||
-                      (priority < 7 && interrupts.disi_active(cpu.now));
-    bool& was_held = held_[static_cast<std::size_t>(h)];
-    if (held == was_held) continue;
-    was_held = held;
-    cpu.host->hold_handler(h, held, cpu.now);
+  for (std::size_t h = 0; h < irqs_.size(); ++h) {
+    if (irqs_[h] < 0) continue;
+    const bool held = is_held(irqs_[h]);
+    if (held == held_[h]) continue;
+    held_[h] = held;
+    cpu.host->hold_handler(static_cast<int>(h), held, cpu.now);
     cpu.host_stale = true;
   }
   if (!cpu.host_stale) return;
   cpu.host_stale = false;
   cpu.clocks.set_share(cpu.host->share_q32());
   // held off by its level alone it wakes the processor all the same
-  const int irq = cpu.host->vector(0) - kFirstIrqVector;
-  const bool comes = irq >= 0 && interrupts.enabled(irq) && cpu.power != Cpu::Power::Sleep;
-  due_ = comes ? cpu.host->due() : kNever;
+  cpu.host_comes = irqs_[0] >= 0 && cpu.parts.interrupts.enabled(irqs_[0]) && cpu.power != Cpu::Power::Sleep;
+  cpu.host_held = held_[0];
+  cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
 }
 
 /// Does the handler known by heart begin now, rather than that of `vector`?
 bool Processor::is_host_first(int vector) const {
   const Cpu& cpu = *cpu_;
-  if (due_ > cpu.now || held_[0]) return false;
+  if (cpu.host_due > cpu.now || held_[0]) return false;
   if (vector == kNoVector) return true;
   if (vector < kFirstIrqVector) return false;
   const Interrupts& interrupts = cpu.parts.interrupts;
-  const int own = cpu.host->vector(0), priority = interrupts.priority(own - kFirstIrqVector),
-            other = interrupts.priority(vector - kFirstIrqVector);
-  return priority > other || (priority == other && own < vector);
+  const int priority = interrupts.priority(irqs_[0]), other = interrupts.priority(vector - kFirstIrqVector);
+  return priority > other || (priority == other && kFirstIrqVector + irqs_[0] < vector);
 }
 
 /// The next instant at which something comes of the host's handlers.
 Cycle Processor::host_horizon() const {
   const Cpu& cpu = *cpu_;
   if (!cpu.host) return kNever;
-  const Interrupts& interrupts = cpu.parts.interrupts;
-  const Cycle disi = interrupts.disi_active(cpu.now) ? interrupts.disi_until() : kNever;
-  return std::min(disi, held_[0] && due_ <= cpu.now ? kNever : due_);
+  return std::min(disi_horizon(), held_[0] && cpu.host_due <= cpu.now ? kNever : cpu.host_due);
+}
+
+Cycle Processor::disi_horizon() const {
+  const Interrupts& interrupts = cpu_->parts.interrupts;
+  return interrupts.disi_active(cpu_->now) ? interrupts.disi_until() : kNever;
 }
 
 Cycle Processor::idle_until() const {
@@ -183,9 +197,9 @@ Cycle Processor::idle_until() const {
   const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
-  if (outlook.reset_due || (due_ <= cpu.now && !held_[0])) return 0;
+  if (outlook.reset_due || (cpu.host_due <= cpu.now && !held_[0])) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
-  if (is_asleep()) return std::min({until, cpu.parts.interrupts.wakes_at(), due_});
+  if (is_asleep()) return std::min({until, cpu.parts.interrupts.wakes_at(), cpu.host_due});
   if (outlook.vector != kNoVector) return 0;
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));

@@ -107,15 +107,17 @@ class Processor {
   void execute();
   void sleep(Cycle until);
   void follow_host();
+  bool is_held(int irq) const;
   bool is_host_first(int vector) const;
   Cycle host_horizon() const;
+  Cycle disi_horizon() const;
 
   std::unique_ptr<Cpu> cpu_;
   std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
   Cycle slept_ = 0;
-  std::array<bool, 2> held_{true, true};  // handlers known by heart that the program holds off
-  Cycle due_ = kNever;                    // when the next of them comes
+  std::array<int, 2> irqs_{-1, -1};       // of the handlers known by heart; -1: there is none
+  std::array<bool, 2> held_{true, true};  // does the program hold them off?
 };
 
 }  // namespace dspic

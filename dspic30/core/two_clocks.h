@@ -35,9 +35,12 @@ class TwoClocks {
   }
   /// `share_q32`: of each true cycle, as a fraction of 2^32, below 2^32. Behind settle().
   void set_share(std::uint64_t share_q32) {
-    const std::uint64_t kept = (std::uint64_t{1} << 32) - share_q32;
-    stolen_q32_ = static_cast<std::uint64_t>((Wide{share_q32} << 32) / kept);
-    kept_q32_ = kept;
+    if (share_q32 != 0 && share_q32 != share_q32_) {  // it comes and goes, mostly the same one
+      share_q32_ = share_q32;
+      kept_q32_ = (std::uint64_t{1} << 32) - share_q32;
+      stolen_of_share_q32_ = static_cast<std::uint64_t>((Wide{share_q32} << 32) / kept_q32_);
+    }
+    stolen_q32_ = share_q32 == 0 ? 0 : stolen_of_share_q32_;
   }
   void reset(Cycle now) {
     settled_ = now;
@@ -59,7 +62,9 @@ class TwoClocks {
   }
 
   Cycle settled_ = 0, taken_ = 0;
-  std::uint64_t stolen_q32_ = 0, kept_q32_ = std::uint64_t{1} << 32, rest_ = 0;
+  std::uint64_t stolen_q32_ = 0, rest_ = 0;
+  // the last share that was not 0, what it leaves of a true cycle, and what it takes beside one that is left
+  std::uint64_t share_q32_ = 0, kept_q32_ = std::uint64_t{1} << 32, stolen_of_share_q32_ = 0;
 };
 
 }  // namespace dspic

@@ -27,6 +27,7 @@ void* address_of(const std::string& name, void* self, const std::vector<Item>& i
   if (name == kAnswered) return reinterpret_cast<void*>(&answered);
   if (name == kHost) return reinterpret_cast<void*>(&call_host);
   if (name == kTold) return reinterpret_cast<void*>(&tell);
+  if (name == kHeard) return reinterpret_cast<void*>(&hear);
   if (name == kAlone) return reinterpret_cast<void*>(&Cpu::run_alone);
   if (name[0] == kKnownMark) {
     const auto item = static_cast<std::size_t>(std::strtoul(name.c_str() + 1, nullptr, 10));

@@ -27,7 +27,7 @@ struct MachineCode {
 /// that begins there; the one of a call of the host's, and answered().
 std::string interpreter(std::uint32_t word);
 inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "return", *kAlone = "alone",
-                            *kHost = "host", *kTold = "told", *kAnswered = "answered";
+                            *kHost = "host", *kTold = "told", *kHeard = "heard", *kAnswered = "answered";
 
 /// What it calls the known routine that an item calls.
 std::string known_routine(std::size_t item);

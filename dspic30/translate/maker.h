@@ -25,6 +25,7 @@ inline constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                                kRead = "_ZN5dspic3Cpu14read_elsewhereEjj",
                                kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj",
                                kModify = "_ZN5dspic3Cpu16modify_elsewhereEjjjj",
+                               kServed = "_ZN5dspic3Cpu11read_servedEjj",
                                kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
                                kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib",
                                kPsvCost = "_ZN5dspic3Cpu8psv_costEv";
@@ -187,7 +188,9 @@ class Maker {
   struct Effect {
     WeakVH what;
     const Item* item;
-    enum Scope { All, ClockOnly, HostCall, Routine } scope;  // what is put back before it, taken behind it
+    // what is put back before it, taken behind it; behind a Look nothing has changed, not even the deadline
+    enum Scope { All, ClockOnly, HostCall, Routine, Look, LookAtCall } scope;
+    bool is_look() const { return scope == Look || scope == LookAtCall; }
   };
   std::vector<Effect> effects_;
   // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch

@@ -105,7 +105,7 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(end);
     Value* const d = place(aside.item->place);
     ir_.CreateStore(d, field(&cpu_.at, byte_->getPointerTo()));
-    CallInst* const next = called(alone(*aside.item), {cpu_arg_, d});
+    CallInst* const next = called(aside.item->is_told ? kAlone : alone(*aside.item), {cpu_arg_, d});
     pass(aside.item->decoded.cycles - items_[0].decoded.cycles);
     ir_.CreateRet(next);
     end->eraseFromParent();
@@ -140,8 +140,9 @@ bool Maker::put_item(const Item& item) {
     return true;
   }
   Value* const d = place(item.place);
-  Function* const own = item.is_host || item.is_told ? nullptr : semantics_.of(item.word);
+  Function* const own = item.is_host ? nullptr : semantics_.of(item.word);
   CallInst* call;
+  if (item.is_told && own) called(kHeard, {cpu_arg_, d});
   if (own) {
     const FunctionType* const type = own->getFunctionType();
     call = ir_.CreateCall(own, {ir_.CreateBitCast(cpu_arg_, type->getParamType(0)),
@@ -325,6 +326,10 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
     for (Instruction& i : *block) {
       if (is_real_call(i)) {
         auto* const call = cast<CallInst>(&i);
+        if (name_of(*call) == kServed || name_of(*call) == kHeard) {
+          effects_.push_back({call, &item, name_of(*call) == kServed ? Effect::Look : Effect::LookAtCall});
+          continue;
+        }
         if (is_beyond_ram(*call))
           beyond.push_back(call);
         else

@@ -93,12 +93,14 @@ bool Maker::keep_state() {
       const Hot::Field& clock = hot.fields.back();
       const auto sees = [&](const Hot::Field& f) {
         return effect.scope == Effect::All || &f == &clock ||
-               (effect.scope == Effect::HostCall && hot.is_of_call(f)) ||
+               ((effect.scope == Effect::HostCall || effect.scope == Effect::LookAtCall) &&
+                hot.is_of_call(f)) ||
                (effect.scope == Effect::Routine && !hot.is_flag(f));
       };
       for (const Hot::Field& f : hot.fields)
         if (!f.writers.empty() && sees(f)) put_back(f);
       ir_.CreateStore(place(effect.item->place), field(&cpu_.at, byte_->getPointerTo()));
+      if (effect.is_look()) continue;
       ir_.SetInsertPoint(what->getNextNode());
       for (const Hot::Field& f : hot.fields)
         if (f.is_used && (sees(f) || effect.scope == Effect::Routine)) take(f);

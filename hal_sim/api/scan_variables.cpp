@@ -16,13 +16,17 @@ std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
 }  // namespace
 
 ScanVariables::Place ScanVariables::place_of(unsigned address) {
-  unsigned start = kServedStart;
-  for (std::size_t i = 0; i < std::size(kHostRegisters); ++i) {
-    const unsigned end = start + ((kHostRegisters[i].bytes + 1) & ~1u);
-    if (address < end) return {static_cast<HostVariable>(i), (address - start) / 2};
-    start = end;
-  }
-  return {};
+  constexpr std::size_t kWords = (served_address(HostVariable::Count) - kServedStart) / 2;
+  static const std::array<Place, kWords> kPlaces = [] {
+    std::array<Place, kWords> places{};
+    std::size_t word = 0;
+    for (std::size_t i = 0; i < std::size(kHostRegisters); ++i)
+      for (unsigned index = 0; index < (kHostRegisters[i].bytes + 1) / 2; ++index)
+        places[word++] = {static_cast<HostVariable>(i), index};
+    return places;
+  }();
+  const std::size_t word = (address - kServedStart) / 2;
+  return word < kWords ? kPlaces[word] : Place{};
 }
 
 std::uint16_t ScanVariables::Counter::at(std::int64_t interrupts, int most) const {

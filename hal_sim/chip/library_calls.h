@@ -59,6 +59,7 @@ class LibraryCalls final {
   void note_range(const Site& site, const std::string& what, int got, int least, int most,
                   const std::string& then);
   static bool starts(Function f);
+  bool is_right_reading(const Site& site) const;
   void set_speed(const Site& site, int wheel, int speed);
   void activate_agenda(const Site& site);
   static unsigned bit(Function f) { return 1u << static_cast<unsigned>(f); }

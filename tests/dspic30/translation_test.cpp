@@ -186,7 +186,11 @@ struct Host final : dspic::HostCalls {
     if (calls.size() % 7 == 0) cpu.host_changed();
     return dspic::HostResult::done(33);
   }
-  std::uint16_t read(unsigned, Cycle) override { return 0; }
+  std::vector<std::pair<unsigned, Cycle>> reads;
+  std::uint16_t read(unsigned address, Cycle at) override {
+    reads.emplace_back(address, at);
+    return static_cast<std::uint16_t>(at / 3 + address);
+  }
   void write(unsigned, std::uint16_t, std::uint16_t, Cycle) override {}
   Cycle horizon(unsigned, Cycle) override { return dspic::kNever; }
   std::uint16_t peek(unsigned, Cycle) const override { return 0; }
@@ -265,6 +269,55 @@ wait: nop
   // the third one was not met yet when the loop was translated
   EXPECT_EQ(std::count_if(items.begin(), items.end(), [](const auto& item) { return item.is_host; }), 2);
   EXPECT_EQ(items.size(), 10u);
+}
+
+// what the host serves is read in the middle of a stretch, words and bytes, at the same cycles as interpreted
+TEST(Translation, served_variables_are_read_within_a_stretch) {
+  const std::string text = R"(__reset: mov #0x2700, w0
+    mov w0, SPLIM
+    nop
+    mov #0x0A00, w15
+    mov #99, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+    bset IEC0, #T1IE
+    mov #0x0804, w10
+    mov #0x0906, w11
+    clr w3
+    clr w5
+    clr w7
+loop: mov [w10++], w2
+    add w2, w3, w3
+    mov.b [w10-1], w4
+    ze w4, w4
+    mov [--w10], w6
+    add w4, w5, w5
+    add w6, w5, [w11]
+    inc w7, w7
+    bra loop
+__T1Interrupt: bclr IFS0, #T1IF
+    inc 0x0904
+    retfie)";
+  Host hosts[2];
+  CoreBench benches[2] = {CoreBench(text, {}, false), CoreBench(text, {}, false)};
+  Onlooker onlooker;
+  for (int i = 0; i < 2; ++i) {
+    CoreBench& b = benches[i];
+    b.cpu = std::make_unique<dspic::Processor>(*b.chip, b.program, nullptr, &hosts[i], 0x0900);
+    if (i == 0) continue;
+    b.cpu->set_translator(&onlooker);
+    b.cpu->translate_all();
+  }
+  Draw draw{11};
+  for (Cycle end = 0; end < 100000; end += 1 + draw(draw(3) ? 3000 : 60)) {
+    for (CoreBench& b : benches) b.run(end);
+    ASSERT_EQ(benches[0].cpu->now(), benches[1].cpu->now());
+    ASSERT_EQ(benches[0].cpu->state_hash(), benches[1].cpu->state_hash());
+  }
+  EXPECT_EQ(hosts[0].reads, hosts[1].reads);
+  EXPECT_GT(hosts[0].reads.size(), 10000u);
+  EXPECT_EQ(onlooker.stretches[benches[1].symbol("loop")].size(), 9u);
 }
 
 // --- routines that are known by heart ----------------------------------------------------------------------
