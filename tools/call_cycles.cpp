@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <utility>
 
 #include "dspic30/memory/sfr_table.h"
 #include "hal_sim/api/host_table.h"
@@ -29,7 +30,8 @@ constexpr int kT2 = dspic::kFirstIrqVector + dspic::irq::T2, kAdc = dspic::kFirs
               kMathError = 4, kStack = 15;
 constexpr int kCallCycles = 2, kEntryAndReturn = 7;  // of an interrupt: entry 4, RETFIE 3 [DS70143 5.4]
 constexpr int kFrames = 65;
-constexpr int kPhases = 2;  // cycles
+constexpr int kPhases = 2;                    // cycles
+constexpr int kDark = 0x1235, kLit = 0x0777;  // values that no register has otherwise
 
 /// What happens in the program: code that is not measured, then what is.
 struct Scene {
@@ -171,6 +173,14 @@ const Scene kScenes[] = {
      "run_left_motor(); "
      "e_set_speed_left(0);",
      "run_left_motor();"},
+    // readings of what stands there
+    {"prox", "e_ambient_ir[3] = DARK; e_ambient_and_reflected_ir[3] = LIT;", "sink = e_get_prox(3);"},
+    {"prox_none", "", "sink = e_get_prox(77);"},
+    {"calibrated", "", "sink = e_get_calibrated_prox(3);"},
+    {"calibrated_none", "", "sink = e_get_calibrated_prox(77);"},
+    {"light", "", "sink = e_get_ambient_light(3);"},
+    {"light_none", "", "sink = e_get_ambient_light(77);"},
+    {"calibrated_zero", "e_ambient_ir[3] = LIT;", "sink = e_get_calibrated_prox(3);"},
     // scan
     {"on:scan_micro", "e_set_speed(0, 0);", "e_init_ad_scan(MICRO_ONLY);"},
     {"frames:micro", "", "wait_frames(80);"},
@@ -185,11 +195,13 @@ const Scene kScenes[] = {
 };
 
 const char* const kHead = R"(#include <p30F6014A.h>
+#include <a_d/advance_ad_scan/e_prox.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
 #include <motor_led/advance_one_timer/e_motors.h>
 #include <motor_led/e_init_port.h>
 extern unsigned int e_last_acc_scan_id, tickAdcIsr;
+extern int e_ambient_ir[], e_ambient_and_reflected_ir[];
 void run_left_motor(void);
 void run_right_motor(void);
 volatile int scene, done, sink;
@@ -212,7 +224,7 @@ int main(void) {
 )";
 
 std::string source() {
-  std::string text = kHead;
+  std::string text = fmt::format("#define DARK {}\n#define LIT {}\n", kDark, kLit) + kHead;
   int n = 0;
   for (const Scene& s : kScenes)
     text += fmt::format("  {} scene = {}; {} scene = 0;\n", s.before, ++n, s.code);
@@ -225,6 +237,7 @@ std::string source() {
 struct Taken {
   Cycle call = -1;            // the call, from behind it to behind RETURN
   Cycle on = -1;              // of it, until the converter is on
+  Cycle dark = -1, lit = -1;  // of it, until the instruction that reads that value
   Cycle filled = -1;          // of it, behind the last handler's end
   std::vector<Cycle> walk;    // the T2 handler, cut at calls
   std::vector<Cycle> began;   // ADC handlers' flags were served
@@ -253,6 +266,7 @@ class Watch final : public chip::StepWatch {
       called_at_ = -1;
     }
     if (called_at_ >= 0) {
+      note_reads(t, step);
       if (t.on < 0 && runner_.device().peek(kAdcon1, step.end) & kAdon) t.on = step.end - called_at_;
       if (stack + 4 == stack_ && step.next == back_) {
         if (t.call < 0) t.call = step.end - called_at_, t.filled = step.end - last_frame_;
@@ -260,6 +274,7 @@ class Watch final : public chip::StepWatch {
       }
     } else if (functions_.count(step.next) && step.entered == dspic::kNoVector && step.next != step.pc + 2) {
       called_at_ = step.end;
+      for (int n = 0; n < kFree; ++n) before_[n] = cpu.w(n);
       stack_ = stack;
       back_ = cpu.ram(stack - 4) | cpu.ram(stack - 3) << 8 | (cpu.ram(stack - 2) & 0x7F) << 16;
     }
@@ -304,6 +319,17 @@ class Watch final : public chip::StepWatch {
     }
   }
 
+  /// The first step that leaves a sample, or the difference of both, in a register.
+  void note_reads(Taken& t, const Step& step) {
+    for (int n = 0; n < kFree; ++n) {
+      const int value = runner_.processor().w(n);
+      const bool is_difference = value == kDark - kLit;
+      if (value == std::exchange(before_[n], value)) continue;
+      if (t.dark < 0 && (value == kDark || is_difference)) t.dark = step.begin - called_at_;
+      if (t.lit < 0 && (value == kLit || is_difference)) t.lit = step.begin - called_at_;
+    }
+  }
+
   static void note_push(Taken& t, std::uint32_t word) {
     if ((word & 0xFFFFF0) == 0x781F80) t.saved |= 1u << (word & 15);  // MOV Wn, [W15++]
     if ((word & 0xFFFFF0) == 0xBE9F80) t.saved |= 3u << (word & 15);  // MOV.D Wn, [W15++]
@@ -314,6 +340,8 @@ class Watch final : public chip::StepWatch {
   std::vector<Taken> scenes_;
   std::set<unsigned> functions_;
   unsigned scene_at_ = 0, stack_ = 0, back_ = 0, handler_stack_ = 0, depth_ = 0;
+  static constexpr int kFree = 8;  // W0 to W7
+  int before_[kFree] = {};
   Cycle called_at_ = -1, since_ = 0, frame_since_ = -1, last_frame_ = 0;
   bool walked_ = false;
 };
@@ -464,6 +492,13 @@ std::map<std::string, int> call_cycles(const std::string& level, std::vector<std
   c["share_motor_half"] = firing("half", c["run_half_own"]);
   c["share_motor_off"] = firing("off", c["run_half_own"]);
   c["share_motor_step"] = firing("step", 0);
+  // readings
+  copy({"prox", "prox_none", "calibrated", "calibrated_none", "calibrated_zero", "light", "light_none"});
+  for (const std::string f : {"prox", "calibrated"}) {
+    c[f + "_dark"] = static_cast<int>(of.at(f)->dark);
+    c[f + "_lit"] = static_cast<int>(of.at(f)->lit);
+  }
+  c["light_dark"] = static_cast<int>(of.at("light")->dark);
   // scan
   const auto part = [&](const std::vector<Taken>& all, const char* name) -> const Taken& {
     for (std::size_t i = 0; i < std::size(kScenes); ++i)
@@ -589,6 +624,18 @@ std::string call_cycles_text(const std::vector<std::map<std::string, int>>& leve
       {"share_motor_half", "a motor in it, beside an agenda that counts: a step below 601"},
       {"share_motor_off", "coils off"},
       {"share_motor_step", "a step above 600"},
+      {"prox", "e_get_prox()"},
+      {"prox_dark", "of it, until it reads the dark value"},
+      {"prox_lit", "... the lit one"},
+      {"prox_none", "of a sensor that there is not"},
+      {"calibrated", "e_get_calibrated_prox(), the same"},
+      {"calibrated_zero", "below the calibration"},
+      {"calibrated_dark", ""},
+      {"calibrated_lit", ""},
+      {"calibrated_none", ""},
+      {"light", "e_get_ambient_light(), the same"},
+      {"light_dark", ""},
+      {"light_none", ""},
       {"scan_all", "e_init_ad_scan(ALL_ADC) until the converter is on"},
       {"scan_all_gumstix", "at selector position 10"},
       {"scan_all_return", "from there, when the buffer is full"},

@@ -26,7 +26,9 @@ namespace dspic::link {
 /// A driver of the library that the host can stand in for. Names as in C.
 struct HostDriver {
   std::string name;
-  std::map<std::string, unsigned> functions;                ///< and their places (host_places.h)
+  std::map<std::string, unsigned> functions;  ///< and their places (host_places.h)
+  /// Of other files, which only read its variables: filled with it where they are the library's.
+  std::map<std::string, unsigned> shortcuts;
   std::vector<std::pair<std::string, unsigned>> registers;  ///< public variables, in order, and their bytes
   std::set<std::string> owned;  ///< registers and handlers: "T2CON", "T2Interrupt"
 };

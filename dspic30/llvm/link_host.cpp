@@ -6,7 +6,8 @@
 //   hal_dspic   _e_set_speed_left:  MOV ...      hal_sim   _e_set_speed_left:  GOTO kHostStart + 2 i
 //               __T2Interrupt:      PUSH ...               (vector: as if there were no handler)
 //
-// A driver of which the program has a part, or whose registers somebody else names, stays as it is.
+// Functions of other files that only read the drivers' variables are filled likewise (shortcuts). A driver of
+// which the program has a part, or whose registers somebody else names, stays as it is.
 #include <algorithm>
 
 #include "dspic30/core/instruction_table.h"
@@ -26,6 +27,12 @@ constexpr std::uint32_t kRam = 0x0800;
 constexpr std::uint32_t kHandleOctets = 8;  // a GOTO has two words
 
 bool is_variable(const Symbol& s) { return s.section && s.section->kind == Kind::Ram; }
+
+/// A function of the library, in a section of its own in which a GOTO has room.
+bool is_alone(const Symbol& s) {
+  return s.section && s.section->is_hal && s.section->kind == Kind::Code && s.value == 0 &&
+         s.section->size >= kHandleOctets;
+}
 
 /// What a program has of one driver.
 class Look {
@@ -80,11 +87,7 @@ class Look {
   }
   static bool is_there(const Symbol& s) { return s.is_defined && (!s.section || s.section->used); }
 
-  /// A function of the library, in a section of its own in which a GOTO has room.
-  bool can_be_filled(const Symbol& s) const {
-    return s.section && is_drivers(*s.section) && s.section->kind == Kind::Code && s.value == 0 &&
-           s.section->size >= kHandleOctets;
-  }
+  bool can_be_filled(const Symbol& s) const { return is_alone(s) && is_drivers(*s.section); }
   /// The library's variable, or one of the program's that takes its place, with nothing beside it.
   static bool can_be_served(const Symbol& s, unsigned bytes) {
     return is_variable(s) && s.value == 0 && s.section->size <= bytes && can_lie_anywhere(*s.section);
@@ -179,6 +182,14 @@ void fill_by_host(Program& program, const Options& options) {
   const auto erase = [&](const Section& s) {
     for (std::uint32_t i = 0; i < s.size / 2; i += 2) program.words.erase(s.address + i);
   };
+  // its code is gone, and a GOTO leads to the host
+  const auto fill = [&](Section& s, unsigned index) {
+    const std::uint32_t to = kHostStart + 2 * index;
+    s.relocations.clear();
+    s.size = kHandleOctets;
+    s.bytes = {std::uint8_t(to), std::uint8_t(to >> 8), 0x04, 0, std::uint8_t(to >> 16), 0, 0, 0};
+    put_section(program, s);
+  };
   for (const HostChoice& choice : program.host) {
     if (!choice.why_not.empty()) continue;
     const Look look(program, *choice.driver);
@@ -196,11 +207,15 @@ void fill_by_host(Program& program, const Options& options) {
         s.used = false;  // its place stays empty
         continue;
       }
-      const std::uint32_t to = kHostStart + 2 * function->second;
-      s.relocations.clear();
-      s.size = kHandleOctets;
-      s.bytes = {std::uint8_t(to), std::uint8_t(to >> 8), 0x04, 0, std::uint8_t(to >> 16), 0, 0, 0};
-      put_section(program, s);
+      fill(s, function->second);
+    }
+    for (const auto& [name, index] : choice.driver->shortcuts) {
+      const auto found = program.globals.find("_" + name);
+      if (found == program.globals.end() || !is_alone(*found->second) || !found->second->section->used)
+        continue;
+      erase(*found->second->section);
+      fill(*found->second->section, index);
+      found->second->size = kHandleOctets;
     }
     for (const auto& [name, index] : choice.driver->functions)
       if (Symbol* s = program.global("_" + name); s->section && s->section->used) s->size = kHandleOctets;

@@ -9,7 +9,7 @@
 #define CALIBRATION_ROUNDS 100
 #define CALIBRATION_PAUSE_ROUNDS 1000 /* after each reading */
 
-static int free_space[IR_CHANNELS];
+int hal_free_space[IR_CHANNELS]; /* readings with nothing near */
 
 int e_get_prox(unsigned int sensor_number) {
   if (sensor_number >= IR_CHANNELS) return 0;
@@ -20,7 +20,7 @@ int e_get_prox(unsigned int sensor_number) {
 int e_get_calibrated_prox(unsigned int sensor_number) {
   int reading;
   if (sensor_number >= IR_CHANNELS) return 0;
-  reading = e_get_prox(sensor_number) - free_space[sensor_number];
+  reading = e_get_prox(sensor_number) - hal_free_space[sensor_number];
   return reading > 0 ? reading : 0;
 }
 
@@ -35,7 +35,7 @@ void e_calibrate_ir() {
   int round;
   unsigned int sensor;
   for (sensor = 0; sensor < IR_CHANNELS; sensor++) {
-    free_space[sensor] = 0;
+    hal_free_space[sensor] = 0;
     sum[sensor] = 0;
   }
   for (round = 0; round < CALIBRATION_ROUNDS; round++) {
@@ -47,5 +47,5 @@ void e_calibrate_ir() {
     } while (++sensor < IR_CHANNELS);
   }
   for (sensor = 0; sensor < IR_CHANNELS; sensor++)
-    free_space[sensor] = (int)((float)sum[sensor] / CALIBRATION_ROUNDS);
+    hal_free_space[sensor] = (int)((float)sum[sensor] / CALIBRATION_ROUNDS);
 }

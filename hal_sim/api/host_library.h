@@ -44,6 +44,7 @@ class HostLibrary final : public dspic::HostCalls {
   struct Served {
     bool agenda = true, scan = true;
     Level level = Level::O1;
+    unsigned free_space = 0;  ///< address of hal_free_space (firmware/library/e_prox.c)
   };
   /// `board` outlives this.
   HostLibrary(board::Board& board, Served served);
@@ -119,6 +120,8 @@ class HostLibrary final : public dspic::HostCalls {
   Cycle cost_of_half(board::Wheel wheel) const;
 
   // --- scan
+  int reading(const Call& call, unsigned sensor, Cycle dark_after, Cycle lit_after);
+  int look_at(const Call& call, HostVariable which, unsigned index, Cycle after);
   drivers::AdcScan& scan() { return drivers_->scan(); }
   const drivers::AdcScan& scan() const { return drivers_->scan(); }
 

@@ -9,6 +9,7 @@ namespace api {
 
 struct HostName {
   const char *driver, *name;
+  bool is_shortcut = false;
 };
 struct HostRegister {
   const char *driver, *name;
@@ -16,6 +17,7 @@ struct HostRegister {
 };
 
 #define HOST_FUNCTION(driver, name) {#driver, #name},
+#define HOST_SHORTCUT(driver, name) {#driver, #name, true},
 /// At their places.
 inline constexpr HostName kHostFunctions[] = {
 #include "hal_sim/api/host_table.inc"

@@ -20,6 +20,10 @@ class ScanVariables {
   void reset();
 
   std::uint16_t read(unsigned address, Cycle at);
+  /// Word `index` of an array of samples, by now.
+  std::uint16_t read(HostVariable array, unsigned index, Cycle at) const {
+    return sample({array, index}, at, true);
+  }
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at);
   /// Until when a read gives the same, > at.
   Cycle horizon(unsigned address, Cycle at);

@@ -43,7 +43,8 @@ void add_host_table(std::vector<std::string>& argv, const fs::path& library, boo
   const auto of = [](const auto& row) { return std::string(row.driver) + ":" + row.name; };
   int place = 0;
   for (const auto& row : api::kHostFunctions)
-    argv.insert(argv.end(), {"--host", of(row) + "=" + std::to_string(place++)});
+    argv.insert(argv.end(),
+                {row.is_shortcut ? "--host-shortcut" : "--host", of(row) + "=" + std::to_string(place++)});
   for (const auto& row : api::kHostRegisters)
     argv.insert(argv.end(), {"--register", of(row) + "=" + std::to_string(row.bytes)});
   for (const auto& row : api::kHostOwned) argv.insert(argv.end(), {"--owned", of(row)});

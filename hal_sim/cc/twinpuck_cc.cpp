@@ -157,12 +157,13 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
   value.getAsInteger(0, number);
   for (auto& known : o.host)
     if (known.name == driver) return known;
-  o.host.push_back({driver.str(), {}, {}, {}});
+  o.host.push_back({driver.str(), {}, {}, {}, {}});
   return o.host.back();
 }
 
 /// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
 /// Of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
+/// [--host-shortcut DRIVER:FUNCTION=PLACE]...
 /// [--register DRIVER:VARIABLE=BYTES]... [--owned DRIVER:T2CON]...; --fill SUM fills them. --no-texts:
 /// neither .lst nor .map.
 int link(int argc, char** argv) {
@@ -181,12 +182,14 @@ int link(int argc, char** argv) {
       const auto [from, to] = StringRef(pair).split('=');
       auto& pairs = a == "--source" ? o.sources : a == "--rename" ? o.renames : o.library_renames;
       pairs[from.str()] = to.str();
-    } else if (a == "--host" || a == "--register" || a == "--owned") {
+    } else if (a == "--host" || a == "--host-shortcut" || a == "--register" || a == "--owned") {
       std::string name;
       unsigned number;
       auto& driver = host_driver(o, value(), name, number);
       if (a == "--host")
         driver.functions[name] = number;
+      else if (a == "--host-shortcut")
+        driver.shortcuts[name] = number;
       else if (a == "--register")
         driver.registers.emplace_back(name, number);
       else

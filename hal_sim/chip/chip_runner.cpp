@@ -25,7 +25,9 @@ api::HostLibrary::Served served_by(const dspic::FirmwareFile& file) {
     }
     return false;
   };
-  api::HostLibrary::Served served{is_filled("agenda"), is_filled("scan"), api::Level::O1};
+  api::HostLibrary::Served served{is_filled("agenda"), is_filled("scan"), api::Level::O1, 0};
+  if (const auto found = file.objects.find("hal_free_space"); found != file.objects.end())
+    served.free_space = found->second;
   if (const auto level = file.marks.find(dspic::kLibraryLevelSymbol); level != file.marks.end())
     served.level = static_cast<api::Level>(std::min<std::uint32_t>(level->second, 3));
   return served;

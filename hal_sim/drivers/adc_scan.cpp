@@ -206,7 +206,13 @@ int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   return kept.counts;
 }
 
+// in darkness, once there is a dark sample, the others are the same
+bool AdcScan::stays_dark(int sensor) const {
+  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && board_.is_dark();
+}
+
 int AdcScan::dark(int sensor, Cycle at) {
+  if (stays_dark(sensor)) return kAdcMax;
   Sample& kept = dark_[static_cast<std::size_t>(sensor)];
   const int counts = read(kept, sensor, at, false);
   const auto bit = static_cast<std::uint16_t>(1 << sensor);
@@ -221,9 +227,7 @@ int AdcScan::lit(int sensor, Cycle at) {
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {
   const int lit = this->lit(sensor, at);
   const Cycle until = lit_[static_cast<std::size_t>(sensor)].until;
-  // in darkness, once there is a dark sample, the others are the same
-  if ((regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && board_.is_dark())
-    return {kAdcMax, lit, until};
+  if (stays_dark(sensor)) return {kAdcMax, lit, until};
   const int dark = this->dark(sensor, at);
   return {dark, lit, std::min(until, dark_[static_cast<std::size_t>(sensor)].until)};
 }

@@ -125,6 +125,8 @@ class AdcScan {
   std::int64_t lit_number(int sensor, Cycle at) const;
 
  private:
+  /// Is its dark value the one that darkness gives, for as long as nothing shines?
+  bool stays_dark(int sensor) const;
   struct Sample {
     Cycle until = 0;           // the next sample of this kind arrives then; 0: not known
     std::int32_t number = -1;  // lasts 3 months at 235 periods a second

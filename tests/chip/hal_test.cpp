@@ -151,6 +151,7 @@ sim::WorldDesc world_with(const std::string& name, const std::string& program) {
 const char* const kHead = R"(
 #include <p30F6014A.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
 #include <motor_led/advance_one_timer/e_motors.h>
 #include <motor_led/e_init_port.h>
@@ -172,6 +173,7 @@ static void (*const functions[6])(void) = {f0, f1, f2, f3, run_left_motor, run_r
 static unsigned int seed = 12345;
 static unsigned int chance(unsigned int below) { seed = seed * 25173 + 13849; return (seed >> 4) % below; }
 static const int speeds[8] = {0, 1, 300, 600, 601, 1000, 1001, 32767};
+extern int e_ambient_ir[10], e_ambient_and_reflected_ir[10], hal_free_space[10];
 static unsigned int __attribute__((noinline)) call(unsigned int what, void (*function)(void), int number, int other) {
   switch (what) {
     case 0: case 1: case 2: return e_activate_agenda(function, number);
@@ -191,18 +193,27 @@ static unsigned int __attribute__((noinline)) call(unsigned int what, void (*fun
     case 16: return e_ad_is_array_filled();
     case 17: return e_ad_is_acquisition_completed();
     case 18: e_end_agendas_processing(); return 0;
+    case 19: return e_get_prox(other);
+    case 20: return e_get_calibrated_prox(other);
+    case 21: return e_get_ambient_light(other);
     default: e_ad_scan_off(); return 0;
   }
 }
 int main(void) {
   unsigned int i;
   T4CON = 0; PR4 = 0xFFFF; T4CONbits.TON = 1;
+  for (i = 0; i < 10; i++) {
+    e_ambient_ir[i] = chance(4096);
+    e_ambient_and_reflected_ir[i] = chance(4096);
+    hal_free_space[i] = chance(2000);
+  }
   for (i = 0; i < CALLS; i++) {
-    unsigned int what = chance(20), begun;
+    unsigned int what = chance(23), begun;
     void (*function)(void) = functions[chance(6)];
     int number = speeds[chance(8)], other = speeds[chance(8)];
     if (chance(2)) number = -number;
     if (chance(2)) other = -other;
+    if (what >= 19) other = chance(12) - 1;
     IEC0bits.T2IE = chance(2);
     asked[i] = what;
     begun = TMR4;

@@ -167,7 +167,6 @@ TEST(TwoHals, drivers_are_filled_and_all_else_stays_where_it_is) {
     EXPECT_TRUE(is_filled(pair.sim, function)) << function;
     EXPECT_FALSE(is_filled(pair.dspic, function)) << function;
   }
-  EXPECT_FALSE(is_filled(pair.sim, "e_get_prox"));
   EXPECT_FALSE(is_filled(pair.sim, "e_init_port"));
   expect_same_places(pair, "both");
   // nobody's handlers, as without drivers; the others' vectors are the same
@@ -181,6 +180,27 @@ TEST(TwoHals, drivers_are_filled_and_all_else_stays_where_it_is) {
   }
   EXPECT_EQ(pair.sim.objects.count("agendas"), 0u);
   EXPECT_EQ(pair.dspic.objects.count("agendas"), 1u);
+}
+
+// readings are filled with the scan, but for what the program has of its own, or where the scan is the chip's
+TEST(TwoHals, readings_are_filled_where_they_are_the_librarys) {
+  const std::string text = kBoth, used = "void (*more_)(void) = more;\n";
+  const Pair pair =
+      program(text + "void more(void) { e_calibrate_ir(); own[1] = e_get_ambient_light(2); }\n" + used);
+  EXPECT_TRUE(is_filled(pair.sim, "e_get_prox"));
+  EXPECT_TRUE(is_filled(pair.sim, "e_get_ambient_light"));
+  EXPECT_FALSE(is_filled(pair.sim, "e_calibrate_ir"));
+  EXPECT_FALSE(is_filled(pair.dspic, "e_get_prox"));
+  expect_same_places(pair, "readings");
+  const Pair own =
+      program(text + "int __attribute__((noinline)) e_get_prox(unsigned int n) { return table[n]; }\n");
+  EXPECT_EQ(own.notes(), "");
+  EXPECT_FALSE(is_filled(own.sim, "e_get_prox"));
+  EXPECT_TRUE(is_filled(own.sim, "e_init_ad_scan"));
+  expect_same_places(own, "its own reading");
+  const Pair chips = program(text + "void more(void) { ADCON1bits.ADON = 0; }\n" + used);
+  EXPECT_NE(chips.notes(), "");
+  EXPECT_FALSE(is_filled(chips.sim, "e_get_prox"));
 }
 
 // the pointer in RAM has the function's own address, in both: its start value is read from the image
