@@ -514,6 +514,9 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  bool is_plain_frame(unsigned begin, unsigned words) const;
+  void push_frame(unsigned registers, int words);
+  void pop_frame(unsigned registers, int words);
   /// The deadline is no later than `at`, which is true time.
   void hurry_to(Cycle at) {
     deadline = std::min(deadline, clocks.program_at(at));

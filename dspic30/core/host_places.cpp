@@ -135,6 +135,47 @@ void Cpu::stand(Cycle until, const Decoded* d) {
 
 // --- handlers known by heart
 
+/// Of the stack, `words` from `begin` on: are they plain RAM below the limit, and nobody notes it?
+bool Cpu::is_plain_frame(unsigned begin, unsigned words) const {
+  const unsigned end = begin + 2 * words;
+  return !watching && !(begin & 1) && begin >= plain_start && end <= kRamEnd && (!splim_on || end <= splim);
+}
+
+// registers from W0 up, then RCOUNT, PSVPAG, and others that are nobody's affair
+void Cpu::push_frame(unsigned registers, int words) {
+  const auto other = [&](int i) { return i == 0 ? rcount : i == 1 ? psvpag : std::uint16_t{0}; };
+  const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
+  if (!is_plain_frame(w[15], count)) {
+    for (unsigned left = registers; left != 0; left &= left - 1) push(w[__builtin_ctz(left)]);
+    for (int i = 0; i < words; ++i) push(other(i));
+    return;
+  }
+  unsigned at_byte = w[15] - kRamStart;
+  for (unsigned left = registers; left != 0; left &= left - 1, at_byte += 2)
+    store(at_byte, w[__builtin_ctz(left)]);
+  for (int i = 0; i < words; ++i, at_byte += 2) store(at_byte, other(i));
+  w[15] = static_cast<std::uint16_t>(at_byte + kRamStart);
+}
+
+void Cpu::pop_frame(unsigned registers, int words) {
+  const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
+  const unsigned begin = w[15] - 2 * count;
+  const bool is_plain = is_plain_frame(begin, count);
+  unsigned at_byte = w[15] - kRamStart;
+  const auto next_word = [&] { return static_cast<std::uint16_t>(is_plain ? load(at_byte -= 2) : pop()); };
+  for (int i = words; i-- > 0;) {
+    const std::uint16_t word = next_word();
+    if (i == 0) rcount = word & saved_register(kRcount).bits;
+    if (i == 1) psvpag = word & saved_register(kPsvpag).bits;
+  }
+  for (unsigned left = registers; left != 0;) {
+    const unsigned highest = 31u - static_cast<unsigned>(__builtin_clz(left));
+    w[highest] = next_word();
+    left &= ~(1u << highest);
+  }
+  if (is_plain) w[15] = static_cast<std::uint16_t>(begin);
+}
+
 // as the interrupt and the handler's first instructions do
 void Cpu::begin_handler() {
   const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
@@ -146,11 +187,7 @@ void Cpu::begin_handler() {
   const int vector = host->vector(0);
   now = parts.interrupts.enter(vector, now).first_instruction;
   parts.interrupts.note_cleared(vector);
-  const unsigned registers = host->saved_registers();
-  for (unsigned i = 0; i < 15; ++i)
-    if (registers >> i & 1) push(w[i]);
-  const int words = host->saved_words();
-  for (int i = 0; i < words; ++i) push(i == 0 ? rcount : i == 1 ? psvpag : 0);
+  push_frame(host->saved_registers(), host->saved_words());
   ++host_handlers;
   host->begin_handler(now);
   next = go_on_with_handler(next);
@@ -174,14 +211,7 @@ const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
   host->end_handler(now);
   --host_handlers;
   host_stale = true;
-  for (int i = host->saved_words(); i-- > 0;) {
-    const auto word = static_cast<std::uint16_t>(pop());
-    if (i == 0) rcount = word & saved_register(kRcount).bits;
-    if (i == 1) psvpag = word & saved_register(kPsvpag).bits;
-  }
-  const unsigned registers = host->saved_registers();
-  for (unsigned i = 15; i-- > 0;)
-    if (registers >> i & 1) w[i] = static_cast<std::uint16_t>(pop());
+  pop_frame(host->saved_registers(), host->saved_words());
   now += kInterruptReturnCycles;
   const Decoded* const following = return_from_handler(from);
   return following;

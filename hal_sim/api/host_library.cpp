@@ -65,8 +65,15 @@ void HostLibrary::begin(Cycle at) {
 
 HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
   if (index >= kHostFunctionCount) return {};
-  if (watch_ && !again) watch_->called(static_cast<HostFunction>(index));
+  if (watch_ && !again && !is_right_reading(cpu, index)) watch_->called(static_cast<HostFunction>(index));
   return (this->*kMethods[index])({cpu, index, at, again});
+}
+
+/// By far the most calls: of a sensor that there is, and a scan was started. Nobody need hear of them.
+bool HostLibrary::is_right_reading(const Cpu& cpu, unsigned index) const {
+  return index >= static_cast<unsigned>(HostFunction::e_get_prox) &&
+         index <= static_cast<unsigned>(HostFunction::e_get_ambient_light) &&
+         cpu.w[0] < board::kRingSensors && variables_.was_started();
 }
 
 void HostLibrary::note(std::uint64_t what, Cycle at) {

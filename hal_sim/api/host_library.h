@@ -95,6 +95,7 @@ class HostLibrary final : public dspic::HostCalls {
   static const std::array<Method, kHostFunctionCount> kMethods;
 
   void begin(Cycle at);
+  bool is_right_reading(const Cpu& cpu, unsigned index) const;
   void note(std::uint64_t what, Cycle at);
   void effect(const Call& call);
   void follow_ticks(Cycle at);

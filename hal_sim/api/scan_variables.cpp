@@ -105,7 +105,7 @@ std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
 }
 
 std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
-  if (const Written* written = written_at(place);
+  if (const Written* written = overlay_ ? written_at(place) : nullptr;
       written && written->number != kNobody &&
       std::max<std::int64_t>(-1, number_of(place, at)) <= written->number)
     return written->value;

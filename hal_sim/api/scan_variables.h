@@ -24,6 +24,8 @@ class ScanVariables {
   std::uint16_t read(HostVariable array, unsigned index, Cycle at) const {
     return sample({array, index}, at, true);
   }
+  /// Since the last reset.
+  bool was_started() const { return scan_.starts() > 0; }
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at);
   /// Until when a read gives the same, > at.
   Cycle horizon(unsigned address, Cycle at);
