@@ -84,8 +84,8 @@ class Cpu final : public SfrOwner {
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
   /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
-  /// about a quarter of what translating it will, which later runs need not do again. 0: at once, for tests.
-  int hot = 64;
+  /// about half as long as translating it will, which later runs need not do again. 0: at once, for tests.
+  int hot = 128;
 
   void reset();
   /// All words are decoded again, for this robot alone.

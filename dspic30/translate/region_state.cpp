@@ -139,6 +139,8 @@ void Maker::optimise() {
   passes.add(createEarlyCSEPass());
   passes.add(createInstructionCombiningPass());
   passes.add(createCFGSimplificationPass());
+  passes.add(createEarlyCSEPass());
+  passes.add(createSinkingPass());
   passes.doInitialization();
   passes.run(*function_);
 }

@@ -74,10 +74,10 @@ struct Compiler {
     const Target* const target = TargetRegistry::lookupTarget(LLVM_HOST_TRIPLE, error);
     if (!target) return;
     TargetOptions options;
-    options.EnableFastISel = true;  // makes code in two thirds of the time, hardly slower
+    options.EnableFastISel = false;
     // it may lie anywhere, and so may what it calls
     machine.reset(target->createTargetMachine(LLVM_HOST_TRIPLE, "", "", options, Reloc::Static,
-                                              CodeModel::Large, CodeGenOpt::Less));
+                                              CodeModel::Large, CodeGenOpt::Default));
     const StringRef bitcode(dspic_semantics, static_cast<std::size_t>(dspic_semantics_end - dspic_semantics));
     if (auto module = getLazyBitcodeModule({bitcode, "semantics"}, context))
       semantics = std::make_unique<Semantics>(std::move(*module));
