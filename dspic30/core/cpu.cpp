@@ -147,6 +147,9 @@ void Cpu::reset() {
   window = Window::Plain;
   power = Power::On;
   reset_due.reset();
+  host_again = false;
+  host_handlers = 0;
+  host_stale = true;
   written = 0;
   splim = tblpag = psvpag = rcount = modcon = xbrev = 0;
   corcon = kCorconAtReset;
@@ -172,7 +175,8 @@ unsigned Cpu::address_of(const Decoded* d) const {
 
 const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
   if (address < kFlashEnd) return arrive(code_ + address / 2);
-  if (host && is_host_place(address)) {
+  // nobody gets to a function there but by the linker's handle
+  if (address == kHostHandlerReturn && host_handlers > 0) {
     host_again = false;
     return host_place(address);
   }
@@ -211,6 +215,8 @@ void Cpu::mark_head(const Decoded* first) {
 }
 
 const Decoded* Cpu::jump_back(unsigned address, const Decoded* from) {
+  host_again = host && is_host_place(address) && address != kHostHandlerReturn;
+  if (host_again) return host_place(address);
   if (address >= kFlashEnd) return jump(address, from);
   const Decoded* const target = code_ + address / 2;
   if (!is_decoded(target)) decode(target);

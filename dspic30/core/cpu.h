@@ -376,15 +376,15 @@ class Cpu final : public SfrOwner {
   bool host_stale = true;
   bool host_followed = false;  ///< since Processor::run() looked last: its deadlines are of a clock of before
   bool host_comes = false;     ///< the handler that calls the program is not switched off
-  bool host_held = true;       ///< ... but held off
-  Cycle host_due = kNever;     ///< when it comes next
+  bool host_is_held = true;    ///< one of the handlers is held off
+  Cycle host_due = kNever;     ///< when the next one comes that calls the program
   Cycle stop_at = kNever;      ///< true time: `deadline` but for that handler and for looks
   Cycle pause_at = kNever;     ///< ... when a look for a wait comes
   std::int64_t writes_seen = 0;  ///< to registers, when Processor::run() looked last
   bool host_again = false;       ///< the function of the host that stands there has been called already
-  int host_handlers = 0;         ///< handlers known by heart under way
-  /// A handler known by heart is due: it begins, as an interrupt does.
-  void begin_handler();
+  int host_handlers = 0;         ///< handlers known by heart under way, or left by a jump
+  /// A handler known by heart is entered, as an interrupt is; go_on_with_handler() is next.
+  void enter_handler();
   /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
   const Decoded* go_on_with_handler(const Decoded* from);
   /// RETFIE's work: level, flags and place of the program from the stack.

@@ -125,9 +125,7 @@ const Decoded* Cpu::return_from_handler(const Decoded* from) {
   deadline = 0;
   returned = true;
   const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);
-  const Decoded* const following = jump_back(address, from);
-  if (is_host_place(address)) host_again = true;
-  return following;
+  return jump_back(address, from);
 }
 
 Run choose_flow(Insn id, const Fields& f) {

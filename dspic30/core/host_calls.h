@@ -59,7 +59,8 @@ class HostCalls {
   virtual Cycle due() const = 0;
   /// What handlers that call nothing take of each cycle, as a fraction of 2^32. Read as due() is.
   virtual std::uint64_t share_q32() const = 0;
-  /// The handler that is due begins: its entry as an interrupt is the core's. Its vector is vector(0).
+  /// The handler that is due, or pending, begins: its entry as an interrupt is the core's. Its vector is
+  /// vector(0). One that has not ended is begun anew.
   virtual void begin_handler(Cycle at) = 0;
   /// Asked at its beginning, and whenever what it called has returned.
   virtual HandlerStep next_in_handler(Cycle at) = 0;
@@ -71,8 +72,14 @@ class HostCalls {
   virtual int vector(int handler) const = 0;
   virtual int priority() const = 0;
   /// From `at` on the program holds this handler off (its level, DISI, its IEC bit), or does no longer. A
-  /// held one takes no share.
-  virtual void hold_handler(int handler, bool held, Cycle at) = 0;
+  /// held one takes no share, and its flag is the chip's: set at each source_event(), cleared and set by the
+  /// program as it likes. `pending`: the flag is set as it is let go, so it comes now.
+  virtual void hold_handler(int handler, bool held, bool pending, Cycle at) = 0;
+  /// The first instant after `after` at which its source sets its flag; kNever: none.
+  virtual Cycle source_event(int handler, Cycle after) const = 0;
+  /// What the handler that calls nothing takes when it comes because it was pending, entry and RETFIE
+  /// included.
+  virtual Cycle pending_cycles() const = 0;
   /// Registers that the handler's own code saves before it calls anything, as bits W0 to W14, and other words
   /// that it pushes (RCOUNT, PSVPAG ...): the stack grows by so much.
   virtual std::uint16_t saved_registers() const = 0;

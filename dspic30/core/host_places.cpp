@@ -55,12 +55,15 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
   return d;
 }
 
-// what the handler has called is over
+// what the handler has called is over; being there takes no time. The clock goes back behind what follows,
+// for it may have been settled just now
 const Decoded* at_handler_return(Cpu& cpu, const Decoded* d) {
-  cpu.now -= d->cycles;
-  if (cpu.host_handlers > 0) return cpu.go_on_with_handler(d);
+  if (cpu.host_handlers > 0) {
+    const Decoded* const following = cpu.go_on_with_handler(d);
+    cpu.now -= d->cycles;
+    return following;
+  }
   cpu.trap(Trap::AddressError);
-  cpu.now += d->cycles;
   return d;
 }
 
@@ -107,8 +110,8 @@ const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
 bool Cpu::stands_in_host() const { return host_again && address_of_host_place(next) != 0; }
 
 void Cpu::follow_changed_host(Cycle ahead) {
-  // it stops anyway, or what was written may hold handlers off
-  if (deadline <= now || parts.bus.writes() != writes_seen) {
+  // it stops anyway, or flags of handlers are to be followed
+  if (deadline <= now || host_is_held || parts.bus.writes() != writes_seen) {
     deadline = 0;
     return;
   }
@@ -118,8 +121,7 @@ void Cpu::follow_changed_host(Cycle ahead) {
   settle();
   clocks.set_share(host->share_q32());
   host_due = host_comes ? host->due() : kNever;
-  const Cycle due = host_held && host_due <= now ? kNever : host_due;
-  deadline = clocks.program_at(std::min({stop_at, pause_at, due}));
+  deadline = clocks.program_at(std::min({stop_at, pause_at, host_due}));
   now -= ahead;
 }
 
@@ -146,8 +148,10 @@ void Cpu::push_frame(unsigned registers, int words) {
   const auto other = [&](int i) { return i == 0 ? rcount : i == 1 ? psvpag : std::uint16_t{0}; };
   const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
   if (!is_plain_frame(w[15], count)) {
-    for (unsigned left = registers; left != 0; left &= left - 1) push(w[__builtin_ctz(left)]);
-    for (int i = 0; i < words; ++i) push(other(i));
+    // a stack that is full ends it there
+    const auto is_full = [&] { return parts.interrupts.has_trap(Trap::StackError); };
+    for (unsigned left = registers; left != 0 && !is_full(); left &= left - 1) push(w[__builtin_ctz(left)]);
+    for (int i = 0; i < words && !is_full(); ++i) push(other(i));
     return;
   }
   unsigned at_byte = w[15] - kRamStart;
@@ -177,7 +181,7 @@ void Cpu::pop_frame(unsigned registers, int words) {
 }
 
 // as the interrupt and the handler's first instructions do
-void Cpu::begin_handler() {
+void Cpu::enter_handler() {
   const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
   at = next;
   if (repeating && window_was_free) now += kRepeatWindow;
@@ -186,11 +190,11 @@ void Cpu::begin_handler() {
   repeating = false;
   const int vector = host->vector(0);
   now = parts.interrupts.enter(vector, now).first_instruction;
-  parts.interrupts.note_cleared(vector);
+  parts.interrupts.lower(vector - kFirstIrqVector);
   push_frame(host->saved_registers(), host->saved_words());
   ++host_handlers;
   host->begin_handler(now);
-  next = go_on_with_handler(next);
+  host_stale = true;
 }
 
 const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
@@ -206,14 +210,15 @@ const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
   }
   if (step.function) {
     push_address(*this, kHostHandlerReturn);
-    return jump(step.function, from);
+    at = host_place(kHostHandlerReturn);
+    return jump(pointed(step.function & ~1u, at), from);
   }
   host->end_handler(now);
   --host_handlers;
   host_stale = true;
   pop_frame(host->saved_registers(), host->saved_words());
-  now += kInterruptReturnCycles;
   const Decoded* const following = return_from_handler(from);
+  now += kInterruptReturnCycles;
   return following;
 }
 

@@ -39,7 +39,8 @@ void Processor::restart() {
   cpu_->now += kResetCycles;
   cpu_->still_since = kNever;
   cpu_->clocks.reset(cpu_->now);
-  held_.fill(true);
+  by_heart_.fill({});
+  cpu_->host_due = kNever;
 }
 
 void Processor::power_up(Cycle at) {
@@ -95,14 +96,17 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       cpu.choose_code();
       waits_->forget(cpu);
     }
-    if (cpu.host) follow_host();
+    if (cpu.host && follow_host(outlook.vector)) continue;
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
       continue;
     }
     if (cpu.host && is_host_first(outlook.vector)) {
-      waits_->cut(cpu);
-      cpu.begin_handler();
+      begin_handler();
+      continue;
+    }
+    if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1]) {
+      serve_pending(outlook.vector);
       continue;
     }
     if (outlook.vector != kNoVector) {
@@ -126,7 +130,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  const Cycle wakes = std::min(cpu.parts.interrupts.wakes_at(), cpu.host_due);
+  const Cycle wakes = cpu.parts.interrupts.wakes_at();
   if (wakes <= cpu.now || cpu.parts.system.woke()) {
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
@@ -141,38 +145,126 @@ void Processor::sleep(Cycle until) {
 
 // --- whoever plays the library --------------------------------------------------------------------------
 
-/// Does the program hold a handler known by heart off? In Sleep, timer and converter stand.
-bool Processor::is_held(int irq) const {
-  const Interrupts& interrupts = cpu_->parts.interrupts;
+/// By its level, DISI, its IEC bit, or by what goes before it; asleep all are.
+bool Processor::is_held_off(std::size_t h, int next_vector) const {
+  const Cpu& cpu = *cpu_;
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  const int irq = irqs_[h];
+  if (irq < 0) return by_heart_[h].held;
   const int priority = interrupts.priority(irq);
-  return !interrupts.enabled(irq) || priority <= interrupts.level() || cpu_->power == Cpu::Power::Sleep ||
-         (priority < 7 && interrupts.disi_active(cpu_->now));
+  return is_asleep() || !interrupts.enabled(irq) || priority <= interrupts.level() ||
+         (priority < 7 && interrupts.disi_active(cpu.now)) ||
+         (interrupts.flag(irq) && next_vector != kFirstIrqVector + irq);
 }
 
-// which handlers known by heart the program holds off, when the next one comes, and what they take
-void Processor::follow_host() {
+// which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was
+// set, and all is to be looked at again
+bool Processor::follow_host(int next_vector) {
   Cpu& cpu = *cpu_;
+  Interrupts& interrupts = cpu.parts.interrupts;
+  bool raised = false;
   for (std::size_t h = 0; h < irqs_.size(); ++h) {
-    if (irqs_[h] < 0) continue;
-    const bool held = is_held(irqs_[h]);
-    if (held == held_[h]) continue;
-    held_[h] = held;
-    cpu.host->hold_handler(static_cast<int>(h), held, cpu.now);
+    const int irq = irqs_[h], number = static_cast<int>(h);
+    if (irq < 0) continue;
+    ByHeart& handler = by_heart_[h];
+    if (handler.held) raised |= raise_held(h);
+    const bool pending = interrupts.flag(irq), held = is_held_off(h, next_vector);
+    // a flag that the program has set brings it once more
+    if (!held && !handler.held && pending) {
+      cpu.host->hold_handler(number, true, false, cpu.now);
+      handler.held = true;
+    }
+    if (held == handler.held) continue;
+    handler.held = held;
+    if (!held && handler.missed_at > 0) count_missed(h);
+    // it was due just now
+    if (held && h == 0 && cpu.host_due <= cpu.now) interrupts.raise(irq, cpu.host_due);
+    cpu.host->hold_handler(number, held, pending, cpu.now);
     cpu.host_stale = true;
   }
-  if (!cpu.host_stale) return;
+  if (raised) return true;
+  if (!cpu.host_stale) return false;
   cpu.host_stale = false;
+  cpu.host_is_held = false;
+  for (std::size_t h = 0; h < irqs_.size(); ++h) {
+    if (irqs_[h] < 0) continue;
+    ByHeart& handler = by_heart_[h];
+    cpu.host_is_held |= handler.held;
+    if (handler.missed_at == 0)
+      handler.source = handler.held ? cpu.host->source_event(static_cast<int>(h), cpu.now) : kNever;
+  }
   cpu.clocks.set_share(cpu.host->share_q32());
   // held off by its level alone it wakes the processor all the same
-  cpu.host_comes = irqs_[0] >= 0 && cpu.parts.interrupts.enabled(irqs_[0]) && cpu.power != Cpu::Power::Sleep;
-  cpu.host_held = held_[0];
+  cpu.host_comes = irqs_[0] >= 0 && interrupts.enabled(irqs_[0]);
   cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
+  return false;
+}
+
+/// Sets the flag of a handler that is held off, as its source does. A second event is lost, and told; those
+/// behind it are counted when the flag falls.
+bool Processor::raise_held(std::size_t h) {
+  Cpu& cpu = *cpu_;
+  Interrupts& interrupts = cpu.parts.interrupts;
+  ByHeart& handler = by_heart_[h];
+  const int irq = irqs_[h];
+  if (handler.missed_at > 0 && !interrupts.flag(irq)) count_missed(h);
+  bool raises = false;
+  while (handler.source <= cpu.now) {
+    raises = true;
+    const bool was_set = interrupts.flag(irq);
+    interrupts.raise(irq, handler.source);
+    if (was_set) handler.missed_at = handler.source;
+    handler.source = was_set ? kNever : cpu.host->source_event(static_cast<int>(h), handler.source);
+  }
+  if (raises) waits_->stir(cpu);  // perhaps it waits for this
+  return raises;
+}
+
+void Processor::count_missed(std::size_t h) {
+  Cpu& cpu = *cpu_;
+  ByHeart& handler = by_heart_[h];
+  const Cycle next = cpu.host->source_event(static_cast<int>(h), cpu.now);
+  if (handler.missed_at > 0 && next < kNever) {
+    const Cycle period = std::max<Cycle>(
+        1, cpu.host->source_event(static_cast<int>(h), handler.missed_at) - handler.missed_at);
+    cpu.parts.interrupts.note_missed(irqs_[h], (cpu.now - handler.missed_at) / period, cpu.now);
+  }
+  handler.missed_at = 0;
+  handler.source = next;
+}
+
+/// The handler that calls the program. What it holds off is held from its first cycle on.
+void Processor::begin_handler() {
+  Cpu& cpu = *cpu_;
+  waits_->cut(cpu);
+  cpu.enter_handler();
+  cpu.host_due = kNever;
+  follow_host(kNoVector);
+  const bool overflows = cpu.parts.interrupts.has_trap(Trap::StackError);
+  cpu.next = overflows ? host_place(kHostHandlerReturn) : cpu.go_on_with_handler(cpu.next);
+}
+
+/// The handler that calls nothing was pending.
+void Processor::serve_pending(int vector) {
+  Cpu& cpu = *cpu_;
+  Interrupts& interrupts = cpu.parts.interrupts;
+  const int level = interrupts.level();
+  waits_->cut(cpu);
+  interrupts.enter(vector, cpu.now);
+  interrupts.lower(vector - kFirstIrqVector);
+  follow_host(kNoVector);
+  cpu.now += cpu.host->pending_cycles();
+  cpu.settle();
+  interrupts.leave_to(level, cpu.now - kInterruptReturnCycles);
+  cpu.returned = true;
 }
 
 /// Does the handler known by heart begin now, rather than that of `vector`?
 bool Processor::is_host_first(int vector) const {
   const Cpu& cpu = *cpu_;
-  if (cpu.host_due > cpu.now || held_[0]) return false;
+  if (by_heart_[0].held) return false;
+  if (vector != kNoVector && vector == kFirstIrqVector + irqs_[0]) return true;
+  if (cpu.host_due > cpu.now) return false;
   if (vector == kNoVector) return true;
   if (vector < kFirstIrqVector) return false;
   const Interrupts& interrupts = cpu.parts.interrupts;
@@ -184,7 +276,8 @@ bool Processor::is_host_first(int vector) const {
 Cycle Processor::host_horizon() const {
   const Cpu& cpu = *cpu_;
   if (!cpu.host) return kNever;
-  return std::min(disi_horizon(), held_[0] && cpu.host_due <= cpu.now ? kNever : cpu.host_due);
+  const Cycle due = by_heart_[0].held && cpu.host_due <= cpu.now ? kNever : cpu.host_due;
+  return std::min({disi_horizon(), due, by_heart_[0].source, by_heart_[1].source});
 }
 
 Cycle Processor::disi_horizon() const {
@@ -197,9 +290,12 @@ Cycle Processor::idle_until() const {
   const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
-  if (outlook.reset_due || (cpu.host_due <= cpu.now && !held_[0])) return 0;
+  if (cpu.host && (cpu.host_stale || is_held_off(0, outlook.vector) != by_heart_[0].held ||
+                   is_held_off(1, outlook.vector) != by_heart_[1].held))
+    return 0;  // what handlers take is another from now on
+  if (outlook.reset_due || (cpu.host_due <= cpu.now && !by_heart_[0].held)) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
-  if (is_asleep()) return std::min({until, cpu.parts.interrupts.wakes_at(), cpu.host_due});
+  if (is_asleep()) return std::min(until, cpu.parts.interrupts.wakes_at());
   if (outlook.vector != kNoVector) return 0;
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));

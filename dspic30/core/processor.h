@@ -106,9 +106,13 @@ class Processor {
   void enter_interrupt(int vector);
   void execute();
   void sleep(Cycle until);
-  void follow_host();
-  bool is_held(int irq) const;
+  bool follow_host(int vector);
+  bool is_held_off(std::size_t handler, int next_vector) const;
+  bool raise_held(std::size_t handler);
+  void count_missed(std::size_t handler);
   bool is_host_first(int vector) const;
+  void begin_handler();
+  void serve_pending(int vector);
   Cycle host_horizon() const;
   Cycle disi_horizon() const;
 
@@ -116,8 +120,14 @@ class Processor {
   std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
   Cycle slept_ = 0;
-  std::array<int, 2> irqs_{-1, -1};       // of the handlers known by heart; -1: there is none
-  std::array<bool, 2> held_{true, true};  // does the program hold them off?
+  /// A handler known by heart.
+  struct ByHeart {
+    bool held = true;       // the program holds it off, or it is asleep
+    Cycle source = kNever;  // when the source of a held one sets the flag next
+    Cycle missed_at = 0;  // ... found it set; what comes later is counted when the flag falls. 0: it did not
+  };
+  std::array<ByHeart, 2> by_heart_;
+  std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none
 };
 
 }  // namespace dspic

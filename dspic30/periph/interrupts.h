@@ -88,9 +88,10 @@ class Interrupts final : public SfrOwner {
   Cycle pending_horizon(Cycle now) const;
   InterruptEntry enter(int vector, Cycle now);
   Cycle leave(Cycle now);
-  /// The handler of `vector` counts as one that has cleared its flag: it is known by heart.
-  void note_cleared(int vector) {
-    if (vector >= kFirstIrqVector) cleared_ |= std::uint64_t{1} << (vector - kFirstIrqVector);
+  /// The handler of this source, which is known by heart, clears its flag.
+  void lower(int irq) {
+    ifs_ &= ~(std::uint64_t{1} << irq);
+    note_lowered(std::uint64_t{1} << irq);
   }
   /// leave() to the level that the program's stack tells.
   Cycle leave_to(int level, Cycle now) {

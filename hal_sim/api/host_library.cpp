@@ -47,7 +47,8 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
       drivers_(std::make_unique<drivers::Drivers>(board)),
       variables_(drivers_->scan()),
       rhythm_(cycles_) {
-  drivers_->leave_motors_to_others();
+  drivers_->leave_telling_to_others();
+  agendas().leave_flag_to_others();
   agendas().set_costs(costs_of(cycles_));
   begin(0);
 }
@@ -129,7 +130,18 @@ int HostLibrary::vector(int handler) const {
   return served_.scan ? dspic::kFirstIrqVector + dspic::irq::Adc : dspic::kNoVector;
 }
 
-Cycle HostLibrary::due() const { return agendas().next_interrupt(); }
+// while its functions run, a tick finds them running, and the handler begins anew
+Cycle HostLibrary::due() const {
+  return agendas().is_walking() ? agendas().tick_after(handler_began_) : agendas().next_interrupt();
+}
+
+Cycle HostLibrary::source_event(int handler, Cycle after) const {
+  return handler == kAgendaHandler ? agendas().tick_after(after) : scan().interrupt_after(after);
+}
+
+Cycle HostLibrary::pending_cycles() const {
+  return scan().micro_only() ? cycles_.share_scan_micro : cycles_.share_scan_round / drivers::kScanPeriod;
+}
 
 std::uint64_t HostLibrary::share_q32() const {
   std::uint64_t share = 0;
@@ -138,17 +150,18 @@ std::uint64_t HostLibrary::share_q32() const {
   return share;
 }
 
-void HostLibrary::hold_handler(int handler, bool held, Cycle at) {
+void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
   const auto bit = static_cast<std::uint8_t>(1u << handler);
   held_ = static_cast<std::uint8_t>(held ? held_ | bit : held_ & ~bit);
   if (handler == kAgendaHandler)
-    held ? agendas().hold(at) : agendas().release(at);
+    held ? agendas().hold(at) : agendas().release(at, pending);
   else
     held ? scan().hold(at) : scan().release(at);
 }
 
 void HostLibrary::begin_handler(Cycle at) {
-  handler_since_ = agendas().next_interrupt();
+  handler_began_ = at;
+  handler_since_ = std::min(agendas().next_interrupt(), at);
   agendas().begin(at);
   walk_begins_ = true;
 }

@@ -63,7 +63,9 @@ class HostLibrary final : public dspic::HostCalls {
   void end_handler(Cycle at) override;
   int vector(int handler) const override;
   int priority() const override { return drivers::kHandlerPriority; }
-  void hold_handler(int handler, bool held, Cycle at) override;
+  void hold_handler(int handler, bool held, bool pending, Cycle at) override;
+  Cycle source_event(int handler, Cycle after) const override;
+  Cycle pending_cycles() const override;
   std::uint16_t saved_registers() const override {
     return static_cast<std::uint16_t>(cycles_.walk_saved_registers);
   }
@@ -138,7 +140,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint64_t digest_ = 0;
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
-  Cycle handler_since_ = 0;
+  Cycle handler_since_ = 0, handler_began_ = 0;
 };
 
 }  // namespace api

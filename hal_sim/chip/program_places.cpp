@@ -5,6 +5,8 @@
 #include <map>
 
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/memory/irqs.h"
+#include "hal_sim/api/host_index.h"
 
 namespace chip {
 
@@ -45,6 +47,12 @@ unsigned ProgramPlaces::shared_handler(const dspic::FirmwareFile& file, const ds
 
 host::Place ProgramPlaces::place_of(unsigned address) const {
   host::Place place{"?", "", 0};
+  // where hal_sim stands in for code
+  if (address == dspic::kHostHandlerReturn)
+    place.function = handler_of(dspic::kFirstIrqVector + dspic::irq::T2);
+  if (const unsigned i = (address - dspic::kHostStart) / 2;
+      address >= dspic::kHostStart && i < api::kHostFunctionCount)
+    place.function = api::kHostFunctions[i].name;
   if (const auto* function = file_.code.function_at(address)) place.function = function->name;
   if (const auto* line = file_.code.line_at(address)) {
     place.file = file_.code.files[line->file];

@@ -108,6 +108,12 @@ void AdcScan::release(Cycle at) {
   lost_ += lost;
 }
 
+Cycle AdcScan::interrupt_after(Cycle after) const {
+  const Cycle next = next_interrupt(after);
+  if (held_since_ < 0 || !on_ || next > after) return next;
+  return next + ((after - next) / run_.sequence() + 1) * run_.sequence();
+}
+
 void AdcScan::switch_converter(bool on, Cycle at) {
   if (on == on_) return;
   settle(at);

@@ -55,6 +55,8 @@ class AdcScan {
     if (held_since_ < 0) held_since_ = at;
   }
   void release(Cycle at);
+  /// The first interrupt after `after`, also of a converter that nobody serves; kNever: it is off.
+  Cycle interrupt_after(Cycle after) const;
   /// Frames that were lost so since the reset, and the first loss's cycle.
   std::int64_t lost_frames() const { return lost_; }
   Cycle first_lost() const { return first_lost_; }

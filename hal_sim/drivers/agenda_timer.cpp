@@ -4,6 +4,7 @@
 #include "hal_sim/drivers/agenda_timer.h"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 namespace drivers {
@@ -33,6 +34,7 @@ AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
 std::int64_t AgendaTimer::ticks_at(Cycle at) const {
   if (walking_) return walk_tick_;
   if (!running_) return stopped_tick_;
+  if (held_since_ >= 0 && has_no_flag_) return held_done_;
   if (held_since_ >= 0) at = std::min(at, held_since_);
   std::int64_t tick = floor_div(at - line_.origin, kAgendaTickCycles);
   if (tick < line_.late_tick) tick = at >= line_.late_cycle ? line_.late_tick : line_.late_tick - 1;
@@ -318,11 +320,12 @@ Cycle AgendaTimer::next_interrupt() const {
 }
 
 void AgendaTimer::begin(Cycle at) {
+  if (walking_) abandon(at);
   walk_tick_ = next_fire_ >= 0 && at >= next_interrupt() ? next_fire_ : ticks_at(at);
   // ticks that came while the flag was already set are lost
   const std::int64_t lost =
       floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
-  if (lost > 0) {
+  if (lost > 0 && running_) {
     settle_motors(walk_tick_ - 1);
     lose(lost, at);
     line_.late_tick = walk_tick_;
@@ -378,9 +381,22 @@ void AgendaTimer::finish(Cycle at) {
   if (!walking_) return;
   walking_ = false;
   in_callback_ = false;
-  stopped_tick_ = walk_tick_;
-  if (running_) resume(walk_tick_, at);
+  stopped_tick_ = held_done_ = walk_tick_;
+  if (running_ && !has_no_flag_) resume(walk_tick_, at);
   if (held_since_ >= 0) held_since_ = at;
+  find_next_fire();
+}
+
+// a callback that let the handler come again, or that was left by a jump
+void AgendaTimer::abandon(Cycle at) {
+  for (Node& node : nodes_) {
+    if (node.serial >= walk_serial_ || node.kind != Kind::User) continue;
+    settle(node, walk_tick_ - 1);
+    node.count.tick = walk_tick_;
+  }
+  walking_ = in_callback_ = false;
+  stopped_tick_ = held_done_ = walk_tick_;
+  if (held_since_ < 0) resume(walk_tick_, at, true);
   find_next_fire();
 }
 
@@ -395,10 +411,37 @@ void AgendaTimer::resume(std::int64_t done, Cycle at) {
   line_.late_cycle = at;
 }
 
+void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
+  if (!running_) {
+    if (pending) stopped_tick_ = done + 1;
+    return;
+  }
+  const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
+  if (since < 1 && !pending) return;
+  settle_motors(done);
+  lose(since - (pending ? 1 : 0), at);
+  if (!pending) return;
+  line_.late_tick = done + 1;
+  line_.late_cycle = at;
+}
+
+void AgendaTimer::release(Cycle at, bool pending) {
+  if (held_since_ < 0) return;
+  held_since_ = -1;
+  if (!walking_) resume(held_done_, at, pending);
+}
+
+Cycle AgendaTimer::tick_after(Cycle after) const {
+  if (!running_) return kNever;
+  return line_.origin + (floor_div(after - line_.origin, kAgendaTickCycles) + 1) * kAgendaTickCycles;
+}
+
+/// Ticks that never come; below 0: more than come by themselves.
 void AgendaTimer::lose(std::int64_t ticks, Cycle at) {
   line_.origin += ticks * kAgendaTickCycles;
   for (AgendaMotor& m : motors_) m.disturb();
-  if (ticks > 0 && lost_ticks_ == 0) first_lost_ = at;
+  if (ticks <= 0) return;
+  if (lost_ticks_ == 0) first_lost_ = at;
   lost_ticks_ += ticks;
 }
 
@@ -456,16 +499,58 @@ std::uint64_t AgendaTimer::calling_share_q32() const {
   return calling_share_q32_;
 }
 
+/// Ticks that call a function, of all, as a fraction of 2^32. Several agendas that fire at the same tick make
+/// it one: the sum of all is too many by those that two share, which is too few by those that three share ...
+std::uint64_t AgendaTimer::calling_ticks_q32() const {
+  constexpr std::size_t kMost = 8;  // beyond that they are taken to meet nowhere
+  struct Rhythm {
+    std::int64_t first, period;
+  };
+  std::vector<Rhythm> rhythms;
+  std::int64_t calling = 0;
+  for (const Node& node : nodes_) {
+    const AgendaCount& count = count_of(node);
+    if (!needs_handler(node) || !count.counts()) continue;
+    const bool runs = in_callback_ && node.serial == walk_serial_;  // its counter will be 0
+    const std::int64_t first = count.tick + (runs ? count.cycle : count.ticks_to_fire());
+    if (rhythms.size() < kMost)
+      rhythms.push_back({first, count.cycle});
+    else
+      calling += static_cast<std::int64_t>(kAllTicks) / count.cycle;
+  }
+  constexpr std::int64_t kNeverMeet = 1 << 20;  // a minute and more
+  for (unsigned chosen = 1; chosen < 1u << rhythms.size(); ++chosen) {
+    Rhythm all{0, 0};
+    for (std::size_t i = 0; i < rhythms.size() && all.period < kNeverMeet; ++i) {
+      if (!(chosen >> i & 1)) continue;
+      Rhythm one = rhythms[i];
+      if (all.period == 0) {
+        all = one;
+        continue;
+      }
+      if (one.period > all.period) std::swap(one, all);
+      const std::int64_t common = std::gcd(all.period, one.period),
+                         together = all.period / common * one.period;
+      const bool meet = together < kNeverMeet && (one.first - all.first) % common == 0;
+      if (meet)
+        while ((all.first - one.first) % one.period != 0) all.first += all.period;
+      all.period = meet ? together : kNeverMeet;
+    }
+    if (all.period >= kNeverMeet) continue;
+    const std::int64_t part = static_cast<std::int64_t>(kAllTicks) / all.period;
+    calling += __builtin_popcount(chosen) % 2 ? part : -part;
+  }
+  return static_cast<std::uint64_t>(
+      std::clamp<std::int64_t>(calling, 0, static_cast<std::int64_t>(kAllTicks)));
+}
+
 void AgendaTimer::find_shares() const {
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
   if (!(shares_known_ & kTicks)) {
     tick_share_q32_ = share(tick_cycles(), 1);
-    std::uint64_t calling = 0;  // ticks that do, of all
-    for (const Node& node : nodes_)
-      if (needs_handler(node) && count_of(node).counts()) calling += kAllTicks / count_of(node).cycle;
-    calling_share_q32_ = tick_share_q32_ * (std::min(calling, kAllTicks) >> 8) / (kAllTicks >> 8);
+    calling_share_q32_ = tick_share_q32_ * (calling_ticks_q32() >> 8) / (kAllTicks >> 8);
   }
   for (std::size_t i = 0; i < 2; ++i)
     if (const AgendaMotor& m = motors_[i]; !(shares_known_ >> i & 1))

@@ -70,9 +70,17 @@ class AgendaTimer {
 
   /// From `at` on the handler is not called, because the program masks it; and is again.
   void hold(Cycle at) {
-    if (held_since_ < 0) held_since_ = at;
+    if (held_since_ >= 0) return;
+    held_done_ = ticks_at(at);
+    held_since_ = at;
   }
   void release(Cycle at);
+  /// Somebody else keeps the interrupt's flag, and tells of it: `pending`, it is set as the handler is let
+  /// go. Then the handler begins once, whether a tick came meanwhile or the program has set the flag.
+  void leave_flag_to_others() { has_no_flag_ = true; }
+  void release(Cycle at, bool pending);
+  /// The first tick after `after`, whatever it finds; kNever: the timer stands.
+  Cycle tick_after(Cycle after) const;
   /// Ticks that were lost because the handler was busy or masked for longer than a tick, since the reset; the
   /// first one's cycle.
   std::int64_t lost_ticks() const { return lost_ticks_; }
@@ -122,7 +130,8 @@ class AgendaTimer {
   // --- the interrupt handler -----------------------------------------------------------------------------
   /// Cycle of the next tick at which a user agenda fires (or a motor traps); kNever if none.
   Cycle next_interrupt() const;
-  /// The handler starts. Must be called at or after next_interrupt().
+  /// The handler starts. Must be called at or after next_interrupt(), or when it was let go as pending. One
+  /// that has not finished never will: agendas that it has not come to have lost this tick.
   void begin(Cycle at);
   /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
   /// is set when a motor's firing trapped; the walk is then over.
@@ -206,15 +215,20 @@ class AgendaTimer {
   Cycle cost_of(const Node& node) const;
   const Node* node_of(std::uint32_t serial) const;
   void resume(std::int64_t done, Cycle at);
+  void resume(std::int64_t done, Cycle at, bool pending);
+  void abandon(Cycle at);
   void lose(std::int64_t ticks, Cycle at);
   void find_next_fire();
   void find_shares() const;
+  std::uint64_t calling_ticks_q32() const;
 
   AgendaCosts costs_;
   TickLine line_;
   bool running_ = false, enabled_ = false;
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   Cycle held_since_ = -1;          // -1: not held
+  std::int64_t held_done_ = 0;     // ticks processed then
+  bool has_no_flag_ = false;
   std::int64_t lost_ticks_ = 0;
   Cycle first_lost_ = 0, first_speed_ = -1;
   std::vector<Node> nodes_;  // oldest first; the list is walked from the back

@@ -107,6 +107,7 @@ void Drivers::processor_reset(Cycle at) {
 }
 
 void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const {
+  if (!tells_) return;
   const auto missed = [&all](const char* vector, std::int64_t count, Cycle first) {
     if (count == 0) return;
     all.push_back({"missed interrupt", vector,
@@ -120,7 +121,7 @@ void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const 
   missed("T2", agendas_.lost_ticks(), agendas_.first_lost());
   // a speed that nothing turns into steps; programs may set it a little before they start the motors
   const Cycle since = agendas_.first_speed();
-  if (!tells_of_motors_ || since < 0 || at - since < kSpeedGrace) return;
+  if (since < 0 || at - since < kSpeedGrace) return;
   const bool never_made = !agendas_.has(Wheel::Left) && !agendas_.has(Wheel::Right);
   if (!never_made && agendas_.is_enabled()) return;
   const std::string missing = never_made ? "e_init_motors()" : "e_start_agendas_processing()";

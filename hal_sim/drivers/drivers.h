@@ -43,8 +43,8 @@ class Drivers final : public board::PinDriver {
 
   /// What the handlers of the scan and of the agenda tick take of each cycle, as a fraction of 2^32.
   std::uint64_t handler_share_q32() const { return scan_.share_q32() + agendas_.share_q32(); }
-  /// Somebody else tells of motors that were never started.
-  void leave_motors_to_others() { tells_of_motors_ = false; }
+  /// Somebody else tells of motors that were never started, and of interrupts that were missed.
+  void leave_telling_to_others() { tells_ = false; }
   /// The program masks these handlers from `at` on, or does no longer.
   void mask_handlers(bool masked, Cycle at);
 
@@ -88,7 +88,7 @@ class Drivers final : public board::PinDriver {
   SoundDriver sound_;
   CameraCapture camera_;
   std::array<UartRing, 2> uart_rings_;
-  bool tells_of_motors_ = true;
+  bool tells_ = true;
   mutable Stepper seen_{+1};  // what motor_at() shows of a timer's train
 };
 

@@ -201,7 +201,9 @@ struct Host final : dspic::HostCalls {
   void end_handler(Cycle) override {}
   int vector(int) const override { return dspic::kNoVector; }
   int priority() const override { return 4; }
-  void hold_handler(int, bool, Cycle) override {}
+  void hold_handler(int, bool, bool, Cycle) override {}
+  Cycle source_event(int, Cycle) const override { return dspic::kNever; }
+  Cycle pending_cycles() const override { return 1; }
   std::uint16_t saved_registers() const override { return 0; }
   int saved_words() const override { return 0; }
   void reset(Cycle) override {}

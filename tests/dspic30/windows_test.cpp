@@ -78,10 +78,15 @@ class Library final : public dspic::HostCalls {
     return dspic::kFirstIrqVector + (handler == 0 ? 6 : 11);
   }  // T2, ADC
   int priority() const override { return 4; }
-  void hold_handler(int handler, bool held, Cycle at) override {
-    note(-10 - 2 * handler - held, at);
+  void hold_handler(int handler, bool held, bool pending, Cycle at) override {
+    note(-10 - 4 * handler - 2 * pending - (held ? 1 : 0), at);
     if (handler == 1) held_ = held;
   }
+  Cycle source_event(int handler, Cycle after) const override {
+    const Cycle period = handler == 0 ? 1475 : 965;
+    return (after / period + 1) * period;
+  }
+  Cycle pending_cycles() const override { return 127; }
   std::uint16_t saved_registers() const override { return 0xFF; }
   int saved_words() const override { return 1; }
   void reset(Cycle) override {}
