@@ -287,7 +287,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
   const bool only_passes_time = run == &no_operation;
   const Cycle began = now;
   const auto counted = [&] {
-    if (only_passes_time) delayed += now - began;
+    if (only_passes_time) note_delay(began);
   };
   do {
     const bool is_last = rcount == 0;
@@ -611,8 +611,10 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();
     const unsigned shift = bits == 8 && (ea & 1) ? 8 : 0;
+    const Cycle t = true_now() + at->lead;
+    parts.events.tell_change(t);
     host->write(ea & ~1u, static_cast<std::uint16_t>(value << shift),
-                static_cast<std::uint16_t>(bits == 16 ? 0xFFFFu : 0xFFu << shift), true_now() + at->lead);
+                static_cast<std::uint16_t>(bits == 16 ? 0xFFFFu : 0xFFu << shift), t);
     return;
   } else if (i < kRamBytes) {
     round_memory->note_write(ram.data(), i, bits == 16);

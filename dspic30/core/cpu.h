@@ -22,6 +22,7 @@
 
 #include "dspic30/core/code_store.h"
 #include "dspic30/core/counting.h"
+#include "dspic30/core/course_watch.h"
 #include "dspic30/core/host_calls.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
@@ -83,6 +84,7 @@ class Cpu final : public SfrOwner {
   Cpu(ChipParts& parts, ProgramMemory& program, std::shared_ptr<CodeStore> store);
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
+  CourseWatch* course = nullptr;     ///< null: nobody
   /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
   /// about half as long as translating it will, which later runs need not do again. 0: at once, for tests.
   int hot = 128;
@@ -359,6 +361,12 @@ class Cpu final : public SfrOwner {
   void settle() { clocks.settle(now); }
   TwoClocks clocks;
   Cycle delayed = 0;  ///< cycles spent in repeated NOPs, and in functions of the host that wait
+  /// Time since `from`, by the program's clock, only passed.
+  void note_delay(Cycle from) {
+    delayed += now - from;
+    if (course && !in_wait && now > from) course->waited(clocks.true_at(from), true_now());
+  }
+  bool in_wait = false;  ///< it is told as a whole
 
   // --- whoever plays the library (host_calls.h)
   HostCalls* host = nullptr;  ///< null: the program is all there is
@@ -386,9 +394,10 @@ class Cpu final : public SfrOwner {
   /// A handler known by heart is entered, as an interrupt is; go_on_with_handler() is next.
   void enter_handler();
   /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
+  /// `rest`: cycles that are not counted yet.
   const Decoded* go_on_with_handler(const Decoded* from);
-  /// RETFIE's work: level, flags and place of the program from the stack.
-  const Decoded* return_from_handler(const Decoded* from);
+  /// RETFIE's work: level, flags and place of the program from the stack. `rest`: as above.
+  const Decoded* return_from_handler(const Decoded* from, Cycle rest);
   /// A function of the host waits here.
   void stand(Cycle until, const Decoded* d);
   Cycle stands_until = 0;

@@ -82,7 +82,9 @@ const Decoded* return_literal(Cpu& cpu, const Decoded* d) {
   operands::put_register<Byte>(cpu, d, static_cast<unsigned>(d->imm) & operands::kMask<Byte>);
   return return_from_call(cpu, d);
 }
-const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) { return cpu.return_from_handler(d); }
+const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
+  return cpu.return_from_handler(d, d->cycles);
+}
 
 // --- loops ----------------------------------------------------------------------------------------------
 
@@ -114,7 +116,7 @@ const Decoded* repeat_register(Cpu& cpu, const Decoded* d) { return repeat(cpu, 
 }  // namespace
 
 // a function of the host that was cut goes on waiting
-const Decoded* Cpu::return_from_handler(const Decoded* from) {
+const Decoded* Cpu::return_from_handler(const Decoded* from, Cycle rest) {
   settle();
   const unsigned top = pop(), low = pop();
   set_flags(top >> 8);
@@ -122,6 +124,7 @@ const Decoded* Cpu::return_from_handler(const Decoded* from) {
   parts.events.run_to(now);
   parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), now);
   hurry_to_exception(*this);
+  if (course) course->handler_ends(now + rest);
   deadline = 0;
   returned = true;
   const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);

@@ -22,6 +22,7 @@ void push_address(Cpu& cpu, unsigned address) {
 
 /// Calls function `index`. False: it waits, or there is none.
 bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result) {
+  cpu.parts.events.tell_change(at);
   result = cpu.host->call(cpu, index, at, again);
   cpu.note_written(0x00FF);  // what a function may leave
   return result.cycles > 0;
@@ -131,7 +132,7 @@ void Cpu::stand(Cycle until, const Decoded* d) {
   stands_until = until;
   stands_at = d;
   now = std::max(now + 1, std::min(deadline, clocks.program_at(until)));
-  delayed += now - began;
+  note_delay(began);
   now -= d->cycles;
 }
 
@@ -183,13 +184,16 @@ void Cpu::pop_frame(unsigned registers, int words) {
 // as the interrupt and the handler's first instructions do
 void Cpu::enter_handler() {
   const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
+  const Cycle entry = now;
   at = next;
+  parts.events.tell_change(entry);
   if (repeating && window_was_free) now += kRepeatWindow;
   push(pc & 0xFFFF);
   push(sr_low() << 8 | (level & 8) << 4 | pc >> 16);
   repeating = false;
   const int vector = host->vector(0);
   now = parts.interrupts.enter(vector, now).first_instruction;
+  if (course) course->handler_begins(vector, entry, now);
   parts.interrupts.lower(vector - kFirstIrqVector);
   push_frame(host->saved_registers(), host->saved_words());
   ++host_handlers;
@@ -200,6 +204,7 @@ void Cpu::enter_handler() {
 const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
   note_effect();
   settle();
+  parts.events.tell_change(now);
   const HandlerStep step = host->next_in_handler(now);
   now += step.cycles;
   deadline = 0;
@@ -217,7 +222,7 @@ const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
   --host_handlers;
   host_stale = true;
   pop_frame(host->saved_registers(), host->saved_words());
-  const Decoded* const following = return_from_handler(from);
+  const Decoded* const following = return_from_handler(from, kInterruptReturnCycles);
   now += kInterruptReturnCycles;
   return following;
 }

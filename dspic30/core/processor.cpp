@@ -35,6 +35,7 @@ Processor::~Processor() = default;
 
 void Processor::restart() {
   waits_->forget(*cpu_);
+  asleep_since_ = kNever;
   cpu_->reset();
   cpu_->now += kResetCycles;
   cpu_->still_since = kNever;
@@ -132,15 +133,18 @@ void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
   const Cycle wakes = cpu.parts.interrupts.wakes_at();
   if (wakes <= cpu.now || cpu.parts.system.woke()) {
+    asleep_since_ = kNever;
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
     cpu.parts.system.awake();
     return;
   }
   const Cycle next = std::min({chip_.next_event(cpu.now), host_horizon(), wakes});
-  const Cycle own = cpu.clocks.own_cycles(cpu.now);
+  const Cycle own = cpu.clocks.own_cycles(cpu.now), began = cpu.now;
+  asleep_since_ = std::min(asleep_since_, began);
   cpu.now = cpu.clocks.program_at(std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1)));
   slept_ += cpu.clocks.own_cycles(cpu.now) - own;
+  if (cpu.course) cpu.course->waited(began, cpu.true_now());
 }
 
 // --- whoever plays the library --------------------------------------------------------------------------
@@ -179,6 +183,7 @@ bool Processor::follow_host(int next_vector) {
     if (!held && handler.missed_at > 0) count_missed(h);
     // it was due just now
     if (held && h == 0 && cpu.host_due <= cpu.now) interrupts.raise(irq, cpu.host_due);
+    cpu.parts.events.tell_change(cpu.now);
     cpu.host->hold_handler(number, held, pending, cpu.now);
     cpu.host_stale = true;
   }
@@ -306,6 +311,8 @@ void Processor::stir() { waits_->stir(*cpu_); }
 
 void Processor::enter_interrupt(int vector) {
   Cpu& cpu = *cpu_;
+  const Cycle began = cpu.now;
+  cpu.parts.events.tell_change(began);
   cpu.at = cpu.next;  // what the stack's pushes belong to
   const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(cpu.parts.interrupts.level());
   if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;
@@ -314,6 +321,7 @@ void Processor::enter_interrupt(int vector) {
   cpu.repeating = false;
   const InterruptEntry entry = cpu.parts.interrupts.enter(vector, cpu.now);
   cpu.now = entry.first_instruction;
+  if (cpu.course) cpu.course->handler_begins(vector, began, cpu.now);
   cpu.next = cpu.jump(cpu.program.read(entry.address) & 0x7FFFFE, cpu.next);
 }
 
@@ -327,12 +335,19 @@ Cycle Processor::idle(Cycle at) const {
   const bool passes = is_asleep() || cpu.stands_in_host();
   return slept_ + cpu.delayed + waits_->waited(cpu, now) + (passes ? own : 0);
 }
+Cycle Processor::waiting_since() const {
+  const Cpu& cpu = *cpu_;
+  if (is_asleep()) return std::min(asleep_since_, cpu.now);
+  if (waits_->is_waiting()) return waits_->since();
+  return cpu.stands_in_host() ? cpu.true_now() : kNever;
+}
 Cycle Processor::jumped() const { return waits_->jumped(); }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {
   cpu_->onlooker = watch;
   cpu_->tell_calls(std::move(addresses));
 }
+void Processor::tell_course(CourseWatch* watch) { cpu_->course = watch; }
 void Processor::know(std::shared_ptr<const KnownCalls> calls) { cpu_->know(std::move(calls)); }
 void Processor::translate_all() {
   cpu_->hot = 0;

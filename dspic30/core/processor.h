@@ -19,6 +19,7 @@
 namespace dspic {
 
 class CodeStore;  // code_store.h
+class CourseWatch;
 class Cpu;
 class HostCalls;
 class KnownCalls;  // known_calls.h
@@ -58,6 +59,8 @@ class Processor {
   /// Until when nothing happens but that time passes, so that run() need not be called; in the past: the
   /// program is at work.
   Cycle idle_until() const;
+  /// Since when the program has been in a wait, or asleep, as CourseWatch will hear of it; kNever: it is not.
+  Cycle waiting_since() const;
   /// Something from outside, or a debugger, may have changed what the program waits for.
   void stir();
   /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's time depends on
@@ -66,6 +69,9 @@ class Processor {
   /// Whoever hears of traps, null pointers, and of the beginning of the functions at `addresses`; it outlives
   /// this. Nothing but the PC's time depends on it.
   void tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses);
+  /// Whoever hears of handlers and waits from now on; null: nobody. Outlives this, or is taken away. Nothing
+  /// but the PC's time depends on it.
+  void tell_course(CourseWatch* watch);
   /// Routines of the program that are answered by heart from now on; null: none. Nothing but the PC's time
   /// depends on it.
   void know(std::shared_ptr<const KnownCalls> calls);
@@ -119,7 +125,7 @@ class Processor {
   std::unique_ptr<Cpu> cpu_;
   std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
-  Cycle slept_ = 0;
+  Cycle slept_ = 0, asleep_since_ = kNever;
   /// A handler known by heart.
   struct ByHeart {
     bool held = true;       // the program holds it off, or it is asleep

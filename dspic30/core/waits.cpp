@@ -37,6 +37,7 @@ void Waits::begin(Cpu& cpu) {
     return;
   }
   round_began_ = cpu.clocks.own_cycles(cpu.now);
+  round_began_at_ = look_began_;
   round_delayed_ = cpu.delayed;
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
@@ -88,6 +89,7 @@ void Waits::begin_round(Cpu& cpu) {
   round_.registers = 0;
   round_.memory.clear();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
+  round_began_at_ = cpu.true_now();
   round_delayed_ = cpu.delayed;
   cpu.dc |= kNotSet;
   steps_ = 0;
@@ -185,10 +187,12 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   wait_ = wait;
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
+  entered_at_ = round_began_at_;
   // ... and so was the rest of the one that an interrupt had come into
   delayed_ = round_delayed_;
   if (cut_ == wait->first && entered_ - resumed_ <= wait->took) {
     entered_ = resumed_;
+    entered_at_ = resumed_at_;
     delayed_ = resumed_delayed_;
   }
   cpu.delayed = delayed_;
@@ -208,6 +212,7 @@ void Waits::enter_count(Cpu& cpu, const Count* count, Cycle rounds) {
 }
 
 void Waits::wait(Cpu& cpu) {
+  cpu.in_wait = true;
   Cycle end = std::min(cpu.deadline, cpu.clocks.program_at(until_));
   if (counts_) end = std::min(end, end_of_count(cpu));
   // the rest of a round, then whole ones; behind a count one is run, as it writes more than the counter
@@ -223,6 +228,7 @@ void Waits::wait(Cpu& cpu) {
   }
   while (cpu.now < end) step(cpu);
   cpu.delayed = delayed_;
+  cpu.in_wait = false;
   const Cycle now = cpu.true_now();
   if (counts_ && cpu.clocks.own_cycles(cpu.now) >= ends_) {
     leave(cpu);
@@ -244,6 +250,7 @@ void Waits::jump_over(Cpu& cpu) {
 
 void Waits::leave(Cpu& cpu) {
   waited_ += cpu.clocks.own_cycles(cpu.now) - entered_;
+  if (cpu.course) cpu.course->waited(entered_at_, cpu.true_now());
   state_ = State::Away;
   counts_ = nullptr;
 }

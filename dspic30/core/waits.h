@@ -40,6 +40,7 @@ class Waits {
     cpu.returned = false;
     resumed_ = cpu.clocks.own_cycles(cpu.now);
     resumed_delayed_ = cpu.delayed;
+    resumed_at_ = cpu.true_now();
   }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
@@ -56,6 +57,8 @@ class Waits {
   Cycle waited(const Cpu& cpu, Cycle now) const {
     return waited_ + (is_waiting() ? cpu.clocks.own_cycles(now) - entered_ : 0);
   }
+  /// When the present wait began, by the true clock.
+  Cycle since() const { return entered_at_; }
   Cycle jumped() const { return jumped_; }
 
  private:
@@ -100,11 +103,13 @@ class Waits {
   const Decoded* cut_ = nullptr;        // first instruction of the wait that an interrupt came into last
   Cycle resumed_ = 0;                   // cycles of the program when the latest handler returned
   Cycle resumed_delayed_ = 0;           // Cpu::delayed then
+  Cycle resumed_at_ = 0;                // true time then
   const Decoded* look_head_ = nullptr;  // where the look began
   // the round that is looked at
   KnownWaits::Wait round_;
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
   Cycle round_delayed_ = 0;                 // Cpu::delayed then
+  Cycle round_began_at_ = 0;                // true time then
   int chances_ = 0, steps_ = 0;
   std::vector<CountStep> trace_;  // of the last chance
   Count proven_;
@@ -120,6 +125,7 @@ class Waits {
   const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
   const Count* counts_ = nullptr;           // it is a loop that counts
   Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
+  Cycle entered_at_ = 0;                    // entered_, in true time
   Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
   Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
   Cycle waited_ = 0, jumped_ = 0;

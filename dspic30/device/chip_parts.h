@@ -99,12 +99,13 @@ struct ChipParts {
   // --- registers; as Dspic30f6014a has them
   std::uint16_t read(unsigned address, unsigned bits, Cycle now) {
     events.run_to(now);
+    events.tell_read(now);
     return bus.read(address, bits, now);
   }
   /// Is read_result() the same as read()?
   bool is_result(unsigned address, unsigned bits, Cycle now) const {
     return address - Adc::kBuffer < Adc::kBufferEnd - Adc::kBuffer && bits > 8 && events.next() > now &&
-           adc.is_cruising();
+           adc.is_cruising() && !events.is_watched();
   }
   __attribute__((always_inline)) std::uint16_t read_result(unsigned address, Cycle now) {
     return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
@@ -127,6 +128,7 @@ struct ChipParts {
   /// modify_flags() that flips none, where nothing else comes of it: no event moves, nothing can be served
   /// sooner. False: nothing has happened.
   __attribute__((always_inline)) bool lower_flags(unsigned address, std::uint16_t keep, Cycle now) {
+    events.tell_change(now);
     if (!bus.was_written(address) || !interrupts.lower_flags(flag_word(address), keep, now)) return false;
     bus.count_write();
     return true;
@@ -134,6 +136,7 @@ struct ChipParts {
   __attribute__((always_inline)) Cycle modify_flags(unsigned address, std::uint16_t keep, std::uint16_t flip,
                                                     Cycle now) {
     const int word = flag_word(address);
+    events.tell_change(now);
     interrupts.forget_stir();
     const std::uint16_t old = interrupts.read_flags(word, now);
     const std::uint16_t value = bus.accept_plain(address, static_cast<std::uint16_t>((old & keep) ^ flip));
@@ -194,6 +197,7 @@ struct ChipParts {
 
   void begin_write(Cycle now) {
     events.run_to(now);
+    events.tell_change(now);
     interrupts.forget_stir();
   }
   Cycle end_write() { return interrupts.stirred() ? 0 : notice_horizon(); }

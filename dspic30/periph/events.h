@@ -17,12 +17,15 @@ class EventOwner {
   virtual void on_event(int id, Cycle at) = 0;
 };
 
-/// Hears of every instant before anything happens in it: whoever draws registers over time.
+/// Hears of every instant before anything happens in it, and before each access of the program: whoever draws
+/// registers over time.
 class EventWatch {
  public:
   virtual ~EventWatch() = default;
   /// The chip changes by itself in cycle `at`; all that changed before is in place. May peek, not change.
   virtual void about_to_change(Cycle at) = 0;
+  /// The program reads in cycle `at`, and what is worked out when somebody looks is worked out up to there.
+  virtual void about_to_be_read(Cycle at) {}
 };
 
 class Events {
@@ -62,6 +65,14 @@ class Events {
   }
   /// Null: nobody.
   void watch(EventWatch* watch) { watch_ = watch; }
+  bool is_watched() const { return watch_ != nullptr; }
+  /// The program, or who plays a part of it, is about to change something.
+  void tell_change(Cycle at) const {
+    if (watch_) watch_->about_to_change(at);
+  }
+  void tell_read(Cycle at) const {
+    if (watch_) watch_->about_to_be_read(at);
+  }
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
   /// after a slot that may set one of these flags.
   Cycle notice_horizon(std::uint64_t irqs) {

@@ -161,7 +161,6 @@ void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
 
 void HostLibrary::begin_handler(Cycle at) {
   handler_began_ = at;
-  handler_since_ = std::min(agendas().next_interrupt(), at);
   agendas().begin(at);
   walk_begins_ = true;
 }
@@ -179,7 +178,7 @@ HandlerStep HostLibrary::next_in_handler(Cycle at) {
   if (!function && !is_empty) step.cycles += cycles_.walk_end;
   if (step.divides_by_zero) step.cycles += cycles_.run_divides;
   note(step.function, at);
-  if (watch_ && step.function) watch_->calls_back(step.function, at + step.cycles);
+  if (watch_) watch_->calls_back(step.function, step.function ? at + step.cycles : at);
   return step;
 }
 

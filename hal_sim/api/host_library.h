@@ -34,7 +34,8 @@ class CallWatch {
  public:
   virtual ~CallWatch() = default;
   virtual void called(HostFunction function) = 0;
-  /// An agenda's function, at this program address, is about to be called.
+  /// An agenda's function, at this program address, is about to be called; 0: the last one of this tick has
+  /// returned.
   virtual void calls_back(unsigned function, Cycle at) = 0;
 };
 
@@ -72,8 +73,6 @@ class HostLibrary final : public dspic::HostCalls {
   int saved_words() const override { return static_cast<int>(cycles_.walk_saved_words); }
   void reset(Cycle at) override;
 
-  /// When the tick came whose handler began last.
-  Cycle handler_since() const { return handler_since_; }
   /// What it did so far, each at its cycle, whatever the order of looks at it.
   std::uint64_t digest() const { return digest_; }
   const drivers::Drivers& drivers() const { return *drivers_; }
@@ -140,7 +139,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint64_t digest_ = 0;
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
-  Cycle handler_since_ = 0, handler_began_ = 0;
+  Cycle handler_began_ = 0;
 };
 
 }  // namespace api

@@ -93,9 +93,10 @@ void ChipRunner::catch_up(Cycle now) {
     if (const auto kind = processor_->run(now)) reset(*kind);
 }
 
-// what came from outside finds the program where it is by now; who looks on sees it sleep up to then
+// what came from outside finds the program where it is by now; who looks at each step sees it sleep up to
+// then
 void ChipRunner::begin_window(Cycle now) {
-  if (!is_watched()) catch_up(now);
+  if (watches_.empty()) catch_up(now);
   end_ = std::max(end_, now);
   if (chip_.begin_window(now)) processor_->stir();
 }
@@ -105,12 +106,15 @@ void ChipRunner::run_until(Cycle end) {
   const bool passes = idle_until_ > end;
   if (processor_->now() < end) {
     if (!passes) ++turns_;
-    if (is_watched())
+    if (!watches_.empty())
       run_watched(end);
+    else if (observer_ && observer_->look_every < dspic::kNever)
+      run_looked_at(end);
     else
       while (const auto kind = processor_->run(end)) reset(*kind);
   }
   end_ = std::max(end_, end);
+  tell_asked(end_);
   chip_.end_window(std::max(end_, processor_->now()));
   if (end_ >= calls_->next_look()) calls_->look(end_);
   if (!passes) idle_until_ = std::min(processor_->idle_until(), calls_->next_look());
@@ -249,7 +253,17 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
 
 std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }
 
-// --- watched: instruction by instruction, and what it told in between
+// --- watched
+
+// by pieces for an observer who asks for them. A wait changes nothing but what it counts
+void ChipRunner::run_looked_at(Cycle end) {
+  while (processor_->now() < end) {
+    const Cycle piece = processor_->now() + observer_->look_every;
+    if (const auto kind = processor_->run(std::min(end, std::max(piece, processor_->idle_until()))))
+      reset(*kind);
+    observer_->reached(processor_->now());
+  }
+}
 
 void ChipRunner::run_watched(Cycle end) {
   while (processor_->now() < end) {
@@ -259,7 +273,6 @@ void ChipRunner::run_watched(Cycle end) {
     step.pc = processor_->pc();
     step.slept = processor_->is_asleep();
     const int nesting = device().nesting();
-    if (observer_) observer_->reached(step.begin);
     if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
       reset(*kind);
       continue;
@@ -269,23 +282,17 @@ void ChipRunner::run_watched(Cycle end) {
     if (device().nesting() > nesting)
       step.entered = device().peek(dspic::sfr("INTTREG"), chip_.at(step.end)) & 0x3F;
     step.left = device().nesting() < nesting;
-    if (observer_) tell_observer(step, nesting);
+    if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);
   }
 }
 
-void ChipRunner::tell_observer(const Step& step, int nesting) {
-  if (step.slept) observer_->waited(step.begin, step.end, nesting);
-  if (step.entered != dspic::kNoVector) {
-    const int irq = step.entered - dspic::kFirstIrqVector;
-    const bool by_heart = library_ && step.entered == library_->vector(0);
-    const Cycle since = by_heart   ? library_->handler_since()
-                        : irq >= 0 ? device().flag_since(step.entered)
-                                   : -1;
-    observer_->handler_begins(irq, since, step.begin, step.end);
-  } else if (step.left) {
-    observer_->handler_ends(step.end);
-  }
+void ChipRunner::handler_begins(int vector, Cycle entry, Cycle first) {
+  if (vector < dspic::kFirstIrqVector)
+    return observer_->handler_begins(host::kTrapVector + vector - 1, -1, entry, first);
+  const bool by_heart = library_ && vector == library_->vector(0);
+  observer_->handler_begins(vector - dspic::kFirstIrqVector,
+                            by_heart ? library_->due() : device().flag_since(vector), entry, first);
 }
 
 void ChipRunner::watch_steps(StepWatch* watch, bool on) {
@@ -294,8 +301,9 @@ void ChipRunner::watch_steps(StepWatch* watch, bool on) {
 }
 
 void ChipRunner::observe(host::Observer* observer) {
-  observer_ = observer;
+  Runner::observe(observer);
   chip_.watch(observer ? this : nullptr);
+  processor_->tell_course(observer ? this : nullptr);
 }
 
 // at the observer's own instants, which may lie before the latest of the program: what comes between them

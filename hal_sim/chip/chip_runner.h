@@ -18,6 +18,7 @@
 #include <string>
 #include <vector>
 
+#include "dspic30/core/course_watch.h"
 #include "dspic30/core/processor.h"
 #include "dspic30/core/program_watch.h"
 #include "hal_sim/api/host_library.h"
@@ -36,6 +37,7 @@ using dspic::Cycle;
 class ChipRunner final : public host::Runner,
                          private dspic::EventWatch,
                          private dspic::ProgramWatch,
+                         private dspic::CourseWatch,
                          private api::CallWatch {
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
@@ -48,7 +50,9 @@ class ChipRunner final : public host::Runner,
   void begin_window(Cycle now) override;
   void run_until(Cycle end) override;
   /// Whoever looks at each instruction sees those of waits, too.
-  Cycle idle_until() const override { return is_watched() && !processor_->is_asleep() ? 0 : idle_until_; }
+  Cycle idle_until() const override {
+    return !watches_.empty() && !processor_->is_asleep() ? 0 : idle_until_;
+  }
   void pass_to(Cycle end) override;
   std::uint64_t turns() const override { return turns_; }
   void wake() override {
@@ -62,7 +66,7 @@ class ChipRunner final : public host::Runner,
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
   Cycle idle_cycles() const override { return processor_->idle(end_); }
-  Cycle waiting_since() const override { return dspic::kNever; }
+  Cycle waiting_since() const override { return processor_->waiting_since(); }
   bool has_stopped() const override { return false; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
   std::vector<board::Diagnosis> diagnoses() const override;
@@ -104,11 +108,16 @@ class ChipRunner final : public host::Runner,
 
  private:
   void about_to_change(Cycle at) override { observer_->about_to_change(at); }
+  void about_to_be_read(Cycle at) override {
+    if (observer_->sees_registers) observer_->about_to_change(at);
+  }
+  void handler_begins(int vector, Cycle entry, Cycle first) override;
+  void handler_ends(Cycle at) override { observer_->handler_ends(at); }
+  void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().nesting()); }
   void program_eeprom();
-  bool is_watched() const { return observer_ || !watches_.empty(); }
   void run_watched(Cycle end);
+  void run_looked_at(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
-  void tell_observer(const Step& step, int nesting);
   void tell_reset(Cycle at);
   void trapped(dspic::Trap trap, unsigned from) override {
     chip_.digest().note(EventDigest::Kind::Trap, static_cast<std::uint64_t>(trap) << 32 | from,
@@ -143,7 +152,6 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<LibraryCalls> calls_;
   unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
-  host::Observer* observer_ = nullptr;
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;

@@ -74,7 +74,7 @@ class CompiledRunner final : public Runner, public Context {
   Place place_now() const override;
 
   void observe(Observer* observer) override {
-    observer_ = observer;
+    Runner::observe(observer);
     processor_->observe(observer);
   }
   bool flag(int vector, Cycle at) override { return processor_->flag(vector, at); }
@@ -116,7 +116,6 @@ class CompiledRunner final : public Runner, public Context {
   /// How often the program has begun.
   std::int64_t starts() const { return starts_; }
   /// Does an observer hear of every access, so that now() is to be asked for it?
-  bool is_observed() const { return observer_ != nullptr; }
 
   // --- Context
   Cycle now() override { return observer_ ? now_and_tell() : now_unobserved(); }
@@ -365,7 +364,6 @@ class CompiledRunner final : public Runner, public Context {
   Cycle poll_main_ = 0;
   std::int64_t poll_served_ = 0;
 
-  Observer* observer_ = nullptr;
   std::uint32_t rand_state_ = 1;
   std::int64_t asked_wait_ = -1;   // loop that was looked at last for an endless wait
   board::Diagnosis endless_wait_;  // the first one of this power-up; without a cause: none

@@ -47,11 +47,13 @@ Cycle FirmwareMind::now() const {
 void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   board_.look_at(&scene);
   const Cycle start = now();
+  tell_asked(start);
   if (start >= board_horizon_) board_.exchange(start);
   now_ = cycle_at(end);
   if (!runner_) return set_idle_until(find_idle_until());
   runner_->begin_window(start);
   runner_->run_until(now_);
+  tell_asked(now_);
   if (runner_->turns() != turns_) {
     turns_ = runner_->turns();
     course_.until = 0;
@@ -80,6 +82,7 @@ sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {
 sim::WheelCourse FirmwareMind::course_at(sim::Clicks at) const {
   const board::RobotClock& clock = board_.clock();
   const Cycle cycle = cycle_at(at);
+  tell_asked(cycle);
   const board::WheelTurn left = board_.wheel_turn(board::Wheel::Left, cycle),
                          right = board_.wheel_turn(board::Wheel::Right, cycle);
   const Cycle until = std::min(left.until, right.until);
@@ -93,11 +96,13 @@ sim::WheelCourse FirmwareMind::course_at(sim::Clicks at) const {
 
 sim::MindReport FirmwareMind::report() const {
   const Cycle at = now();
+  tell_asked(at);
   return {board_.left_steps(at), board_.right_steps(at), board_.leds(at)};
 }
 
 int FirmwareMind::proximity_counts(const sim::Scene& scene, int index) {
   board_.look_at(&scene);
+  tell_asked(now());
   return board_.proximity_counts(index, now());
 }
 

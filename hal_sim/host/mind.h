@@ -46,9 +46,13 @@ class FirmwareMind final : public sim::RobotMind {
   /// For changing, too.
   board::Board& board() {
     wake();
+    if (is_observed()) tell_asked(now());
     return board_;
   }
-  const board::Board& board() const { return board_; }
+  const board::Board& board() const {
+    if (is_observed()) tell_asked(now());
+    return board_;
+  }
   /// Null when no firmware is loaded.
   Runner* runner() {
     wake();
@@ -61,7 +65,12 @@ class FirmwareMind final : public sim::RobotMind {
   Cycle now() const;
 
  private:
+  bool is_observed() const { return runner_ && runner_->is_observed(); }
+  void tell_asked(Cycle at) const {
+    if (runner_) runner_->tell_asked(at);
+  }
   Runner* caught_up() const {
+    if (is_observed()) tell_asked(now());
     if (runner_) runner_->pass_to(now());
     return runner_.get();
   }

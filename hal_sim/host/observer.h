@@ -40,6 +40,8 @@ class Observer {
 
   /// Running code is interrupted at the latest after so many cycles, to be looked at. No change of course.
   Cycle look_every = kNever;
+  /// It asks for registers: about_to_change() comes before the program reads one, too.
+  bool sees_registers = false;
 };
 
 }  // namespace host

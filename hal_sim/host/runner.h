@@ -132,7 +132,13 @@ class Runner {
 
   // --- for whoever writes its course down; no change of course
   /// Null: nobody. The observer outlives the robot or is taken away.
-  virtual void observe(Observer* observer) = 0;
+  virtual void observe(Observer* observer) { observer_ = observer; }
+  bool is_observed() const { return observer_ != nullptr; }
+  /// Somebody else is about to ask the board how it is at `at`: what closed forms have been asked once they
+  /// no longer know of before, so the observer looks first.
+  void tell_asked(Cycle at) const {
+    if (observer_) observer_->reached(at);
+  }
   /// Whether the flag of an interrupt (natural order) is set at `at`, not before what has already run; and
   /// the first cycle after `at` at which it may change by itself, kNever if none.
   virtual bool flag(int vector, Cycle at) = 0;
@@ -154,6 +160,7 @@ class Runner {
   /// Of the chip and of the board, as diagnoses() gives them: in order of time, with the world's time.
   std::vector<board::Diagnosis> dated(std::vector<board::Diagnosis> of_chip,
                                       std::vector<board::Diagnosis> of_board) const;
+  Observer* observer_ = nullptr;
 
  private:
   std::string name_;

@@ -24,6 +24,9 @@ std::uint64_t lowest(std::uint64_t value, int width) {
   return width >= 64 ? value : value & ((std::uint64_t{1} << width) - 1);
 }
 
+// what each instruction may change: W0 to W15, SR, RCOUNT ...
+bool is_of_core(int address) { return address < static_cast<int>(dspic::sfr("DISICNT")); }
+
 // TMR1 to TMR5: a tick may be a cycle
 bool runs_freely(int address) {
   const char* name = dspic::Dspic30f6014a::register_name(static_cast<unsigned>(address));
@@ -43,8 +46,11 @@ RobotTrace::RobotTrace(board::Board& board, host::Runner* runner, std::vector<Si
       at = sampled_.end() - 1;
     }
     at->signals.push_back(static_cast<int>(i));
-    if (source.kind == Source::Variable) look_every = kVariableCycles;
-    if (source.kind == Source::Register && runs_freely(source.index)) shows_counters_ = true;
+    if (source.kind == Source::Variable) look_every = std::min(look_every, kVariableCycles);
+    if (source.kind != Source::Register) continue;
+    sees_registers = true;
+    if (is_of_core(source.index)) look_every = 1;
+    if (runs_freely(source.index)) shows_counters_ = true;
   }
   shown_.assign(signals_.size(), 0);
   for (int number : {1, 2}) board_.uart(number).watch(this, number);
@@ -238,8 +244,12 @@ void RobotTrace::end_wait() {
 }
 
 void RobotTrace::waited(Cycle from, Cycle to, int depth) {
+  // the first rounds of a loop may have been told as delays of their own
+  Cycle& told = depth > 0 ? waited_in_handler_ : wait_.end;
+  from = std::max(from, told);
   if (!keeps_spans_ || to <= from) return;
   if (depth > 0) {
+    waited_in_handler_ = to;
     Span span;
     span.kind = Span::Kind::HandlerWaiting;
     span.begin = from;

@@ -103,9 +103,10 @@ class RobotTrace final : public host::Observer, public board::UartWatch {
   std::deque<Change> changes_;
 
   std::vector<Span> spans_;
-  std::vector<Span> open_;  // handlers, outermost first
-  Span callback_;           // function 0: none
-  Span wait_;               // the latest of the main program, may still grow
+  std::vector<Span> open_;             // handlers, outermost first
+  Span callback_;                      // function 0: none
+  Span wait_;                          // the latest of the main program, may still grow
+  host::Cycle waited_in_handler_ = 0;  // the latest in one ended there
   std::array<std::deque<Frame>, 4> frames_;
   std::array<std::uint8_t, 4> wire_byte_{};
   std::int64_t received_ = 0;

@@ -81,7 +81,7 @@ class ProgramRunner final : public host::Runner {
   void write_memory(std::uintptr_t, const void*, std::size_t) override {}
   host::Place place_of(std::uintptr_t) const override { return {}; }
   host::Place place_now() const override { return {}; }
-  void observe(host::Observer*) override {}
+  void observe(host::Observer*) override {}  // it has no course of its own
   bool flag(int, Cycle) override { return false; }
   Cycle flag_horizon(int, Cycle) override { return board::kNever; }
   bool has_chip() const override { return false; }

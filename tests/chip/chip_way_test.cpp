@@ -130,7 +130,7 @@ TEST_F(ChipWayTest, ways_mix_and_threads_do_not_matter) {
   EXPECT_EQ(digests[0], digests[1]);
 }
 
-// whoever looks at each instruction changes nothing
+// whoever is told what happens, or looks at each instruction, changes nothing
 TEST_F(ChipWayTest, an_observer_changes_nothing) {
   struct Nobody : host::Observer {
     int reaches = 0;
@@ -141,9 +141,10 @@ TEST_F(ChipWayTest, an_observer_changes_nothing) {
     void waited(host::Cycle, host::Cycle, int) override {}
     void ended(host::Cycle) override {}
   } nobody;
-  std::uint64_t digests[2];
-  double loads[2];
-  for (const bool observed : {false, true}) {
+  std::uint64_t digests[3];
+  double loads[3];
+  for (int looks = 0; looks < 3; ++looks) {
+    if (looks == 2) nobody.look_every = 1;
     struct One : ChipWayTest {
       void TestBody() override {}
       std::pair<std::uint64_t, double> run(host::Observer* observer) {
@@ -153,11 +154,14 @@ TEST_F(ChipWayTest, an_observer_changes_nothing) {
         return {digest(), twin().mind(0).runner()->cpu_load()};
       }
     } one;
-    std::tie(digests[observed], loads[observed]) = one.run(observed ? &nobody : nullptr);
+    std::tie(digests[looks], loads[looks]) = one.run(looks ? &nobody : nullptr);
+    if (looks == 1) EXPECT_LT(nobody.reaches, 1000);
   }
-  EXPECT_EQ(digests[0], digests[1]);
-  EXPECT_EQ(loads[0], loads[1]);
-  EXPECT_GT(nobody.reaches, 100000);
+  for (int looks = 1; looks < 3; ++looks) {
+    EXPECT_EQ(digests[0], digests[looks]);
+    EXPECT_EQ(loads[0], loads[looks]);
+  }
+  EXPECT_GT(nobody.reaches, 2000);  // delays, which are most of it, are passed over
 }
 
 // load is the share of the time in which the program does anything but poll, count a delay down or sleep

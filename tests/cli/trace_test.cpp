@@ -67,6 +67,77 @@ TEST_F(Traces, blink_toggles_at_every_thousandth_agenda_tick) {
   EXPECT_EQ(dump.last_ns, 650'390'625);  // the tick after 0.65 s: 333 of 512 a second
 }
 
+// 500 steps/s are 20 ticks of 1475 cycles; the simulation asks the wheels 512 times a second how they turn
+TEST_F(Traces, each_step_has_its_cycle_whoever_asks) {
+  write("drives/main.c",
+        "#include <motor_led/e_init_port.h>\n"
+        "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+        "#include <motor_led/advance_one_timer/e_motors.h>\n"
+        "int main(void) {\n"
+        "  e_init_port(); e_init_motors(); e_start_agendas_processing();\n"
+        "  e_set_speed_left(500); e_set_speed_right(500);\n"
+        "  while (1);\n"
+        "}\n");
+  for (const char* way : {"--hal sim", "--hal dspic", "--way native"}) {
+    SCOPED_TRACE(way);
+    const Said s = twinpuck("run empty -q --fw '*=" + path("drives") + "' --for 3 --vcd " + path("d.vcd") +
+                            " --vcd-signals '*:left_steps' " + way);
+    ASSERT_EQ(s.exit_code, 0) << s.text;
+    const auto steps = parse(read(path("d.vcd"))).signals.at("puck/motors/left_steps");
+    ASSERT_NEAR(static_cast<double>(steps.size()), 1495, 6);  // e_init_port() takes a while
+    // where the handler runs, phases take it a few cycles more and less
+    const double jitter_ns = std::string(way) == "--hal dspic" ? 8 * kCycleNs : 0;
+    for (std::size_t i = 3; i < steps.size(); ++i)
+      EXPECT_NEAR(static_cast<double>(steps[i].first - steps[i - 1].first), 20 * 1475 * kCycleNs,
+                  1.01 + jitter_ns)
+          << i;
+  }
+}
+
+// and a run that is looked at is the run that it is without
+TEST_F(Traces, no_output_changes_a_run) {
+  for (const char* way : {"--hal sim", "--hal dspic"}) {
+    SCOPED_TRACE(way);
+    const auto digest = [&](const std::string& output) {
+      const Said s =
+          twinpuck("run maze --for 2 -q " + std::string(way) + " --summary " + path("s.json") + " " + output);
+      EXPECT_EQ(s.exit_code, 0) << s.text;
+      return json::parse(read(path("s.json")))["digest"].get<std::string>();
+    };
+    const std::string alone = digest("");
+    for (const std::string& output :
+         {"--trace " + path("t.json"), "--vcd " + path("t.vcd"), "--record " + path("r.csv"),
+          "--vcd " + path("t.vcd") +
+              " --vcd-signals 'puck:T2,puck:ADC,puck:TMR2,puck:SR,puck:U1STA,puck:left_steps'",
+          "--profile-json " + path("p.json"),
+          "--profile-json " + path("p.json") + " --trace " + path("t.json")})
+      EXPECT_EQ(digest(output), alone) << output;
+  }
+}
+
+TEST_F(Traces, time_line_of_the_chips_code_has_waits_handlers_and_agendas) {
+  const Said s =
+      twinpuck("run empty -q --fw '*=" + path("busy") + "' --hal sim --for 0.5 --trace " + path("t.json"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  double busy = 0, waiting = 0;
+  int handlers = 0, agendas = 0;
+  for (const json& e : json::parse(read(path("t.json")))) {
+    if (e["ph"] != "X") continue;
+    const std::string name = e["name"];
+    if (name == "busy") busy += e["dur"].get<double>();
+    if (name == "waiting") waiting += e["dur"].get<double>();
+    if (name == "T1") ++handlers;
+    if (name != "beat") continue;
+    ++agendas;
+    // its loop of 20 rounds, not the time up to the next
+    EXPECT_LT(e["args"]["cycles"].get<int>(), 2000);
+  }
+  EXPECT_NEAR(busy + waiting, 5e5, 1);
+  EXPECT_GT(waiting, 0.9 * busy);  // but for 5 % of T1's handlers, and their looks
+  EXPECT_NEAR(handlers, 0.49 * 14745600 / 500, 100);
+  EXPECT_EQ(agendas, 9);
+}
+
 TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
   const Said s =
       run("--for 0.5 --vcd " + path("t.vcd") +
