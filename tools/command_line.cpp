@@ -33,9 +33,10 @@ CLI::Validator between(double least, double most) {
 CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }
 
 void add_hal(CLI::App& verb, std::string& hal) {
-  verb.add_option("--hal", hal,
-                  "controllers built from source become code of the robot's own processor: sim, whose busy "
-                  "drivers are the simulator's, or dspic, the image that is flashed; goes before --way")
+  verb.add_option(
+          "--hal", hal,
+          "controllers built from source become code of the robot's own processor: sim, whose busy "
+          "drivers are the simulator's, or dspic, the image that is flashed; goes before --way; default: sim")
       ->check(CLI::IsMember({"sim", "dspic"}));
 }
 

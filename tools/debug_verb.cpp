@@ -36,7 +36,7 @@ struct DebugArguments {
   bool dap = false, gdb = false;
 };
 
-constexpr const char* kUsualHal = "dspic";
+constexpr const char* kUsualHal = "sim";
 const std::vector<std::string> kWays{"native", "register", "chip"}, kHals{"sim", "dspic"},
     kLevels{"-O0", "-O1", "-O2", "-Os"};
 

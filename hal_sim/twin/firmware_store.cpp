@@ -101,7 +101,7 @@ std::string build_folder() {
 }
 
 std::string hal_of(const Options& options, const std::string& path) {
-  constexpr const char* kUsual = "";
+  constexpr const char* kUsual = "sim";
   if (!options.hal.empty()) return options.hal;
   if (options.way == "chip") return "dspic";
   // what only code for the PC has

@@ -41,11 +41,11 @@ struct Options {
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
-  /// Of controllers built from source, all robots: native, register or chip; empty: the world's. Programs for
-  /// Webots' interfaces are programs of the PC in every way but chip.
+  /// Of controllers built from source, all robots: native or register, code for the PC; chip is hal dspic;
+  /// empty: the world's. Programs for Webots' interfaces are programs of the PC but with chip, or with a hal.
   std::string way;
   /// Of controllers built from source, all robots, for the robot's own processor: sim or dspic
-  /// (cc::BuildOptions); goes before any way. Empty: the way says.
+  /// (cc::BuildOptions); goes before any way. Empty: the way says, or the world; sim if none does.
   std::string hal;
   /// Robots whose program comes from outside; "*": all.
   std::vector<std::string> externs;

@@ -8,12 +8,13 @@ namespace twin {
 
 std::vector<sim::RobotModel> robot_models() {
   sim::RobotModel model = board::epuck_model();
-  model.keys.push_back(
-      {"way", sim::OwnKeyType::Choice, "", 0, 0, "native|register", "\"native\"",
-       "how firmware built from source reaches the hardware: by the library's functions, or by registers"});
-  model.keys.push_back({"hal", sim::OwnKeyType::Choice, "", 0, 0, "sim|dspic", "",
+  model.keys.push_back({"hal", sim::OwnKeyType::Choice, "", 0, 0, "sim|dspic", "\"sim\"",
                         "firmware built from source runs as the robot's own code, linked with this HAL: its "
                         "busy drivers are the simulator's, or the image is the one that is flashed"});
+  model.keys.push_back(
+      {"way", sim::OwnKeyType::Choice, "", 0, 0, "native|register", "",
+       "it runs as code of the PC instead, and reaches the hardware by the library's functions, "
+       "or by registers"});
   return {std::move(model)};
 }
 

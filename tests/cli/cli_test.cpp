@@ -34,7 +34,8 @@ TEST_F(Command, run_writes_record_summary_and_picture_that_agree) {
        {"name", "firmware", "way", "x_m", "y_m", "heading_rad", "distance_m", "collisions", "cycles",
         "cpu_load", "battery_v", "battery_used_wh", "battery_minutes_left", "traps"})
     EXPECT_TRUE(robot.contains(key)) << key;
-  EXPECT_EQ(robot["way"], "native");
+  EXPECT_EQ(robot["way"], "chip");
+  EXPECT_EQ(robot["hal"], "sim");
   EXPECT_EQ(robot["cycles"], 147'456'000);
   // 10 s at something between the electronics' 0.13 A and four coils' 0.24 A more, at nearly 4 V
   EXPECT_GT(robot["battery_used_wh"].get<double>(), 0.12 * 3.8 * 10 / 3600);

@@ -94,6 +94,7 @@ TEST_F(Hal, worlds_say_it_robot_by_robot) {
   EXPECT_EQ(hal("hal = \"sim\"\n"), "sim");
   EXPECT_EQ(hal("hal = \"dspic\"\n", "--hal sim"), "sim");
   EXPECT_TRUE(hal("hal = \"dspic\"\n", "--way native").is_null());
+  EXPECT_EQ(hal(""), "sim");
   EXPECT_TRUE(hal("way = \"native\"\n").is_null());
   const Said wrong = twinpuck("check " + world("hal = \"chip\"\n"));
   EXPECT_EQ(wrong.exit_code, 2) << wrong.text;
