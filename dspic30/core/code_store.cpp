@@ -158,7 +158,7 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
   if (beside_[index].wait.load(std::memory_order_relaxed)) return;
   for (const auto& [head, warmth] : warmth_) {
     const std::ptrdiff_t place = d - head;
-    if (place == 0 || place < warmth.first || place > warmth.last) continue;
+    if (place < warmth.first || place > warmth.last) continue;
     const Beside& beside = beside_[index_of(head)];
     if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted ||
         beside.wait.load(std::memory_order_relaxed))

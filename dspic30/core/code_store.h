@@ -113,8 +113,8 @@ class CodeTable {
   /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as
   /// Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
-  /// A wait is known to begin at a word that was met: `stop` runs there, and what ran before is
-  /// beside_wait(). What was translated with it in its middle would run past it, so it is forgotten.
+  /// A wait is known to begin at a word that was met: `stop` runs there each time, and what ran before is
+  /// beside_wait(). What was translated with it would go round past it, so it is forgotten.
   void mark_wait(const Decoded* d, Run stop);
   bool is_wait(const Decoded* d) const { return beside_[index_of(d)].wait.load(std::memory_order_acquire); }
   Run beside_wait(const Decoded* d) const {

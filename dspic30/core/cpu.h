@@ -394,9 +394,9 @@ class Cpu final : public SfrOwner {
   /// A handler known by heart is entered, as an interrupt is; go_on_with_handler() is next.
   void enter_handler();
   /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
-  /// `rest`: cycles that are not counted yet.
   const Decoded* go_on_with_handler(const Decoded* from);
-  /// RETFIE's work: level, flags and place of the program from the stack. `rest`: as above.
+  /// RETFIE's work: level, flags and place of the program from the stack. `rest`: cycles of it that are not
+  /// counted yet.
   const Decoded* return_from_handler(const Decoded* from, Cycle rest);
   /// A function of the host waits here.
   void stand(Cycle until, const Decoded* d);

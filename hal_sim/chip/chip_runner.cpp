@@ -290,9 +290,11 @@ void ChipRunner::run_watched(Cycle end) {
 void ChipRunner::handler_begins(int vector, Cycle entry, Cycle first) {
   if (vector < dspic::kFirstIrqVector)
     return observer_->handler_begins(host::kTrapVector + vector - 1, -1, entry, first);
-  const bool by_heart = library_ && vector == library_->vector(0);
-  observer_->handler_begins(vector - dspic::kFirstIrqVector,
-                            by_heart ? library_->due() : device().flag_since(vector), entry, first);
+  // one known by heart that is not held off needs no flag to come
+  const bool needs_none =
+      library_ && vector == library_->vector(0) && !device().has_flag(vector, chip_.at(entry));
+  const Cycle since = needs_none ? std::min(library_->due(), entry) : device().flag_since(vector);
+  observer_->handler_begins(vector - dspic::kFirstIrqVector, since, entry, first);
 }
 
 void ChipRunner::watch_steps(StepWatch* watch, bool on) {

@@ -273,6 +273,45 @@ wait: nop
   EXPECT_EQ(items.size(), 10u);
 }
 
+// A wait that a handler ends, and comes back to from time to time without looking: what counts as waited is
+// the same when its loop was translated before it was known as one.
+TEST(Translation, waits_are_counted_as_interpreted) {
+  const std::string text = R"(__reset: mov #0x2700, w0
+    mov w0, SPLIM
+    mov #899, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+    bset IEC0, #T1IE
+    clr w3
+turn: clr 0x0904
+    mov #65, w0
+loop: mov 0x0904, w1
+    cp w1, w0
+    bra ltu, loop
+    inc w3, w3
+    mov #37, w2
+work: dec w2, w2
+    bra nz, work
+    bra turn
+__T1Interrupt: bclr IFS0, #T1IF
+    inc 0x0904
+    retfie)";
+  Onlooker onlooker;
+  CoreBench first(text, {}, false), ready(text, {}, false), plain(text, {}, false);
+  first.cpu->set_translator(&onlooker);
+  first.cpu->translate_all();
+  first.run(100000);
+  ready.cpu->set_translator(&onlooker);
+  for (Cycle end = 50000; end < 2000000; end += 50000) {
+    for (CoreBench* b : {&ready, &plain}) b->run(end);
+    ASSERT_EQ(ready.cpu->now(), plain.cpu->now());
+    ASSERT_EQ(ready.cpu->idle(end), plain.cpu->idle(end)) << end;
+  }
+  EXPECT_GT(ready.cpu->translated(), 0);
+  EXPECT_GT(plain.cpu->idle(2000000), 1000000);
+}
+
 // what the host serves is read in the middle of a stretch, words and bytes, at the same cycles as interpreted
 TEST(Translation, served_variables_are_read_within_a_stretch) {
   const std::string text = R"(__reset: mov #0x2700, w0
