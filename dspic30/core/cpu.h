@@ -85,9 +85,10 @@ class Cpu final : public SfrOwner {
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
   CourseWatch* course = nullptr;     ///< null: nobody
-  /// Jumps, in 256s, that make the place they lead to worth translating: by then interpreting it has taken
-  /// about half as long as translating it will, which later runs need not do again. 0: at once, for tests.
-  int hot = 128;
+  /// Jumps, in 256s, that make the place they lead to worth translating. Interpreting it has taken a tenth of
+  /// what translating takes by then; but a translation is kept for later runs, and most programs are run
+  /// again. 0: at once, for tests.
+  int hot = 16;
 
   void reset();
   /// All words are decoded again, for this robot alone.
