@@ -41,6 +41,7 @@ void Processor::restart() {
   cpu_->still_since = kNever;
   cpu_->clocks.reset(cpu_->now);
   by_heart_.fill({});
+  seen_ = kUnseen;
   cpu_->host_due = kNever;
 }
 
@@ -161,11 +162,32 @@ bool Processor::is_held_off(std::size_t h, int next_vector) const {
          (interrupts.flag(irq) && next_vector != kFirstIrqVector + irq);
 }
 
+/// All that is_held_off() looks at, and due flags; each time another one while DISI runs.
+std::uint64_t Processor::hold_state(int next_vector) const {
+  const Cpu& cpu = *cpu_;
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  if (interrupts.disi_active(cpu.now) || cpu.host_due <= cpu.now) return kUnseen;
+  std::uint64_t state = static_cast<std::uint64_t>(interrupts.level()) << 1 | (is_asleep() ? 1 : 0);
+  for (const int irq : irqs_) {
+    if (irq < 0) continue;
+    const auto priority = static_cast<std::uint64_t>(interrupts.priority(irq));
+    state = state << 8 | priority << 3 | (next_vector == kFirstIrqVector + irq ? 4 : 0) |
+            (interrupts.flag(irq) ? 2 : 0) | (interrupts.enabled(irq) ? 1 : 0);
+  }
+  return state;
+}
+
 // which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was
 // set, and all is to be looked at again
 bool Processor::follow_host(int next_vector) {
   Cpu& cpu = *cpu_;
   Interrupts& interrupts = cpu.parts.interrupts;
+  // nothing that it depends on has changed since the last time
+  const std::uint64_t seen = hold_state(next_vector);
+  if (!cpu.host_stale && seen == seen_ && seen != kUnseen &&
+      cpu.now < std::min(by_heart_[0].source, by_heart_[1].source))
+    return false;
+  seen_ = seen;
   bool raised = false;
   for (std::size_t h = 0; h < irqs_.size(); ++h) {
     const int irq = irqs_[h], number = static_cast<int>(h);

@@ -113,6 +113,7 @@ class Processor {
   void execute();
   void sleep(Cycle until);
   bool follow_host(int vector);
+  std::uint64_t hold_state(int next_vector) const;
   bool is_held_off(std::size_t handler, int next_vector) const;
   bool raise_held(std::size_t handler);
   void count_missed(std::size_t handler);
@@ -134,6 +135,8 @@ class Processor {
   };
   std::array<ByHeart, 2> by_heart_;
   std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none
+  static constexpr std::uint64_t kUnseen = ~std::uint64_t{0};
+  std::uint64_t seen_ = kUnseen;  // hold_state() when follow_host() looked last
 };
 
 }  // namespace dspic

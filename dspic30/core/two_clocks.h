@@ -37,7 +37,7 @@ class TwoClocks {
   void set_share(std::uint64_t share_q32) {
     if (share_q32 != 0 && share_q32 != share_q32_) {  // it comes and goes, mostly the same one
       share_q32_ = share_q32;
-      kept_q32_ = (std::uint64_t{1} << 32) - share_q32;
+      kept_q32_ = kOne - share_q32;
       stolen_of_share_q32_ = static_cast<std::uint64_t>((Wide{share_q32} << 32) / kept_q32_);
     }
     stolen_q32_ = share_q32 == 0 ? 0 : stolen_of_share_q32_;
@@ -51,10 +51,19 @@ class TwoClocks {
 
  private:
   using Wide = unsigned __int128;
+  static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
   Cycle stolen(Cycle own) const {
     return static_cast<Cycle>((Wide{static_cast<std::uint64_t>(own)} * stolen_q32_ + rest_) >> 32);
   }
   Cycle first_at(Cycle wanted) const {
+    // as is nearly always, all fits into 64 bits: own * 2^32 + own * stolen + rest >= wanted * 2^32
+    if (constexpr Cycle kSoon = 1 << 30; wanted < kSoon && stolen_q32_ < kOne) {
+      const std::uint64_t each = kOne + stolen_q32_, limit = static_cast<std::uint64_t>(wanted) << 32;
+      std::uint64_t x = static_cast<std::uint64_t>(wanted) * kept_q32_ >> 32, sum = x * each + rest_;
+      for (; sum < limit; sum += each) ++x;
+      for (; x > 0 && sum - each >= limit; sum -= each) --x;
+      return settled_ + static_cast<Cycle>(x);
+    }
     auto own = static_cast<Cycle>(Wide{static_cast<std::uint64_t>(wanted)} * kept_q32_ >> 32);
     while (own + stolen(own) < wanted) ++own;
     while (own > 0 && own - 1 + stolen(own - 1) >= wanted) --own;
@@ -64,7 +73,7 @@ class TwoClocks {
   Cycle settled_ = 0, taken_ = 0;
   std::uint64_t stolen_q32_ = 0, rest_ = 0;
   // the last share that was not 0, what it leaves of a true cycle, and what it takes beside one that is left
-  std::uint64_t share_q32_ = 0, kept_q32_ = std::uint64_t{1} << 32, stolen_of_share_q32_ = 0;
+  std::uint64_t share_q32_ = 0, kept_q32_ = kOne, stolen_of_share_q32_ = 0;
 };
 
 }  // namespace dspic
