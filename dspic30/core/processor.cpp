@@ -162,19 +162,19 @@ bool Processor::is_held_off(std::size_t h, int next_vector) const {
          (interrupts.flag(irq) && next_vector != kFirstIrqVector + irq);
 }
 
-/// All that is_held_off() looks at, and due flags; each time another one while DISI runs.
+/// All that is_held_off() looks at, as one word; priorities by the count of writes to registers. While DISI
+/// runs, or something is due, another one each time.
 std::uint64_t Processor::hold_state(int next_vector) const {
   const Cpu& cpu = *cpu_;
   const Interrupts& interrupts = cpu.parts.interrupts;
   if (interrupts.disi_active(cpu.now) || cpu.host_due <= cpu.now) return kUnseen;
-  std::uint64_t state = static_cast<std::uint64_t>(interrupts.level()) << 1 | (is_asleep() ? 1 : 0);
-  for (const int irq : irqs_) {
-    if (irq < 0) continue;
-    const auto priority = static_cast<std::uint64_t>(interrupts.priority(irq));
-    state = state << 8 | priority << 3 | (next_vector == kFirstIrqVector + irq ? 4 : 0) |
-            (interrupts.flag(irq) ? 2 : 0) | (interrupts.enabled(irq) ? 1 : 0);
-  }
-  return state;
+  const auto bits_of = [&](int irq) {  // bit 63 is nobody's
+    return (interrupts.enabled_mask() >> (irq & 63) & 1) << 1 | (interrupts.flags() >> (irq & 63) & 1);
+  };
+  return static_cast<std::uint64_t>(cpu.parts.bus.writes()) << 16 |
+         (static_cast<std::uint64_t>(next_vector) & 63) << 10 | bits_of(irqs_[1]) << 8 |
+         bits_of(irqs_[0]) << 6 | static_cast<std::uint64_t>(interrupts.level()) << 1 |
+         (is_asleep() ? 1 : 0);
 }
 
 // which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was

@@ -105,6 +105,8 @@ class Uart {
   void put_on_wire(std::uint8_t byte, Cycle end);
   /// The chip holds the line low until `end`.
   void break_on_wire(Cycle end);
+  /// Does take_from_wire() have a byte?
+  bool has_on_wire() const { return !on_wire_.empty(); }
   /// Takes the next byte that is on its way to the chip and says when its start bit begins. False: none is.
   bool take_from_wire(std::uint8_t& byte, Cycle& start);
 

@@ -39,6 +39,11 @@ BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), select
   board_.leave_inputs_to_others();
 }
 
+bool BoardOutside::may_have_news() const {
+  return board_.uart(1).has_on_wire() || board_.uart(2).has_on_wire() || selector_ != board_.selector() ||
+         camera_.is_asked();
+}
+
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
   bool news = false;
   for (int n = 1; n <= 2; ++n) {

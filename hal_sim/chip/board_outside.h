@@ -29,6 +29,8 @@ class BoardOutside final : public dspic::Outside {
   /// `board` outlives this.
   explicit BoardOutside(board::Board& board);
 
+  /// May begin_window() find anything?
+  bool may_have_news() const;
   /// Tick boundary, after Board::exchange(): words from outside start on their lines; what somebody did by
   /// hand (selector) reaches the chip. True: there was any such thing.
   bool begin_window(dspic::Dspic30f6014a& chip, Cycle now);

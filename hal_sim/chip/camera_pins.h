@@ -41,6 +41,8 @@ class CameraPins {
   /// The sensor's registers or the length of its frames have changed since the last call: edges told before
   /// are not true any more.
   bool take_news();
+  /// Has a program looked at its pins?
+  bool is_asked() const { return f_.lines != 0; }
 
  private:
   struct Frames {

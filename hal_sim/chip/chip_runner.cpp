@@ -96,7 +96,7 @@ void ChipRunner::catch_up(Cycle now) {
 // what came from outside finds the program where it is by now; who looks at each step sees it sleep up to
 // then
 void ChipRunner::begin_window(Cycle now) {
-  if (watches_.empty()) catch_up(now);
+  if (watches_.empty() && chip_.may_have_news()) catch_up(now);
   end_ = std::max(end_, now);
   if (chip_.begin_window(now)) processor_->stir();
 }

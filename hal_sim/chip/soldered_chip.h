@@ -45,6 +45,7 @@ class SolderedChip final : private dspic::DiagnosticSink {
   }
   Cycle latest() const { return latest_; }
   /// Tick boundary, after Board::exchange(): what came from outside is on its way. True: there was anything.
+  bool may_have_news() const { return outside_.may_have_news(); }
   bool begin_window(Cycle now) { return outside_.begin_window(*device_, at(now)); }
   /// Everything that happens by itself up to `now` has happened.
   void end_window(Cycle now);
