@@ -111,10 +111,15 @@ std::string TerminalView::robot_line(int robot) const {
   std::string leds;
   for (int i = 0; i < 10; ++i) leds += mind.report().leds >> i & 1 ? "01234567BF"[i] : '.';
   const host::Runner* program = mind.runner();
-  const char* state = !program                                  ? "no program"
+  std::string state = !program                                  ? "no program"
                       : program->has_stopped()                  ? "STOPPED by a trap"
                       : program->waiting_since() < host::kNever ? "waits"
                                                                 : "runs";
+  // where the robot's own code goes on
+  std::int64_t resets = 0;
+  if (program && !program->has_stopped())
+    for (const host::TrapReport& trap : program->traps()) resets += trap.count;
+  if (resets > 0) state = "RESET " + (resets < 1000 ? std::to_string(resets) : ">999") + "x, " + state;
   return fmt::format("{:<12.12} x {:6.3f} y {:6.3f} m {:4.0f} deg  LEDs {}  {}",
                      twin_.world().robots[static_cast<std::size_t>(robot)].name, pose.x_m, pose.y_m,
                      sim::degrees(std::remainder(pose.heading_rad, 2 * sim::kPi)), leds, state);

@@ -128,15 +128,19 @@ std::array<double, 4> Camera::widest_edges() const {
   return {-right, right, -up, up};
 }
 
-/// Of the picture that is taken.
-std::array<double, 4> Camera::edges() const {
+std::array<double, 4> Camera::edges(const Part& part) const {
   const auto [along, down] = scale();
   const double half = 0.5 * taken_.sub_sampling;
-  const double lines = (cut_.rows - 1) * cut_.row_step + 1;
-  const auto x = std::minmax({(columns_.front() - half - 0.5 * kArrayWidth) * along,
-                              (columns_.back() + half - 0.5 * kArrayWidth) * along});
-  const double top = (taken_.first_y - 0.5 * kArrayHeight) * down;
-  const auto y = std::minmax({top, top + lines * taken_.sub_sampling * down});
+  const auto column = [this](int number) {
+    return columns_[std::min(static_cast<std::size_t>(number), columns_.size() - 1)];
+  };
+  const auto line_from_top = [&](int number) {
+    return (taken_.first_y + number * taken_.sub_sampling - 0.5 * kArrayHeight) * down;
+  };
+  const auto x = std::minmax({(column(part.first_column) - half - 0.5 * kArrayWidth) * along,
+                              (column(part.last_column) + half - 0.5 * kArrayWidth) * along});
+  const auto y = std::minmax({line_from_top(part.first_row * cut_.row_step),
+                              line_from_top(part.last_row * cut_.row_step + 1)});
   // as in render(): turned by a quarter, or lines from the top
   if (mount_ == CameraMount::Sideways) return {y.first, y.second, x.first, x.second};
   return {x.first, x.second, -y.second, -y.first};
@@ -302,11 +306,18 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
     }
     *to++ = value;
     hash_ = sim::fold(hash_, static_cast<std::uint64_t>(value));
-    if (on_picture) picture_.push_back(value);
+    if (on_picture && cut_.is_picture) picture_.push_back(value);
   }
-  if (number + 1 < cut_.rows) return;
+  if (number + 1 < cut_.rows || !cut_.is_picture) return;
+  note_picture({0, static_cast<int>(columns_.size()) - 1, cut_.columns, 0, cut_.rows - 1, cut_.rows}, picture_,
+               at);
+}
+
+void Camera::note_picture(const Part& part, std::vector<std::uint8_t> bytes, Cycle at) {
   ++pictures_;
-  if (on_picture) on_picture({taken_.format, cut_.columns, cut_.rows, pictures_, at, picture_, edges()});
+  if (on_picture)
+    on_picture(
+        {taken_.format, part.columns, part.rows, pictures_, at, std::move(bytes), edges(part)});
 }
 
 void Camera::sensor_reset(Cycle at) {

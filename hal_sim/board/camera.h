@@ -64,6 +64,12 @@ class Camera {
     int columns = 0;         ///< pixels that these are
     int rows = 0;            ///< lines, from the frame's first one
     int row_step = 1;        ///< from one that is taken to the next
+    bool is_picture = true;  ///< the last one completes a picture; else note_picture() tells of it
+  };
+  /// What a program has made of a frame of which all was taken: a rectangle of it, by places in the cut.
+  struct Part {
+    int first_column = 0, last_column = 0, columns = 0;
+    int first_row = 0, last_row = 0, rows = 0;
   };
   /// Somebody waits for a frame. Returns the cycle of the next VSYNC.
   Cycle await_frame(Cycle at);
@@ -78,6 +84,9 @@ class Camera {
   Cycle line_at(int row) const { return first_line_ + row * cut_.row_step * line_cycles_; }
   /// Puts that line's bytes to `to`; there must be such a line. `at`: when it was taken.
   void put_line(int row, std::uint8_t* to, Cycle at);
+
+  /// A program has got this from the data pins, the last byte at `at`.
+  void note_picture(const Part& part, std::vector<std::uint8_t> bytes, Cycle at);
 
   /// Grows whenever frames may have got another beginning or length.
   std::uint64_t timing() const { return sensor_.version() + exposed_; }
@@ -112,7 +121,7 @@ class Camera {
   void refresh(Cycle at);
   void plan_line();
   std::array<double, 2> scale() const;
-  std::array<double, 4> edges() const;
+  std::array<double, 4> edges(const Part& part) const;
   void run_automatics(std::int64_t frames, Cycle at);
   void render(const std::vector<double>& x, const std::vector<double>& y, Cycle at);
   void make_curve();

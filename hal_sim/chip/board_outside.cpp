@@ -70,6 +70,7 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
     const dspic::Uart& own = chip.parts().uarts[static_cast<std::size_t>(n - 1)];
     board_.uart(n).follow_chip(own.enabled(), own.brg());
   }
+  camera_.end_window(now);
   if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 

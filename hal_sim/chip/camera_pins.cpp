@@ -2,6 +2,7 @@
 #include "hal_sim/chip/camera_pins.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "hal_sim/board/camera_params.h"
@@ -118,7 +119,9 @@ std::uint8_t CameraPins::data(Cycle at) {
   board::Camera& camera = *board_.camera();
   const Cycle start = f_.start + frame * f_.length;
   if (captured_ != start) {
+    if (!lines_.empty()) finish_picture();
     board::Camera::Cut all;
+    all.is_picture = false;
     all.rows = static_cast<int>(f_.lines);
     all.bytes.resize(static_cast<std::size_t>(f_.bytes));
     std::iota(all.bytes.begin(), all.bytes.end(), 0);
@@ -134,7 +137,51 @@ std::uint8_t CameraPins::data(Cycle at) {
     line_ = line;
   }
   const std::int64_t index = floor_div(2 * (phase - line * f_.line), f_.byte_half_cycles);
-  return bytes_[static_cast<std::size_t>(std::clamp<std::int64_t>(index, 0, f_.bytes - 1))];
+  const std::int64_t place = std::clamp<std::int64_t>(index, 0, f_.bytes - 1);
+  const std::uint8_t byte = bytes_[static_cast<std::size_t>(place)];
+  note_read(line, place, byte, at);
+  return byte;
+}
+
+// --- pictures --------------------------------------------------------------------------------------------
+
+void CameraPins::note_read(std::int64_t line, std::int64_t index, std::uint8_t byte, Cycle at) {
+  if (lines_.empty() || lines_.back().line != line) lines_.push_back({line, index, -1, 0, {}});
+  Read& read = lines_.back();
+  if (read.last == index) return;  // it is still there
+  const std::int64_t size = board_.camera()->setup().bytes_per_pixel();
+  if (read.bytes.empty() || read.last / size != index / size) ++read.columns;
+  read.last = index;
+  read.bytes.push_back(byte);
+  read_at_ = at;
+}
+
+/// As many bytes a line as most lines have; a look at the port now and then makes no picture.
+void CameraPins::finish_picture() {
+  const std::vector<Read> lines = std::move(lines_);
+  lines_.clear();
+  std::map<std::size_t, int> widths;
+  for (const Read& line : lines) ++widths[line.bytes.size()];
+  const auto usual = std::max_element(widths.begin(), widths.end(),
+                                      [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (usual->second < 2 || usual->first < 2) return;
+  const auto model = std::find_if(lines.begin(), lines.end(),
+                                  [&](const Read& line) { return line.bytes.size() == usual->first; });
+  std::vector<std::uint8_t> bytes;
+  for (const Read& line : lines) {
+    bytes.insert(bytes.end(), line.bytes.begin(), line.bytes.end());
+    bytes.resize(bytes.size() - line.bytes.size() + usual->first);
+  }
+  board::Camera& camera = *board_.camera();
+  const int size = camera.setup().bytes_per_pixel();
+  board::Camera::Part part;
+  part.first_column = static_cast<int>(model->first) / size;
+  part.last_column = static_cast<int>(model->last) / size;
+  part.columns = model->columns;
+  part.first_row = static_cast<int>(lines.front().line);
+  part.last_row = static_cast<int>(lines.back().line);
+  part.rows = static_cast<int>(lines.size());
+  camera.note_picture(part, std::move(bytes), read_at_);
 }
 
 }  // namespace chip

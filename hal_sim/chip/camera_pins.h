@@ -6,7 +6,7 @@
 //
 // All edges are closed forms of the sensor's clock, so nothing is ticked; a picture is rendered when its data
 // pins are read, lines at once. Modelled: frame, line and byte periods of the sensor's registers, the byte on
-// the pins at any cycle. Not modelled: VSYNC's true width (half a line here), set-up times, the data between
+// the pins at any cycle; which pictures the program made of what it read of a frame. Not modelled: VSYNC's true width (half a line here), set-up times, the data between
 // lines (0). Rendered lines are complete, so pictures cost more than those of the native way.
 #pragma once
 #include <cstdint>
@@ -43,6 +43,10 @@ class CameraPins {
   bool take_news();
   /// Has a program looked at its pins?
   bool is_asked() const { return f_.lines != 0; }
+  /// The window ends: a frame of which the program read may be over, and what it got is a picture.
+  void end_window(Cycle at) {
+    if (captured_ >= 0 && at >= captured_ + f_.length && !lines_.empty()) finish_picture();
+  }
 
  private:
   struct Frames {
@@ -56,6 +60,8 @@ class CameraPins {
   std::int64_t count(int bit, bool rising, Cycle at) const;
   Cycle instant(int bit, bool rising, std::int64_t index) const;
   bool refresh(Cycle at);
+  void note_read(std::int64_t line, std::int64_t index, std::uint8_t byte, Cycle at);
+  void finish_picture();
 
   board::Board& board_;
   Frames f_;
@@ -64,6 +70,14 @@ class CameraPins {
   Cycle captured_ = -1;  // start of the frame that the camera was asked for
   std::int64_t line_ = -1;
   std::vector<std::uint8_t> bytes_;
+  // what was read of that frame
+  struct Read {
+    std::int64_t line = 0, first = 0, last = 0;  // bytes
+    int columns = 0;                             // pixels
+    std::vector<std::uint8_t> bytes;
+  };
+  std::vector<Read> lines_;
+  Cycle read_at_ = 0;
 };
 
 }  // namespace chip
