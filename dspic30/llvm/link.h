@@ -64,8 +64,9 @@ struct Symbol {
   std::uint32_t value = 0;     ///< octets from the section's start
   std::uint32_t size = 0, align = 1;
   bool is_defined = false, is_weak = false, is_common = false, is_function = false;
-  bool is_hal = false;  ///< of Options::host_library
-  std::string from;     ///< the module that defines it: "main.c", "libmotor.a(step.o)"
+  bool is_hal = false;      ///< of Options::host_library
+  bool is_program = false;  ///< of an object of Options::inputs
+  std::string from;         ///< the module that defines it: "main.c", "libmotor.a(step.o)"
 };
 
 struct Relocation {

@@ -86,6 +86,7 @@ void place_commons(Program& program) {
     s.name = (symbol->size <= kSmall ? ".nbss." : ".bss.") + name;
     s.from = symbol->from;
     s.is_hal = symbol->is_hal;
+    s.is_program = symbol->is_program;
     s.flags = symbol->size <= kSmall ? unsigned(kNearSpace) : 0u;
     s.size = symbol->size;
     s.align = symbol->align;

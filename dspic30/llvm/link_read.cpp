@@ -256,6 +256,7 @@ class Reader {
       own.name = name->str();
       own.from = member.name;
       own.is_hal = member.is_hal;
+      own.is_program = !member.is_of_library;
       own.value = e.st_value;
       if (e.st_shndx < sections.size()) own.section = sections[e.st_shndx];
       if (is_vendors && own.section && own.section->kind == Kind::Code) own.value *= 2;
@@ -299,6 +300,7 @@ class Reader {
     } else if (own.is_common && known->is_common) {
       known->size = std::max(known->size, own.size);
       known->align = std::max(known->align, own.align);
+      known->is_program |= own.is_program;
     } else if (strength(own) > strength(*known)) {
       *known = own;
     }

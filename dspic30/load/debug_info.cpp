@@ -560,8 +560,8 @@ const DebugInfo::Place* DebugInfo::place_at(const Variable& variable, std::uint3
   return nullptr;
 }
 
-bool DebugInfo::find(const std::string& expression, std::uint32_t pc, Found& found,
-                     std::string& error) const {
+bool DebugInfo::find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error,
+                     const std::function<bool(const Variable&)>& may_be) const {
   const std::size_t stop = expression.find_first_of(".[");
   const std::string name = expression.substr(0, stop);
   // the innermost scope that holds pc, then the files', then a static of another function
@@ -570,7 +570,7 @@ bool DebugInfo::find(const std::string& expression, std::uint32_t pc, Found& fou
     return is_in(v, pc) ? v.end - v.begin : v.end == 0 ? 1u << 30 : 1u << 31;
   };
   for (const Variable& v : variables)
-    if (v.name == name && (v.is_static || is_in(v, pc)) &&
+    if (v.name == name && (v.is_static || is_in(v, pc)) && (!may_be || may_be(v)) &&
         (!found.variable || rank(v) < rank(*found.variable)))
       found.variable = &v;
   if (!found.variable) {
@@ -593,7 +593,11 @@ bool DebugInfo::follow(const std::string& step, Found& found, std::string& error
   const Type& type = types[static_cast<std::size_t>(found.type)];
   if (step[0] == '.') {
     if (step_into(step.substr(1), found)) return true;
-    error = "no member '" + step.substr(1) + "' in it";
+    const auto of_type =
+        std::find_if(named.begin(), named.end(), [&](const auto& n) { return n.second == found.type; });
+    const std::string type_name =
+        of_type == named.end() ? "it" : "'" + of_type->first.substr(of_type->first.find(' ') + 1) + "'";
+    error = "no member '" + step.substr(1) + "' in " + type_name;
     return false;
   }
   char* end = nullptr;
@@ -601,7 +605,7 @@ bool DebugInfo::follow(const std::string& step, Found& found, std::string& error
   if (step.size() < 3 || end != step.c_str() + step.size() - 1 || *end != ']')
     error = "expected a number in [ ]";
   else if (type.kind != Kind::Array)
-    error = "but that is no array";
+    error = "it is no array";
   else if (index >= type.count)
     error = "index " + std::to_string(index) + ", expected 0 to " +
             std::to_string(static_cast<long>(type.count) - 1);

@@ -6,6 +6,7 @@
 // DWARF 2 to 4, as our own compiler and XC16 write it. Not read: C++.
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -56,7 +57,9 @@ struct DebugInfo {
   std::map<std::string, std::int32_t> enumerators;  ///< constants that enums name
 
   /// "speed", "grid[2].x", seen from `pc`: locals of the innermost scope go before. False: `error` says why.
-  bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error) const;
+  /// `may_be`: which of the variables of that name are asked about; empty: all.
+  bool find(const std::string& expression, std::uint32_t pc, Found& found, std::string& error,
+            const std::function<bool(const Variable&)>& may_be = {}) const;
   /// On from `found`'s type and offset by one ".MEMBER" or "[INDEX]". False: `error` says why.
   bool follow(const std::string& step, Found& found, std::string& error) const;
   /// Where it is at `pc`; null: the optimiser keeps it nowhere there.

@@ -139,8 +139,8 @@ std::array<double, 4> Camera::edges(const Part& part) const {
   };
   const auto x = std::minmax({(column(part.first_column) - half - 0.5 * kArrayWidth) * along,
                               (column(part.last_column) + half - 0.5 * kArrayWidth) * along});
-  const auto y = std::minmax({line_from_top(part.first_row * cut_.row_step),
-                              line_from_top(part.last_row * cut_.row_step + 1)});
+  const auto y = std::minmax(
+      {line_from_top(part.first_row * cut_.row_step), line_from_top(part.last_row * cut_.row_step + 1)});
   // as in render(): turned by a quarter, or lines from the top
   if (mount_ == CameraMount::Sideways) return {y.first, y.second, x.first, x.second};
   return {x.first, x.second, -y.second, -y.first};
@@ -309,15 +309,14 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
     if (on_picture && cut_.is_picture) picture_.push_back(value);
   }
   if (number + 1 < cut_.rows || !cut_.is_picture) return;
-  note_picture({0, static_cast<int>(columns_.size()) - 1, cut_.columns, 0, cut_.rows - 1, cut_.rows}, picture_,
-               at);
+  note_picture({0, static_cast<int>(columns_.size()) - 1, cut_.columns, 0, cut_.rows - 1, cut_.rows},
+               picture_, at);
 }
 
 void Camera::note_picture(const Part& part, std::vector<std::uint8_t> bytes, Cycle at) {
   ++pictures_;
   if (on_picture)
-    on_picture(
-        {taken_.format, part.columns, part.rows, pictures_, at, std::move(bytes), edges(part)});
+    on_picture({taken_.format, part.columns, part.rows, pictures_, at, std::move(bytes), edges(part)});
 }
 
 void Camera::sensor_reset(Cycle at) {

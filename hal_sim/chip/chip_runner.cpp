@@ -331,8 +331,19 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
   using Kind = dspic::DebugInfo::Kind;
   const auto known = variables_.find(expression);
   if (known != variables_.end()) return &known->second;
+  // main.c:count and tick:count are statics of a file and of a function
+  const std::size_t colon = expression.find(':');
+  const std::string scope = colon == std::string::npos ? "" : expression.substr(0, colon);
+  const std::string plain_name = colon == std::string::npos ? expression : expression.substr(colon + 1);
+  const auto is_in_scope = [&](const dspic::DebugInfo::Variable& v) {
+    return scope.empty() || places_->is_of(scope, v);
+  };
   dspic::DebugInfo::Found found;
-  if (!file_.debug.info().find(expression, 0, found, error)) {
+  if (!file_.debug.info().find(plain_name, 0, found, error, is_in_scope)) {
+    if (!scope.empty()) {
+      if (!found.variable) error += ", in '" + scope + "'";
+      return nullptr;
+    }
     const auto object = file_.objects.find(expression);  // assembler text has no types
     const auto bytes = file_.object_bytes.find(expression);
     if (object == file_.objects.end() || bytes == file_.object_bytes.end() || bytes->second > 4)

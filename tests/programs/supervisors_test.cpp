@@ -102,6 +102,7 @@ TEST_F(Supervisors, robots_of_one_image_keep_their_own_variables) {
         .at(0.2 * i, 0);
   add_judge(R"(
     const char *const names[] = {"r0", "r1", "r2"};
+    wb_robot_step(50); /* the start-up code clears them */
     for (int i = 0; i < 3; ++i) set(names[i], "variable:mine", 10 + i);
     wb_robot_step(50);
     for (int i = 0; i < 3; ++i) EXPECT(get(names[i], "variable:mine") == 10 + i && get(names[i], "variable:seen") == 10 + i);)");
