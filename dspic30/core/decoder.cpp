@@ -327,7 +327,6 @@ void lead_to_host(Decoded& d, const Row& row, const ProgramMemory& program, unsi
     target = (program.read(to + 2) & 0x7F) << 16 | (word & 0xFFFE);
   }
   if (!is_host_place(target) || target >= kHostHandlerReturn) return;
-  if (row.id == Insn::Goto_Expr && is_host_place(to)) return;  // the handle itself: somebody's pointer
   d.run = is_call ? &call_host : &jump_to_host;
   d.imm = static_cast<std::int32_t>((target - kHostStart) / 2);
   d.b = static_cast<std::uint8_t>(row.words);

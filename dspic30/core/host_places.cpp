@@ -87,6 +87,10 @@ const std::array<Decoded, kHostPlaces> host_places = make_places();
 // a function that does not wait needs no return address; d->cycles are the call's
 const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   const auto index = static_cast<unsigned>(d->imm);
+  if (!cpu.host) {  // an address beyond the flash like any other
+    push_address(cpu, cpu.address_of(d) + 2u * d->b);
+    return cpu.jump(kHostStart + 2 * index, d);
+  }
   const Cycle at = cpu.clocks.true_at(cpu.now + d->cycles);
   HostResult result;
   if (is_done(cpu, index, at, false, result)) {
@@ -104,6 +108,7 @@ const Decoded* call_host(Cpu& cpu, const Decoded* d) {
 }
 
 const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
+  if (!cpu.host) return cpu.jump(kHostStart + 2 * static_cast<unsigned>(d->imm), d);
   cpu.host_again = false;
   return host_place(kHostStart + 2 * static_cast<unsigned>(d->imm));
 }

@@ -107,7 +107,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       begin_handler();
       continue;
     }
-    if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1]) {
+    if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1] && !by_heart_[1].held) {
       serve_pending(outlook.vector);
       continue;
     }
@@ -150,15 +150,16 @@ void Processor::sleep(Cycle until) {
 
 // --- whoever plays the library --------------------------------------------------------------------------
 
-/// By its level, DISI, its IEC bit, or by what goes before it; asleep all are.
+/// By its level, DISI, its IEC bit, or by what goes before it; asleep all are, and beside the vectors of the
+/// other table, which lead elsewhere.
 bool Processor::is_held_off(std::size_t h, int next_vector) const {
   const Cpu& cpu = *cpu_;
   const Interrupts& interrupts = cpu.parts.interrupts;
   const int irq = irqs_[h];
   if (irq < 0) return by_heart_[h].held;
   const int priority = interrupts.priority(irq);
-  return is_asleep() || !interrupts.enabled(irq) || priority <= interrupts.level() ||
-         (priority < 7 && interrupts.disi_active(cpu.now)) ||
+  return is_asleep() || interrupts.uses_alternate_table() || !interrupts.enabled(irq) ||
+         priority <= interrupts.level() || (priority < 7 && interrupts.disi_active(cpu.now)) ||
          (interrupts.flag(irq) && next_vector != kFirstIrqVector + irq);
 }
 
@@ -173,8 +174,7 @@ std::uint64_t Processor::hold_state(int next_vector) const {
   };
   return static_cast<std::uint64_t>(cpu.parts.bus.writes()) << 16 |
          (static_cast<std::uint64_t>(next_vector) & 63) << 10 | bits_of(irqs_[1]) << 8 |
-         bits_of(irqs_[0]) << 6 | static_cast<std::uint64_t>(interrupts.level()) << 1 |
-         (is_asleep() ? 1 : 0);
+         bits_of(irqs_[0]) << 6 | static_cast<std::uint64_t>(interrupts.level()) << 1 | (is_asleep() ? 1 : 0);
 }
 
 // which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was
@@ -208,6 +208,7 @@ bool Processor::follow_host(int next_vector) {
     cpu.parts.events.tell_change(cpu.now);
     cpu.host->hold_handler(number, held, pending, cpu.now);
     cpu.host_stale = true;
+    if (waits_->is_waiting()) waits_->stir(cpu);  // what it looks at stands, or moves again
   }
   if (raised) return true;
   if (!cpu.host_stale) return false;

@@ -49,7 +49,7 @@ HostResult HostLibrary::e_ad_is_array_filled(const Call& call) {
   const std::int64_t count = scan().interrupts(call.at);
   const bool filled = count > 0 && count % drivers::kMicSamples == 0;
   const std::int64_t next = filled ? count + 1 : count - count % drivers::kMicSamples + drivers::kMicSamples;
-  call.cpu.note_look(scan().interrupt_cycle(next));
+  call.cpu.note_look(scan().held_since() >= 0 ? board::kNever : scan().interrupt_cycle(next));
   call.give(filled ? 1 : 0);
   return HostResult::done(cycles_.array_filled);
 }
@@ -57,7 +57,8 @@ HostResult HostLibrary::e_ad_is_array_filled(const Call& call) {
 // the program never runs inside the handler, so after the first sample it always sees 1
 HostResult HostLibrary::e_ad_is_acquisition_completed(const Call& call) {
   const std::int64_t count = scan().interrupts(call.at);
-  call.cpu.note_look(count > 0 ? board::kNever : scan().next_interrupt(call.at));
+  const bool stays = count > 0 || scan().held_since() >= 0;
+  call.cpu.note_look(stays ? board::kNever : scan().next_interrupt(call.at));
   call.give(count > 0 ? 1 : 0);
   return HostResult::done(cycles_.completed);
 }

@@ -70,6 +70,11 @@ Cycle HostLibrary::activate(const Call& call, Function function, std::uint16_t c
     return c.activate_known + c.activate_known_step * agendas().nodes_passed(function);
   const int nodes = agendas().nodes();
   const NodeHeap::Search search = heap_.take(function);
+  if (!search.found) {
+    if (watch_) watch_->gives_up();
+    call.cpu.ask_reset(dspic::ResetKind::Instruction);
+    return cycles_.activate_new + c.activate_step * (nodes - 1) + search.used * c.malloc_used;
+  }
   Cycle cost = nodes == 0 ? c.activate_empty : c.activate_new + c.activate_step * (nodes - 1);
   cost += (search.first ? c.malloc_first : 0) + search.used * c.malloc_used + search.merged * c.malloc_merge;
   if (search.merged > 0) cost += c.malloc_merges;

@@ -110,6 +110,14 @@ void HostLibrary::reset(Cycle at) {
   note(~std::uint64_t{0}, at);
 }
 
+void HostLibrary::begin_anew(Cycle at) {
+  agendas().forget(at);
+  board_.follow_motors(at);
+  heap_ = {};
+  zero_steps_ = {};
+  note(3, at);
+}
+
 // --- registers -------------------------------------------------------------------------------------------
 
 std::uint16_t HostLibrary::read(unsigned address, Cycle at) { return variables_.read(address, at); }

@@ -37,6 +37,8 @@ class CallWatch {
   /// An agenda's function, at this program address, is about to be called; 0: the last one of this tick has
   /// returned.
   virtual void calls_back(unsigned function, Cycle at) = 0;
+  /// The library gives up, as it does by exit(1): the processor is about to be reset.
+  virtual void gives_up() = 0;
 };
 
 class HostLibrary final : public dspic::HostCalls {
@@ -73,6 +75,8 @@ class HostLibrary final : public dspic::HostCalls {
   int saved_words() const override { return static_cast<int>(cycles_.walk_saved_words); }
   void reset(Cycle at) override;
 
+  /// The program has come to address 0 without a reset: its start-up code clears the library's variables.
+  void begin_anew(Cycle at);
   /// What it did so far, each at its cycle, whatever the order of looks at it.
   std::uint64_t digest() const { return digest_; }
   const drivers::Drivers& drivers() const { return *drivers_; }

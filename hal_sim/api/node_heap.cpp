@@ -22,7 +22,8 @@ NodeHeap::Search NodeHeap::take(const void* key) {
       blocks_.erase(blocks_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
       ++search.merged;
     }
-    if (blocks_[i].bytes < kNode) break;
+    if (blocks_[i].bytes < kNode) continue;
+    search.found = true;
     search.followed = i + 1 < blocks_.size();
     if (blocks_[i].bytes >= kNode + kHeader + kRest) {
       search.split = true;

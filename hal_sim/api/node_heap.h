@@ -15,6 +15,7 @@ class NodeHeap {
     int merged = 0;         ///< free blocks that were joined to the one before
     bool split = false;     ///< the block was cut to size
     bool followed = false;  ///< it had another one behind it
+    bool found = false;     ///< there was room
   };
   /// Room for the node of an agenda, which is known by `key`.
   Search take(const void* key);

@@ -10,6 +10,7 @@ namespace {
 constexpr int kMostTicks = 65535, kMostRefresh = 64;  // where tickAdcIsr and updateAccI2CCounter stop
 // end of a sequence to the counters' steps and to the microphones' samples [measured: hal_dspic on the chip]
 constexpr Cycle kCountCycles = 28, kMicFileCycles = 81;
+constexpr Cycle kLongestFiling = 200;  // more than any of them takes
 
 std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
 
@@ -220,6 +221,9 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
 
 Cycle ScanVariables::horizon(unsigned address, Cycle at) {
   const Place place = place_of(address);
+  // nothing is filed while the handler is held off, but what was under way
+  if (const Cycle since = scan_.held_since(); since >= 0)
+    return at < since + kLongestFiling ? since + kLongestFiling : board::kNever;
   const auto after = [&](std::int64_t count, Cycle delay) {
     const Cycle when = scan_.interrupt_cycle(count);
     return when >= board::kNever ? board::kNever : when + delay;

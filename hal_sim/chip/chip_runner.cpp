@@ -185,6 +185,7 @@ void ChipRunner::report(const Ending& ending) {
 void ChipRunner::went_to_reset_vector(unsigned from) {
   report(endings_->of_null_pointer(from));
   calls_->forget_starts();
+  if (library_) library_->begin_anew(processor_->now());
 }
 
 /// Where the program is, of what its course has to do with.
@@ -204,7 +205,11 @@ std::string ChipRunner::comment(const dspic::Diagnosis& d) const {
 // what the program asked for by RESET goes unsaid
 void ChipRunner::reset(dspic::ResetKind kind) {
   const Cycle at = processor_->now();
-  if (const auto ending = endings_->of_reset(kind)) report(*ending);
+  if (gives_up_)
+    report(endings_->of_giving_up());
+  else if (const auto ending = endings_->of_reset(kind))
+    report(*ending);
+  gives_up_ = false;
   chip_.note_reset(kind);
   tell_reset(at);
   chip_.digest().note(EventDigest::Kind::Reset, static_cast<std::uint64_t>(kind), at);

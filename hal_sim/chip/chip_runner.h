@@ -127,6 +127,7 @@ class ChipRunner final : public host::Runner,
   void went_to_reset_vector(unsigned from) override;
   void entered(unsigned address) override { calls_->entered(address); }
   void called(api::HostFunction function) override { calls_->called(function); }
+  void gives_up() override { gives_up_ = true; }
   void calls_back(unsigned function, Cycle at) override {
     if (observer_) observer_->callback(function, at);
   }
@@ -158,6 +159,7 @@ class ChipRunner final : public host::Runner,
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;
+  bool gives_up_ = false;  // the reset that comes is the library's
 };
 
 }  // namespace chip

@@ -18,6 +18,7 @@ constexpr std::uint32_t kNop = 0x000000, kHalt = 0xDA4000;  // the second one st
 constexpr std::uint32_t kReturn = 0x060000, kSetsLimit = 0x880100;  // MOV Wn, SPLIM [chip C4]
 constexpr unsigned kLongestStart = 0x400;  // bytes of program counter: of a start-up code
 constexpr unsigned kStackPointer = 15;
+constexpr const char* kGaveUp = "abort(), or exit() with a failure, resets the processor";
 
 bool does_nothing(std::uint32_t word) { return word == kNop || word == kHalt; }
 
@@ -121,6 +122,10 @@ std::optional<Ending> Endings::of_instruction(unsigned at) const {
   return Ending{0, "Reset", "main() returned: there is nothing to return to, so the processor resets", last};
 }
 
+Ending Endings::of_giving_up() const {
+  return {TP_TRAP_ABORT, "Reset", kGaveUp, places_.own(processor_.pc_of_access())};
+}
+
 /// What our C library does for abort(), a failed assert() and exit() with a failure.
 std::optional<Ending> Endings::of_giving_up(unsigned at) const {
   const auto is_in = [this](unsigned address, const char* name) {
@@ -130,9 +135,7 @@ std::optional<Ending> Endings::of_giving_up(unsigned at) const {
   const unsigned from = is_in(at, "tp_reset") ? places_.caller() : at;
   const bool asserted = is_in(from, "tp_image_assert");
   if (!asserted && !is_in(from, "tp_trap_message") && !is_in(from, "abort")) return std::nullopt;
-  return Ending{TP_TRAP_ABORT, "Reset",
-                asserted ? "an assert() failed, so the processor resets"
-                         : "abort(), or exit() with a failure, resets the processor",
+  return Ending{TP_TRAP_ABORT, "Reset", asserted ? "an assert() failed, so the processor resets" : kGaveUp,
                 places_.own(at)};
 }
 

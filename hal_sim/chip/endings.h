@@ -36,6 +36,8 @@ class Endings final {
   void note_trap(dspic::Trap trap, unsigned from);
   /// The chip resets, with the processor still as it was. None: the program asked for it.
   std::optional<Ending> of_reset(dspic::ResetKind kind) const;
+  /// exit() with a failure, where a function of the host does that.
+  Ending of_giving_up() const;
   /// The instruction at `from` took address 0 for a function's.
   Ending of_null_pointer(unsigned from) const;
 

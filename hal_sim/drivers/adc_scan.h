@@ -55,6 +55,8 @@ class AdcScan {
     if (held_since_ < 0) held_since_ = at;
   }
   void release(Cycle at);
+  /// -1: it is not held.
+  Cycle held_since() const { return held_since_; }
   /// The first interrupt after `after`, also of a converter that nobody serves; kNever: it is off.
   Cycle interrupt_after(Cycle after) const;
   /// Frames that were lost so since the reset, and the first loss's cycle.

@@ -92,6 +92,19 @@ void AgendaTimer::reset(Cycle at) {
   first_speed_ = -1;
 }
 
+void AgendaTimer::forget(Cycle at) {
+  for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
+    bring(wheel, done_tick(serial_of(wheel), at));
+    motor(wheel) = AgendaMotor(stepper(wheel).forward());
+    motor(wheel).count.active = false;
+    motor_serial_[static_cast<int>(wheel)] = 0;
+    has_node_[static_cast<int>(wheel)] = false;
+  }
+  nodes_.clear();
+  shares_known_ = 0;
+  if (!walking_) find_next_fire();
+}
+
 // --- the list --------------------------------------------------------------------------------------------
 
 AgendaTimer::Node* AgendaTimer::find(Function function) {

@@ -67,6 +67,8 @@ class AgendaTimer {
   /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
   /// current.
   void reset(Cycle at);
+  /// The driver's variables alone return to their start values: no agenda, speed 0. Timer and coils go on.
+  void forget(Cycle at);
 
   /// From `at` on the handler is not called, because the program masks it; and is again.
   void hold(Cycle at) {
