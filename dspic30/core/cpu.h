@@ -136,8 +136,9 @@ class Cpu final : public SfrOwner {
   DSPIC_JUMP const Decoded* return_to(unsigned address, const Decoded* from) {
     return jump(pointed(address, from), from);
   }
-  static const Decoded* return_from(Cpu& cpu, const Decoded* from, unsigned address) {
-    return cpu.return_to(address, from);
+  /// ... of the instruction at `at`, out of translated code.
+  static const Decoded* return_from(Cpu& cpu, const Decoded*, unsigned address) {
+    return cpu.return_to(address, cpu.at);
   }
   static bool is_decoded(const Decoded* d) { return CodeTable::is_decoded(d); }
   static const Decoded* arrive_from(Cpu& cpu, const Decoded* from, std::int32_t words) {

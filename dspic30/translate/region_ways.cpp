@@ -50,6 +50,7 @@ void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
 void Maker::leave_by_return(const Item& item, BasicBlock* block) {
   BasicBlock* const out = passed(item);
   ir_.SetInsertPoint(out);
+  ir_.CreateStore(place(item.place), field(&cpu_.at, byte_->getPointerTo()));
   ir_.CreateBr(ways_[2].block);
   ways_[2].where->addIncoming(return_address_, out);
   if (item.caller < 0) {

@@ -128,6 +128,7 @@ void ChipRunner::pass_to(Cycle end) {
 }
 
 void ChipRunner::remote_changed() {
+  catch_up(end_);
   device().outside_changed(chip_.at(processor_->now()));
   wake();
 }

@@ -17,7 +17,8 @@ constexpr std::size_t kSeen = 16;
 enum Place {
   kAlike,      // a trap is told with the same place
   kElsewhere,  // the program has left its code: where it is found differs
-  kTwice,  // ... and a motor's tick is another; a handler that is left for another one counts as work or not
+  kTwice,  // ... and who runs there; a motor's tick is another; a handler that is left for another one counts
+           // as work or not
   kOtherWay,  // it goes on with what is left of the handler's frame, which hal_sim has not
 };
 
@@ -60,7 +61,7 @@ const Injected kInjected[] = {
     {"ret_host", BAD("mov #0x10, w0\\nmov w0, [w15-4]\\nmov #0x40,w0\\nmov w0,[w15-2]\\n") ENDS_IN_MAIN, 0,
      kElsewhere},
     {"ret_low_only", BAD("mov #0x3000, w0\\nmov w0, [w15-4]\\n") ENDS_IN_MAIN, 0, kOtherWay},
-    {"ret_high_only", BAD("mov #0x1, w0\\nmov w0, [w15-2]\\n") ENDS_IN_MAIN},
+    {"ret_high_only", BAD("mov #0x1, w0\\nmov w0, [w15-2]\\n") ENDS_IN_MAIN, 0, kElsewhere},
     {"ret_popped_one", BAD("sub w15,#2,w15\\n") ENDS_IN_MAIN, 0, kOtherWay},
     {"ret_pushed_one", BAD("push w0\\n") ENDS_IN_MAIN, 0, kOtherWay},
     {"ret_retfie", BAD("retfie\\n") ENDS_IN_MAIN},
@@ -333,7 +334,9 @@ TEST_P(InjectedTest, as_on_the_chip) {
   for (std::size_t i = 0; i < a.traps().size(); ++i) {
     EXPECT_EQ(a.traps()[i].vector, b.traps()[i].vector);
     EXPECT_EQ(a.traps()[i].kind, b.traps()[i].kind);
-    EXPECT_EQ(a.traps()[i].message, b.traps()[i].message);
+    if (c.place != kTwice) {
+      EXPECT_EQ(a.traps()[i].message, b.traps()[i].message);
+    }
     EXPECT_NEAR(static_cast<double>(a.traps()[i].count), static_cast<double>(b.traps()[i].count), 1);
     if (c.place == kAlike) {
       EXPECT_EQ(to_string(a.traps()[i].place), to_string(b.traps()[i].place));
