@@ -10,6 +10,8 @@ namespace api {
 // both handlers have one priority: what is under way ends first, and of two that wait Timer 2's comes first
 Cycle ScanRhythm::round(Cycle tick_cycles) {
   if (tick_cycles == 0) return cycles_.scan_round;
+  // a handler that takes all time would leave the converter's none
+  tick_cycles = std::min(tick_cycles, drivers::kAgendaTickCycles * 9 / 10);
   const auto [found, is_new] = known_.emplace(tick_cycles, 0);
   if (!is_new) return found->second;
   // in 65ths of a cycle, so that a frame is a whole number
