@@ -610,6 +610,11 @@ std::uint16_t Count::counter_now(const Cpu& cpu) const {
   return value;
 }
 
+bool Count::is_over(const Cpu& cpu) const {
+  const unsigned but_for = counter_ >= kRam ? static_cast<unsigned>(counter_ - kRam) : Cpu::kRamBytes;
+  return !round_.memory.are_as_read(cpu.ram.data(), but_for);
+}
+
 bool Count::is_plain(const Cpu& cpu) const { return !cpu.loop_end && cpu.modcon == 0; }
 
 Cycle Count::rounds_from(const Cpu& cpu) const {
@@ -618,8 +623,7 @@ Cycle Count::rounds_from(const Cpu& cpu) const {
   const CoreState now(cpu);
   if (now.words[9] != round_.state.words[9] || now.words[10] != round_.state.words[10]) return -1;
   if (reads_flags_ && (cpu.sr_low() & kSrFlags) != flags_) return -1;
-  const unsigned but_for = counter_ >= kRam ? static_cast<unsigned>(counter_ - kRam) : Cpu::kRamBytes;
-  if (!round_.memory.are_as_read(cpu.ram.data(), but_for)) return -1;
+  if (is_over(cpu)) return -1;
   const std::uint16_t value = counter_now(cpu);
   Cycle rounds = counter_ == kLoopCount ? value : kMostRounds;
   const auto since = static_cast<std::uint16_t>(value - value_);

@@ -38,6 +38,8 @@ class Count {
   /// Rounds from here on, at the first instruction, that are like the one that was proven; -1: what it looks
   /// at is another.
   Cycle rounds_from(const Cpu& cpu) const;
+  /// Is it over for whatever else it looks at than its counter: does a word of RAM differ?
+  bool is_over(const Cpu& cpu) const;
   /// `rounds` later, but for what the next round writes before it looks at it.
   void advance(Cpu& cpu, Cycle rounds) const;
   /// Does the round depend on no more than this holds?
@@ -66,16 +68,24 @@ class Count {
   std::size_t moving_count_ = 0;
 };
 
-/// Those that were proven, by their first instruction.
+/// Those that were proven, by their first instruction: at its place, or at one of the next.
 class KnownCounts {
  public:
   /// null: none is known there.
   const Count* at(const Decoded* first) const {
-    const auto& count = counts_[place_of(first)];
-    return count && count->round_.first == first ? count.get() : nullptr;
+    for (std::size_t i = 0; i < kTried; ++i)
+      if (const auto& count = counts_[(place_of(first) + i) % kMost]; count && count->round_.first == first)
+        return count.get();
+    return nullptr;
   }
   const Count& add(const Count& count) {
-    auto& place = counts_[place_of(count.round_.first)];
+    const Decoded* const first = count.round_.first;
+    std::size_t at = place_of(first);
+    for (std::size_t i = kTried; i-- > 0;)
+      if (const auto& known = counts_[(place_of(first) + i) % kMost];
+          !known || !known->round_.first || known->round_.first == first)
+        at = (place_of(first) + i) % kMost;
+    auto& place = counts_[at];
     if (!place) place = std::make_unique<Count>();
     return *place = count;
   }
@@ -88,7 +98,7 @@ class KnownCounts {
   static std::size_t place_of(const Decoded* first) {
     return reinterpret_cast<std::uintptr_t>(first) / 32 % kMost;
   }
-  static constexpr std::size_t kMost = 8;
+  static constexpr std::size_t kMost = 32, kTried = 4;  // places
   std::array<std::unique_ptr<Count>, kMost> counts_;
 };
 

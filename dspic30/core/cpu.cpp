@@ -100,7 +100,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   known_waits.forget();
   known_counts.forget();
   own_heads_ = {};
-  heads_marked_ = 0;
+  has_heads_ = false;
   find_loop_end();
   code_is_stale = false;
 }
@@ -210,7 +210,14 @@ bool Cpu::stops_at(const Decoded* head) {
 
 void Cpu::mark_head(const Decoded* first) {
   if (hot == 0) return;  // all shall be translated
-  if (!own_head(first)) own_heads_[heads_marked_++ % own_heads_.size()] = {first - code_, 0, kFirstPause};
+  if (!own_head(first)) {
+    const std::ptrdiff_t place = first - code_;
+    OwnHead* slot = &head_slot(place);
+    for (std::ptrdiff_t i = kHeadsTried; i-- > 0;)
+      if (head_slot(place + i).place < 0) slot = &head_slot(place + i);
+    *slot = {place, 0, kFirstPause, 0};
+    has_heads_ = true;
+  }
   table_->mark_wait(first, &meet_head);
 }
 

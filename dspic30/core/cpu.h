@@ -423,8 +423,13 @@ class Cpu final : public SfrOwner {
   bool is_wait_head(const Decoded* d) const { return table_->is_wait(d); }
   /// A wait was proven that begins here: from now on the program stops there to look, if heads_from says so.
   void mark_head(const Decoded* first);
-  bool has_heads() const { return heads_marked_ > 0; }
+  bool has_heads() const { return has_heads_; }
   bool is_own_head(const Decoded* d) const { return const_cast<Cpu*>(this)->own_head(d) != nullptr; }
+  /// The wait of that head has ended: how often before?
+  unsigned count_end(const Decoded* head) {
+    OwnHead* const own = own_head(head);
+    return own ? own->ends++ : 0;
+  }
   /// A look from there found a wait, or none: then the program does not stop there for a while, each time for
   /// longer.
   void pause_head(const Decoded* head, bool is_wait);
@@ -541,11 +546,18 @@ class Cpu final : public SfrOwner {
     std::ptrdiff_t place = -1;  // word of flash
     Cycle from = 0;             // true time from which on the program stops there
     Cycle pause = kFirstPause;
+    unsigned ends = 0;  // of its wait
   };
+  static constexpr std::ptrdiff_t kMostHeads = 32, kHeadsTried = 4;
+  /// One is at its place, or at one of the next.
+  OwnHead& head_slot(std::ptrdiff_t place) {
+    return own_heads_[static_cast<std::size_t>(place % kMostHeads)];
+  }
   OwnHead* own_head(const Decoded* d) {
-    const auto own = std::find_if(own_heads_.begin(), own_heads_.end(),
-                                  [&](const OwnHead& h) { return h.place == d - code_; });
-    return own == own_heads_.end() ? nullptr : &*own;
+    const std::ptrdiff_t place = d - code_;
+    for (std::ptrdiff_t i = 0; i < kHeadsTried; ++i)
+      if (OwnHead& head = head_slot(place + i); head.place == place) return &head;
+    return nullptr;
   }
   void count_jump(const Decoded* target) {
     const std::uint8_t left = target->heat.load(std::memory_order_relaxed);
@@ -566,10 +578,10 @@ class Cpu final : public SfrOwner {
   std::uint64_t code_version_ = 0;  // of the flash that they were made of
   bool is_own_ = false;             // the store: nobody else has it
   bool looks_at_each_ = false;
-  int looked_at_ = 0;                 // instructions, since a register was written first
-  unsigned bad_address_ = 0;          // where no flash is
-  std::array<OwnHead, 8> own_heads_;  // where waits of this program begin
-  std::size_t heads_marked_ = 0;
+  int looked_at_ = 0;                          // instructions, since a register was written first
+  unsigned bad_address_ = 0;                   // where no flash is
+  std::array<OwnHead, kMostHeads> own_heads_;  // where waits of this program begin
+  bool has_heads_ = false;
 };
 
 /// A call, or a jump, to a function of the host, whose number is Decoded::imm.

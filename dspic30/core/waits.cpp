@@ -31,6 +31,10 @@ void Waits::begin(Cpu& cpu) {
   look_head_ = cpu.next;
   cpu.head_met = false;
   look_began_ = cpu.true_now();
+  if (!at_head_) {
+    look_by_ = look_began_ + look_gap_;
+    look_gap_ = std::min(2 * look_gap_, kMostGap);
+  }
   // a function of the host that waits is none of these
   if (cpu.stands_in_host()) {
     schedule(cpu).at = std::max(cpu.stands_until, look_began_ + 1);
@@ -46,17 +50,14 @@ void Waits::begin(Cpu& cpu) {
     const Cycle rounds = known->rounds_from(cpu);
     if (rounds >= kFewestRounds) return enter_count(cpu, known, rounds);
     if (is_passed(cpu, *known, rounds)) return;
+    if (known->is_over(cpu) && is_passed(cpu, known->round())) return;
   }
-  const KnownWaits::Wait* const of_head = at_head_ ? cpu.known_waits.at(cpu.next) : nullptr;
-  // what it waited for has come: the program goes on, and will come back. Where it is back at once, and
-  // again, it waits for more; once may be the rest of the round that an interrupt came into
-  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && !(passes_ > 1 && was_passed(*of_head, 2))) {
-    pass(cpu, *of_head, 0, kRarestLooks);
-    return;
-  }
+  const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next);
+  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && is_passed(cpu, *of_head)) return;
   state_ = State::Looking;
   chances_ = 2;
   again_ = 0;
+  is_turned_ = at_head_;
   begin_round(cpu);
 }
 
@@ -67,6 +68,31 @@ bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
   const Cycle pause = (rounds + 2) * count.round().took;
   pass(cpu, count.round(), pause, pause);
   return true;
+}
+
+// what it waited for has come: the program goes on, and will come back. Where it is back at once, and again,
+// it waits for more; once may be the rest of the round that an interrupt came into
+bool Waits::is_passed(Cpu& cpu, const KnownWaits::Wait& wait) {
+  if (!at_head_ || (passes_ > 1 && was_passed(wait, 2))) return false;
+  pass(cpu, wait, 0, kRarestLooks);
+  schedule(cpu).at = look_behind(cpu, wait.first);
+  return true;
+}
+
+// At a known head the program will stop by itself. Now and then it looks elsewhere all the same: soon behind
+// a wait, where another may come that is not known yet, and by look_by_.
+Cycle Waits::look_behind(Cpu& cpu, const Decoded* head) {
+  const Cycle later = look_beside_heads(cpu);
+  if (cpu.parts.interrupts.nesting() > 0) return later;
+  const unsigned n = cpu.count_end(head);
+  const bool is_due = n < kEndsFirst || (n & (n - 1)) == 0;
+  return is_due ? cpu.true_now() + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
+}
+
+Cycle Waits::look_beside_heads(const Cpu& cpu) const {
+  const Cycle now = cpu.true_now();
+  return cpu.parts.interrupts.nesting() > 0 ? now + kRarestLooks
+                                            : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
 }
 
 bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
@@ -124,6 +150,9 @@ void Waits::look(Cpu& cpu) {
       fail(cpu);
     } else if (cpu.next == round_.first) {
       end_round(cpu);
+    } else if (!is_turned_ && cpu.has_heads() && cpu.is_own_head(cpu.next)) {
+      is_turned_ = true;  // so that a wait has one head, wherever in it the look began
+      begin_round(cpu);
     } else if (steps_ == kLongestRound) {
       fail(cpu);
     }
@@ -232,9 +261,9 @@ void Waits::wait(Cpu& cpu) {
   const Cycle now = cpu.true_now();
   if (counts_ && cpu.clocks.own_cycles(cpu.now) >= ends_) {
     leave(cpu);
-    // it ends now, or its flags change
+    // it ends now, or its flags change; then the program comes to its head again
     cpu.heads_from = now + 2 * took;
-    schedule(cpu).at = now + 2 * took;
+    schedule(cpu).at = is_by_head_ ? look_behind(cpu, wait_->first) : now + 2 * took;
     return;
   }
   if (now < until_) return;
@@ -263,7 +292,7 @@ void Waits::cut(Cpu& cpu) {
   }
   // behind the handler it comes to a wait's first instruction by itself, and stops there
   if (waits && is_by_head_)
-    schedule(cpu).at = cpu.true_now() + kRarestLooks;
+    schedule(cpu).at = look_beside_heads(cpu);
   else if (waits || state_ == State::Looking)
     schedule(cpu).at = 0;
   state_ = State::Away;
@@ -284,6 +313,8 @@ void Waits::forget(Cpu& cpu) {
   at_head_ = false;
   cut_ = nullptr;
   passed_ = nullptr;
+  look_gap_ = kRarestLooks;
+  look_by_ = cpu.now + look_gap_;
   cpu.heads_from = 0;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }

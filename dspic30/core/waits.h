@@ -72,6 +72,10 @@ class Waits {
   static constexpr int kLongestRound = 256;                        // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
+  // behind the first ends of a wait with a known head it looks soon, each time after another while
+  static constexpr unsigned kEndsFirst = 64, kStepsBehind = 17;
+  static constexpr Cycle kFirstBehind = 40, kStepBehind = 29;
+  static constexpr Cycle kMostGap = 1 << 25;     // between two looks beside known heads
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
@@ -84,6 +88,9 @@ class Waits {
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
+  bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait);
+  Cycle look_behind(Cpu& cpu, const Decoded* head);
+  Cycle look_beside_heads(const Cpu& cpu) const;
   bool was_passed(const KnownWaits::Wait& wait, Cycle rounds) const;
   void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in);
   void fail(Cpu& cpu);
@@ -110,6 +117,7 @@ class Waits {
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
   Cycle round_delayed_ = 0;                 // Cpu::delayed then
   Cycle round_began_at_ = 0;                // true time then
+  bool is_turned_ = false;                  // it begins at a known head that the look came to
   int chances_ = 0, steps_ = 0;
   std::vector<CountStep> trace_;  // of the last chance
   Count proven_;
@@ -117,10 +125,11 @@ class Waits {
   struct Range {
     const Decoded *first = nullptr, *last = nullptr;
   } behind_;
-  int behind_in_ = 0, again_ = 0;             // instructions; looks
-  const KnownWaits::Wait* passed_ = nullptr;  // met at its head last, in another state
-  int passes_ = 0;                            // in a row
-  Cycle passed_at_ = 0;                       // cycles of the program
+  int behind_in_ = 0, again_ = 0;                           // instructions; looks
+  const KnownWaits::Wait* passed_ = nullptr;                // met at its head last, in another state
+  int passes_ = 0;                                          // in a row
+  Cycle passed_at_ = 0;                                     // cycles of the program
+  Cycle look_by_ = kRarestLooks, look_gap_ = kRarestLooks;  // true time
   // the wait
   const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
   const Count* counts_ = nullptr;           // it is a loop that counts

@@ -301,4 +301,46 @@ TEST(Counting, delays_are_waits) {
   }
 }
 
+// waits with a time limit, one after the other, each ended by what a handler does: all are counted, whatever
+// comes in between, and however many there are
+std::string waits_in_turn(int many) {
+  std::string text = R"(__reset: mov #__SP_init, w15
+    mov #799, w10
+    mov w10, PR1
+    bset IEC0, #T1IE
+    bset T1CON, #15
+again:)";
+  for (int i = 0; i < many; ++i) {
+    const std::string n = std::to_string(i);
+    text += "\n    setm flag\n    mov #20000, w0\n    mov #0, w1\nwait" + n +
+            ":\n    sub w0, #1, w0\n    subb w1, #0, w1\n    bra z, out" + n +
+            "\n    cp0 flag\n    bra nz, wait" + n + "\nout" + n +
+            ": inc w9, w9\n    clr PORTB\n    repeat #" + std::to_string(13 + 2 * i) + "\n    mov w2, w3\n";
+  }
+  return text + R"(    bra again
+__T1Interrupt: bclr IFS0, #T1IF
+    clr flag
+    retfie
+    .bss
+flag: .space 2)";
+}
+
+TEST(Counting, waits_that_come_in_turn_are_all_found) {
+  constexpr Cycle kEnd = 4000000;
+  for (const int many : {2, 7, 12}) {
+    CoreBench whole(waits_in_turn(many), {}, false), steps(waits_in_turn(many), {}, false);
+    whole.run(kEnd / 2);
+    const Cycle before = whole.cpu->idle(kEnd / 2), jumped = whole.cpu->jumped();
+    whole.run(kEnd);
+    for (Cycle to = 1; to < kEnd; to += 997) steps.run(to);
+    steps.run(whole.cpu->now());
+    EXPECT_EQ(steps.cpu->state_hash(), whole.cpu->state_hash()) << many;
+    EXPECT_EQ(steps.cpu->idle(kEnd), whole.cpu->idle(kEnd)) << many;
+    EXPECT_NEAR(whole.w(9), kEnd / 800, 2) << many;
+    // of 800 cycles some 60 are work: the handler, the way to the next wait, the rest of a round
+    EXPECT_GT(static_cast<double>(whole.cpu->idle(kEnd) - before) / (kEnd / 2), 0.9) << many;
+    EXPECT_GT(static_cast<double>(whole.cpu->jumped() - jumped) / (kEnd / 2), 0.85) << many;
+  }
+}
+
 }  // namespace
