@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -77,6 +78,8 @@ inline unsigned address_of_host_place(const Decoded* d) {
       reinterpret_cast<std::uintptr_t>(d) - reinterpret_cast<std::uintptr_t>(host_places.data());
   return bytes < sizeof host_places ? kHostStart + 2 * static_cast<unsigned>(bytes / sizeof(Decoded)) : 0;
 }
+
+class Waits;
 
 class Cpu final : public SfrOwner {
  public:
@@ -407,7 +410,16 @@ class Cpu final : public SfrOwner {
   /// Does it wait now?
   bool stands_in_host() const;
 
+  /// The host hears which handlers known by heart the program holds off by now.
+  std::function<void()> follow_host;
+
   // --- waits (waits.h)
+  Waits* waits = nullptr;
+  /// Does the program stop at this own head, at that true time?
+  bool would_stop_at(const Decoded* head, Cycle when) const {
+    const OwnHead* const own = const_cast<Cpu*>(this)->own_head(head);
+    return own && !passes_head && !head_met && when >= std::max(heads_from, own->from);
+  }
   bool returned = false;  ///< a handler has, since Processor::run() looked last
   /// Something was done that a wait does not do.
   void note_effect() { watched_until = 0; }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Routines of the chip's runtime that are known by heart: what they give, and how long they take, as a
-// function of their operands. The core asks at the call of such a routine; where the answer is not known, or
-// something else may happen before the routine has ended, the routine itself runs. So nothing but the PC's
-// time depends on it.
+// Routines of the chip's runtime and library that are known by heart: what they give, and how long they take,
+// as a function of their operands. The core asks at the call of such a routine; where the answer is not
+// known, or something else may happen before the routine has ended, the routine itself runs. So nothing but
+// the PC's time depends on it.
 #pragma once
 #include <cstdint>
 
@@ -20,7 +20,9 @@ struct KnownAnswer {
 using KnownFunction = KnownAnswer (*)(std::uint64_t w0_to_w3);
 
 /// Of a routine that reads or writes RAM, or more than W0 to W3: `limit` cycles at most. Cpu::at is its first
-/// instruction. Returns its cycles and has done what it does; 0: it has done nothing, and the routine runs.
+/// instruction, Cpu::deadline - 1 - limit when that begins. Returns its cycles and has done what it does; 0:
+/// it has done nothing, and the routine runs. One that settles the clocks leaves the deadline by the clock of
+/// its end.
 using KnownAction = int (*)(Cpu& cpu, std::int64_t limit);
 
 struct KnownRoutine {

@@ -50,10 +50,11 @@ void Waits::begin(Cpu& cpu) {
     const Cycle rounds = known->rounds_from(cpu);
     if (rounds >= kFewestRounds) return enter_count(cpu, known, rounds);
     if (is_passed(cpu, *known, rounds)) return;
-    if (known->is_over(cpu) && is_passed(cpu, known->round())) return;
+    if (known->is_over(cpu) && is_passed(cpu, known->round(), look_began_)) return;
   }
   const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next);
-  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && is_passed(cpu, *of_head)) return;
+  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && is_passed(cpu, *of_head, look_began_))
+    return;
   state_ = State::Looking;
   chances_ = 2;
   again_ = 0;
@@ -72,25 +73,24 @@ bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
 
 // what it waited for has come: the program goes on, and will come back. Where it is back at once, and again,
 // it waits for more; once may be the rest of the round that an interrupt came into
-bool Waits::is_passed(Cpu& cpu, const KnownWaits::Wait& wait) {
+bool Waits::is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now) {
   if (!at_head_ || (passes_ > 1 && was_passed(wait, 2))) return false;
   pass(cpu, wait, 0, kRarestLooks);
-  schedule(cpu).at = look_behind(cpu, wait.first);
+  schedule(cpu).at = look_behind(cpu, wait.first, now);
   return true;
 }
 
 // At a known head the program will stop by itself. Now and then it looks elsewhere all the same: soon behind
 // a wait, where another may come that is not known yet, and by look_by_.
-Cycle Waits::look_behind(Cpu& cpu, const Decoded* head) {
-  const Cycle later = look_beside_heads(cpu);
+Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {
+  const Cycle later = look_beside_heads(cpu, now);
   if (cpu.parts.interrupts.nesting() > 0) return later;
   const unsigned n = cpu.count_end(head);
   const bool is_due = n < kEndsFirst || (n & (n - 1)) == 0;
-  return is_due ? cpu.true_now() + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
+  return is_due ? now + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
 }
 
-Cycle Waits::look_beside_heads(const Cpu& cpu) const {
-  const Cycle now = cpu.true_now();
+Cycle Waits::look_beside_heads(const Cpu& cpu, Cycle now) const {
   return cpu.parts.interrupts.nesting() > 0 ? now + kRarestLooks
                                             : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
 }
@@ -263,7 +263,7 @@ void Waits::wait(Cpu& cpu) {
     leave(cpu);
     // it ends now, or its flags change; then the program comes to its head again
     cpu.heads_from = now + 2 * took;
-    schedule(cpu).at = is_by_head_ ? look_behind(cpu, wait_->first) : now + 2 * took;
+    schedule(cpu).at = is_by_head_ ? look_behind(cpu, wait_->first, now) : now + 2 * took;
     return;
   }
   if (now < until_) return;
@@ -292,13 +292,44 @@ void Waits::cut(Cpu& cpu) {
   }
   // behind the handler it comes to a wait's first instruction by itself, and stops there
   if (waits && is_by_head_)
-    schedule(cpu).at = look_beside_heads(cpu);
+    schedule(cpu).at = look_beside_heads(cpu, cpu.true_now());
   else if (waits || state_ == State::Looking)
     schedule(cpu).at = 0;
   state_ = State::Away;
   cpu.head_met = false;
   // handlers seldom wait, so they may work on for a while first
   schedules_[1] = {cpu.true_now() + kFirstInHandler, kFirstInHandler};
+}
+
+// --- by heart
+
+bool Waits::knows(const Cpu& cpu, const ByHeart& wait) const {
+  const Count* const count = cpu.known_counts.at(wait.head);
+  return is_away() && count && count->is_plain(cpu) && cpu.would_stop_at(wait.head, wait.came_true) &&
+         schedule(cpu).at > wait.over_true;
+}
+
+void Waits::note(Cpu& cpu, const ByHeart& wait) {
+  cpu.pause_head(wait.head, true);
+  cpu.heads_from = 0;
+  cpu.still_since = kNever;
+  Schedule& next = schedule(cpu);
+  next.between = kFirstLooks;
+  waited_ += wait.cut - wait.came;
+  jumped_ += wait.cut - wait.came;
+  cut_ = wait.head;
+  next.at = look_beside_heads(cpu, wait.cut_true);
+  schedules_[1] = {wait.cut_true + kFirstInHandler, kFirstInHandler};
+  resumed_ = wait.went_on;
+  resumed_delayed_ = cpu.delayed;
+}
+
+void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
+  look_began_ = at_true;
+  round_began_ = at;
+  at_head_ = true;
+  is_passed(cpu, cpu.known_counts.at(head)->round(), at_true);
+  cpu.passes_head = false;
 }
 
 void Waits::stir(Cpu& cpu) {

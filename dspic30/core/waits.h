@@ -47,6 +47,21 @@ class Waits {
   /// A reset.
   void forget(Cpu& cpu);
 
+  /// A wait in a loop that counts, as it would be found at its own known head: when the program comes there,
+  /// is cut by a handler, and goes on. Cycles of the program, and true ones.
+  struct ByHeart {
+    const Decoded* head = nullptr;
+    Cycle came = 0, cut = 0, went_on = 0;
+    Cycle came_true = 0, cut_true = 0;
+    Cycle over_true = 0;  ///< not before it goes on
+  };
+  /// Would it be found, with no look in between?
+  bool knows(const Cpu& cpu, const ByHeart& wait) const;
+  /// It has been so.
+  void note(Cpu& cpu, const ByHeart& wait);
+  /// Behind it the program has come to the head once more, and gone on.
+  void note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true);
+
   bool is_away() const { return state_ == State::Away; }
   bool is_waiting() const { return state_ == State::Waiting; }
   /// When the present wait may end but by an interrupt; kNever: never.
@@ -88,9 +103,9 @@ class Waits {
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
-  bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait);
-  Cycle look_behind(Cpu& cpu, const Decoded* head);
-  Cycle look_beside_heads(const Cpu& cpu) const;
+  bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now);
+  Cycle look_behind(Cpu& cpu, const Decoded* head, Cycle now);
+  Cycle look_beside_heads(const Cpu& cpu, Cycle now) const;
   bool was_passed(const KnownWaits::Wait& wait, Cycle rounds) const;
   void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in);
   void fail(Cpu& cpu);

@@ -29,6 +29,9 @@ constexpr Pin kScl{Port::G, 2}, kSda{Port::G, 3};
 
 }  // namespace
 
+I2c::I2c(const Fabric& fabric)
+    : f_(fabric), fixed_(static_cast<Cycle>(std::lround(fabric.fcy_hz / kFixedHz))) {}
+
 void I2c::attach() {
   f_.bus.attach(*this, kRcv, kAdd);
   // slew rate and levels of the pins (DISSLW, SMEN) have no digital effect
@@ -48,12 +51,30 @@ void I2c::reset(Cycle now) {
   f_.events.set(slot_, kNever);
 }
 
-Cycle I2c::scl() const { return brg_ + 1 + static_cast<Cycle>(std::lround(f_.fcy_hz / kFixedHz)); }
+Cycle I2c::duration(Operation operation) const {
+  const auto halves = [operation] {
+    switch (operation) {
+      case Operation::Start:
+        return kStartHalves;
+      case Operation::Restart:
+        return kRestartHalves;
+      case Operation::Stop:
+        return kStopHalves;
+      case Operation::Receive:
+        return kByteHalves;
+      case Operation::Transmit:
+        return kByteHalves + kBitHalves;
+      default:
+        return kBitHalves;
+    }
+  }();
+  return (halves * scl() + 1) / 2;
+}
 
-void I2c::begin(Operation operation, Cycle half_periods, Cycle now) {
+void I2c::begin(Operation operation, Cycle now) {
   operation_ = operation;
   answered_ = false;
-  end_ = now + (half_periods * scl() + 1) / 2;
+  end_ = now + duration(operation);
   f_.events.set(slot_, end_);
 }
 
@@ -73,15 +94,15 @@ void I2c::request(std::uint16_t bits, Cycle now) {
   con_ |= bits;
   switch (bits) {
     case kSen:
-      return begin(Operation::Start, kStartHalves, now);
+      return begin(Operation::Start, now);
     case kRsen:
-      return begin(Operation::Restart, kRestartHalves, now);
+      return begin(Operation::Restart, now);
     case kPen:
-      return begin(Operation::Stop, kStopHalves, now);
+      return begin(Operation::Stop, now);
     case kRcen:
-      return begin(Operation::Receive, kByteHalves, now);
+      return begin(Operation::Receive, now);
     default:
-      return begin(Operation::Acknowledge, kBitHalves, now);
+      return begin(Operation::Acknowledge, now);
   }
 }
 
@@ -258,7 +279,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       } else {
         trn_ = static_cast<std::uint8_t>(value);
         stat_ |= kTbf | kTrstat;
-        begin(Operation::Transmit, kByteHalves + kBitHalves, now);
+        begin(Operation::Transmit, now);
       }
       break;
     case kBrg:

@@ -22,7 +22,7 @@ namespace dspic {
 
 class I2c final : public SfrOwner, public EventOwner {
  public:
-  explicit I2c(const Fabric& fabric) : f_(fabric) {}
+  explicit I2c(const Fabric& fabric);
   void attach();
   void reset(Cycle now);
 
@@ -31,6 +31,14 @@ class I2c final : public SfrOwner, public EventOwner {
   std::uint16_t peek(unsigned address, Cycle now) const override;
   Cycle horizon(unsigned address, Cycle now) const override;
   void on_event(int id, Cycle at) override;
+
+  /// What the master may do.
+  enum class Operation { None, Start, Restart, Stop, Receive, Acknowledge, Transmit };
+  /// Could one begin now?
+  bool is_ready() const { return on() && operation_ == Operation::None && slave_ == Slave::Idle; }
+  bool is_started() const { return (stat_ & kStarted) != 0; }
+  /// From the write that begins it to its interrupt's flag, unless the clock is stretched.
+  Cycle duration(Operation operation) const;
 
   // --- another master on the bus; each when it is complete there
   void hear_start(Cycle at);
@@ -45,12 +53,10 @@ class I2c final : public SfrOwner, public EventOwner {
   bool holds_clock() const;
 
  private:
-  enum class Operation { None, Start, Restart, Stop, Receive, Acknowledge, Transmit };
-
-  static constexpr std::uint16_t kOn = sfr_bits("I2CCON", "I2CEN");
+  static constexpr std::uint16_t kOn = sfr_bits("I2CCON", "I2CEN"), kStarted = sfr_bits("I2CSTAT", "S");
   bool on() const { return (con_ & kOn) != 0; }
-  Cycle scl() const;  // one SCL period
-  void begin(Operation operation, Cycle half_periods, Cycle now);
+  Cycle scl() const { return brg_ + 1 + fixed_; }  // one SCL period
+  void begin(Operation operation, Cycle now);
   void finish(Cycle at);
   void request(std::uint16_t bits, Cycle now);
   void refuse(const char* what, Cycle now);
@@ -58,6 +64,7 @@ class I2c final : public SfrOwner, public EventOwner {
   void tell_alone(const char* place, Cycle now);
 
   const Fabric& f_;
+  const Cycle fixed_;  // of an SCL period
   int slot_ = -1;
   std::uint16_t con_ = 0, stat_ = 0, brg_ = 0, add_ = 0;
   std::uint8_t rcv_ = 0, trn_ = 0xFF;

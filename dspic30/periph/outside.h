@@ -107,6 +107,8 @@ class Outside {
   /// The master's ninth bit after a byte read.
   virtual void i2c_acknowledge(bool acknowledged, Cycle at) {}
   virtual void i2c_stop(Cycle at) {}
+  /// May an answer stretch the clock?
+  virtual bool i2c_may_stretch() const { return true; }
   /// Is there another master, which speaks by Dspic30f6014a::i2c_start() and its kin?
   virtual bool i2c_has_master() const { return false; }
 

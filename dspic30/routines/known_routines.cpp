@@ -38,7 +38,7 @@ std::vector<const KnownRoutine*> known_routines() {
   std::vector<const KnownRoutine*> all;
   for (const auto* of_kind :
        {&long_division_routines(), &long_long_routines(), &float_routines(), &float_comparison_routines(),
-        &float_conversion_routines(), &float_root_routines(), &memory_routines()})
+        &float_conversion_routines(), &float_root_routines(), &memory_routines(), &i2c_routines()})
     for (const KnownRoutine& routine : *of_kind) all.push_back(&routine);
   return all;
 }
@@ -46,10 +46,12 @@ std::vector<const KnownRoutine*> known_routines() {
 const KnownRoutine* find_known(const std::string& name, const ProgramMemory& program, unsigned address) {
   static const Table table = make_table();
   if (is_symbol(name) && !name.empty() && !is_known_name(name)) return nullptr;
-  const std::uint64_t code = code_sum(program, address);
-  const auto [first, last] = table.equal_range(code);
-  for (auto found = first; code != 0 && found != last; ++found)
-    if (name.empty() || !is_symbol(name) || name == plain_name(*found->second)) return found->second;
+  for (const bool hides_variable : {false, true}) {
+    const std::uint64_t code = code_sum(program, address, hides_variable);
+    const auto [first, last] = table.equal_range(code);
+    for (auto found = first; code != 0 && found != last; ++found)
+      if (name.empty() || !is_symbol(name) || name == plain_name(*found->second)) return found->second;
+  }
   return nullptr;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// All routines that are known by heart: those of hal_dspic/runtime and of the firmware's C library, as this
-// compiler makes them. Each form is bound to the very code that it was made for (KnownRoutine::code): after a
-// change of the routine or of the compiler it is not found any more and the routine runs, until its form is
-// looked at again; tests/dspic30/routines_test.cpp tells.
+// All routines that are known by heart: those of hal_dspic/runtime, of the firmware's C library, and of the
+// I2C master, as this compiler makes them. Each form is bound to the very code that it was made for
+// (KnownRoutine::code): after a change of the routine or of the compiler it is not found any more and the
+// routine runs, until its form is looked at again; tests/dspic30/routines_test.cpp tells.
 #pragma once
 #include <cstdint>
 #include <map>
@@ -24,6 +24,8 @@ const std::vector<KnownRoutine>& float_comparison_routines();
 const std::vector<KnownRoutine>& float_conversion_routines();
 const std::vector<KnownRoutine>& float_root_routines();
 const std::vector<KnownRoutine>& memory_routines();
+/// Of hal_dspic/I2C. Their sums hide a variable.
+const std::vector<KnownRoutine>& i2c_routines();
 
 std::vector<const KnownRoutine*> known_routines();
 

@@ -45,7 +45,10 @@ Flow flow_of(std::uint32_t word) {
 /// Straight pieces of code in the order in which they are met.
 class Walk {
  public:
-  Walk(const ProgramMemory& program, unsigned address) : program_(program) { meet(address); }
+  Walk(const ProgramMemory& program, unsigned address, bool hides_variable)
+      : program_(program), hides_variable_(hides_variable) {
+    meet(address);
+  }
 
   std::uint64_t sum() {
     for (std::size_t i = 0; i < pieces_.size(); ++i)
@@ -65,6 +68,14 @@ class Walk {
     return (address + 2 + 2 * static_cast<unsigned>(static_cast<std::int16_t>(word & 0xFFFF))) & 0x7FFFFE;
   }
 
+  /// MOV #address, Wn of it?
+  bool is_of_variable(std::uint32_t word) {
+    const std::uint32_t address = word >> 4 & 0xFFFF;
+    if (!hides_variable_ || word >> 20 != 0x2 || address < 0x800 || address >= 0x2000) return false;
+    if (variable_ == 0) variable_ = address;
+    return address == variable_;
+  }
+
   bool read_piece(unsigned address) {
     for (bool may_be_skipped = false; address < kFlashEnd; address += 2) {
       if (++words_ > kMostWords) return false;
@@ -76,7 +87,7 @@ class Walk {
           return false;
         case Flow::On:
         case Flow::Skip:
-          add(word);
+          add(is_of_variable(word) ? kVariable | (word & 0xF) : word);
           break;
         case Flow::End:
           add(word);
@@ -103,7 +114,11 @@ class Walk {
     return false;
   }
 
+  static constexpr std::uint64_t kVariable = 0x2000000;
+
   const ProgramMemory& program_;
+  const bool hides_variable_;
+  std::uint32_t variable_ = 0;
   std::vector<unsigned> pieces_;
   std::size_t words_ = 0;
   std::uint64_t sum_ = 0xCBF29CE484222325u;
@@ -111,8 +126,8 @@ class Walk {
 
 }  // namespace
 
-std::uint64_t code_sum(const ProgramMemory& program, unsigned address) {
-  return Walk(program, address).sum();
+std::uint64_t code_sum(const ProgramMemory& program, unsigned address, bool hides_variable) {
+  return Walk(program, address, hides_variable).sum();
 }
 
 }  // namespace dspic

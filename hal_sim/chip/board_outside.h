@@ -57,6 +57,7 @@ class BoardOutside final : public dspic::Outside {
   dspic::I2cReply i2c_write(std::uint8_t byte, Cycle at) override;
   dspic::I2cReply i2c_read(Cycle at) override;
   void i2c_stop(Cycle at) override;
+  bool i2c_may_stretch() const override { return false; }
   std::uint16_t dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) override;
 
  private:

@@ -166,7 +166,15 @@ TEST_P(Routine, GivesWhatItGivesAndTakesWhatItTakes) {
   RecordProperty("known", std::to_string(known));
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Routine, ::testing::ValuesIn(dspic::known_routines()), [](const auto& info) {
+// those of the I2C master have more than operands: i2c_test.cpp
+std::vector<const dspic::KnownRoutine*> of_operands() {
+  std::vector<const dspic::KnownRoutine*> all;
+  for (const dspic::KnownRoutine* routine : dspic::known_routines())
+    if (std::string(routine->name).rfind("_e_i2c", 0) != 0) all.push_back(routine);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Routine, ::testing::ValuesIn(of_operands()), [](const auto& info) {
   std::string name = info.param->name;
   return name.substr(name.find_first_not_of('_'));
 });
