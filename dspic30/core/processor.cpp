@@ -26,7 +26,7 @@ Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_pt
       chip_(chip) {
   cpu_->host = host;
   cpu_->waits = waits_.get();
-  if (host) cpu_->follow_host = [this] { follow_host(); };
+  if (host) cpu_->follow_host = [this] { follow_host(kNoVector); };
   cpu_->serve_ram(plain_from);
   for (std::size_t h = 0; host && h < irqs_.size(); ++h)
     if (const int vector = host->vector(static_cast<int>(h)); vector != kNoVector)

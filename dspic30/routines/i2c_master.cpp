@@ -77,6 +77,7 @@ class Primitive {
     // with what the host's handlers take in between
     constexpr Cycle kMost = 100;
     if (rounds_ + 2 >= shape_.from || flag + kMost >= cpu_.clocks.true_at(begin_ + limit_)) return false;
+    if (cpu_.host && is_host_disturbed(cpu_.clocks.true_at(cut_))) return false;
     wait_.over_true = flag + kMost;
     for (known_ = 0; known_ < kPlaces; ++known_) {
       wait_.head = first() + known_;
@@ -117,6 +118,16 @@ class Primitive {
     const std::array<std::uint32_t, 9> words = {0xF80034,         0x781F80, 0x200000, 0x8801A0, 0xA9C085,
                                                 0xEF6000 | mode_, 0x78004F, 0xF90034, 0x064000};
     return std::equal(words.begin(), words.end(), flash + at / 2);
+  }
+
+  // does a handler known by heart, which this one's interrupt holds off, become pending meanwhile?
+  bool is_host_disturbed(Cycle entered) const {
+    constexpr Cycle kBefore = 4, kLongest = 60;  // from its entry to behind its RETFIE, and some more
+    for (int h = 0; h < HostCalls::kHandlers; ++h)
+      if (cpu_.host->vector(h) != kNoVector &&
+          cpu_.host->source_event(h, entered - kBefore) <= entered + kLongest)
+        return true;
+    return false;
   }
 
   void zero_extend(unsigned mode) {
