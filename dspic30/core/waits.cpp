@@ -297,8 +297,17 @@ void Waits::cut(Cpu& cpu) {
     schedule(cpu).at = 0;
   state_ = State::Away;
   cpu.head_met = false;
-  // handlers seldom wait, so they may work on for a while first
-  schedules_[1] = {cpu.true_now() + kFirstInHandler, kFirstInHandler};
+  begin_handler(cpu, cpu.true_now());
+}
+
+// Handlers seldom wait, so they may work on for a while first; one in sixteen for less, as a wait in a short
+// one would never be found. One that comes into another goes by that one's time.
+void Waits::begin_handler(const Cpu& cpu, Cycle at) {
+  if (cpu.parts.interrupts.nesting() > 0) return;
+  constexpr unsigned kMix = 0x9E3779B1u, kFourBits = 28;  // evenly, whatever the handlers' rhythm
+  const bool is_soon = ++handlers_ * kMix >> kFourBits == 0;
+  const Cycle first = is_soon ? kSoonInHandler : kFirstInHandler;
+  schedules_[1] = {at + first, first};
 }
 
 // --- by heart
@@ -319,7 +328,7 @@ void Waits::note(Cpu& cpu, const ByHeart& wait) {
   jumped_ += wait.cut - wait.came;
   cut_ = wait.head;
   next.at = look_beside_heads(cpu, wait.cut_true);
-  schedules_[1] = {wait.cut_true + kFirstInHandler, kFirstInHandler};
+  begin_handler(cpu, wait.cut_true);
   resumed_ = wait.went_on;
   resumed_delayed_ = cpu.delayed;
 }

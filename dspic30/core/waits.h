@@ -82,9 +82,9 @@ class Waits {
     Cycle at = kFirstLooks;  // true time
     Cycle between = kFirstLooks;
   };
-  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;  // cycles between two looks
-  static constexpr Cycle kFirstInHandler = 4096;                   // ... since it began
-  static constexpr int kLongestRound = 256;                        // instructions
+  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;       // cycles between two looks
+  static constexpr Cycle kFirstInHandler = 4096, kSoonInHandler = 600;  // ... since it began
+  static constexpr int kLongestRound = 256;                             // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
   // behind the first ends of a wait with a known head it looks soon, each time after another while
@@ -115,11 +115,13 @@ class Waits {
   Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
+  void begin_handler(const Cpu& cpu, Cycle at);
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
 
   State state_ = State::Away;
   std::array<Schedule, 2> schedules_;   // of the program, of its handlers
+  unsigned handlers_ = 0;               // that have come into the program
   bool is_by_head_ = false;             // the wait's first instruction is one where the program stops
   bool at_head_ = false;                // the look began at a known wait's first instruction
   const Decoded* cut_ = nullptr;        // first instruction of the wait that an interrupt came into last
