@@ -313,9 +313,9 @@ void Waits::begin_handler(const Cpu& cpu, Cycle at) {
 // --- by heart
 
 bool Waits::knows(const Cpu& cpu, const ByHeart& wait) const {
+  if (!cpu.would_stop_at(wait.head, wait.came_true)) return false;
   const Count* const count = cpu.known_counts.at(wait.head);
-  return is_away() && count && count->is_plain(cpu) && cpu.would_stop_at(wait.head, wait.came_true) &&
-         schedule(cpu).at > wait.over_true;
+  return count && count->is_plain(cpu);
 }
 
 void Waits::note(Cpu& cpu, const ByHeart& wait) {

@@ -53,10 +53,11 @@ class Waits {
     const Decoded* head = nullptr;
     Cycle came = 0, cut = 0, went_on = 0;
     Cycle came_true = 0, cut_true = 0;
-    Cycle over_true = 0;  ///< not before it goes on
   };
-  /// Would it be found, with no look in between?
+  /// Would it be found?
   bool knows(const Cpu& cpu, const ByHeart& wait) const;
+  /// Is there neither a wait nor a look up to then, true time?
+  bool is_free_until(const Cpu& cpu, Cycle when) const { return is_away() && schedule(cpu).at > when; }
   /// It has been so.
   void note(Cpu& cpu, const ByHeart& wait);
   /// Behind it the program has come to the head once more, and gone on.

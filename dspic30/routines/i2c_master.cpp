@@ -10,7 +10,6 @@
 // entered and left as the core does. What comes in between is a closed form of when the flag rises. Where
 // anything else may happen before the routine is over, where it would give up or wait in vain, or where the
 // wait is not known as one yet (core/waits.h counts it), the routine runs.
-#include <algorithm>
 #include <array>
 
 #include "dspic30/core/waits.h"
@@ -28,6 +27,11 @@ constexpr unsigned kTrn = sfr("I2CTRN"), kCon = sfr("I2CCON"), kRcv = sfr("I2CRC
 constexpr unsigned kVector = kFirstIrqVector + irq::MasterI2c;
 constexpr unsigned kFlagBit = 1u << (irq::MasterI2c - 8);  // of the flags' high byte
 constexpr int kRound = 6, kPlaces = 5, kBranch = 2;  // cycles, instructions of a round; cycles of its last
+
+// the handler, whose sixth word is CLR.B of the mode
+constexpr std::uint32_t kClearMode = 0xEF6000;
+constexpr std::array<std::uint32_t, 9> kHandler = {0xF80034,   0x781F80, 0x200000, 0x8801A0, 0xA9C085,
+                                                   kClearMode, 0x78004F, 0xF90034, 0x064000};
 
 /// How a primitive is made. Cycles from its first instruction on, as it runs without a stop.
 struct Shape {
@@ -78,7 +82,7 @@ class Primitive {
     constexpr Cycle kMost = 100;
     if (rounds_ + 2 >= shape_.from || flag + kMost >= cpu_.clocks.true_at(begin_ + limit_)) return false;
     if (cpu_.host && is_host_disturbed(cpu_.clocks.true_at(cut_))) return false;
-    wait_.over_true = flag + kMost;
+    if (!cpu_.waits->is_free_until(cpu_, flag + kMost)) return false;
     for (known_ = 0; known_ < kPlaces; ++known_) {
       wait_.head = first() + known_;
       wait_.came = cpu_.clocks.own_cycles(head + known_);
@@ -114,10 +118,11 @@ class Primitive {
     const unsigned vector = (cpu_.parts.interrupts.uses_alternate_table() ? 0x84u : 0x04u) + 2 * kVector;
     const std::uint32_t* const flash = cpu_.program.flash();
     const unsigned at = flash[vector / 2] & 0x7FFFFE;
-    if (at >= kFlashEnd - 2 * 9) return false;
-    const std::array<std::uint32_t, 9> words = {0xF80034,         0x781F80, 0x200000, 0x8801A0, 0xA9C085,
-                                                0xEF6000 | mode_, 0x78004F, 0xF90034, 0x064000};
-    return std::equal(words.begin(), words.end(), flash + at / 2);
+    if (at >= kFlashEnd - 2 * kHandler.size()) return false;
+    const std::uint32_t* const words = flash + at / 2;
+    bool is_same = words[5] == (kClearMode | mode_);
+    for (std::size_t i = 0; i < kHandler.size(); ++i) is_same &= i == 5 || words[i] == kHandler[i];
+    return is_same;
   }
 
   // does a handler known by heart, which this one's interrupt holds off, become pending meanwhile?
