@@ -235,15 +235,16 @@ std::string source() {
 
 /// What a scene has taken.
 struct Taken {
-  Cycle call = -1;            // the call, from behind it to behind RETURN
-  Cycle on = -1;              // of it, until the converter is on
-  Cycle dark = -1, lit = -1;  // of it, until the instruction that reads that value
-  Cycle filled = -1;          // of it, behind the last handler's end
-  std::vector<Cycle> walk;    // the T2 handler, cut at calls
-  std::vector<Cycle> began;   // ADC handlers' flags were served
-  std::vector<Cycle> frames;  // ADC handlers, entry and RETFIE included
-  unsigned saved = 0;         // registers that the handler saves
-  int saved_words = 0;        // other words
+  Cycle call = -1;                 // the call, from behind it to behind RETURN
+  Cycle on = -1;                   // of it, until the converter is on
+  Cycle dark = -1, lit = -1;       // of it, until the instruction that reads that value
+  Cycle filled = -1;               // of it, behind the last handler's end
+  std::vector<Cycle> walk;         // the T2 handler, cut at calls
+  std::vector<Cycle> began;        // ADC handlers' flags were served
+  std::vector<Cycle> frames;       // ADC handlers, entry and RETFIE included
+  Cycle counted = -1, filed = -1;  // ADC's flag to the counters' step, to the microphones' index
+  unsigned saved = 0;              // registers that the handler saves
+  int saved_words = 0;             // other words
 };
 
 class Watch final : public chip::StepWatch {
@@ -254,6 +255,8 @@ class Watch final : public chip::StepWatch {
       if (const auto found = file.functions.find(row.name); found != file.functions.end())
         functions_.insert(found->second);
     scene_at_ = file.objects.at("scene");
+    counter_at_ = file.objects.at("tickAdcIsr");
+    index_at_ = file.objects.at("e_last_mic_scan_id");
   }
 
   void after(const Step& step) override {
@@ -284,7 +287,22 @@ class Watch final : public chip::StepWatch {
 
  private:
   void follow_handler(Taken& t, const Step& step, unsigned stack) {
+    // how long after its flag the handler has counted, and filed the microphones: where nothing is in its way
+    const auto word = [&](unsigned at) {
+      return runner_.processor().ram(at) | runner_.processor().ram(at + 1) << 8;
+    };
+    const auto note = [&](int& seen, unsigned at, Cycle& least) {
+      if (word(at) == seen) return;
+      seen = -1;
+      const Cycle took = step.end - flagged_at_;
+      least = least < 0 ? took : std::min(least, took);
+    };
+    if (frame_since_ >= 0 && counter_ >= 0) note(counter_, counter_at_, t.counted);
+    if (frame_since_ >= 0 && index_ >= 0) note(index_, index_at_, t.filed);
     if (step.entered == kAdc) {
+      flagged_at_ = runner_.device().flag_since(kAdc);
+      counter_ = word(counter_at_);
+      index_ = word(index_at_);
       frame_since_ = step.begin;
       t.began.push_back(step.begin);
     }
@@ -306,10 +324,10 @@ class Watch final : public chip::StepWatch {
       walked_ = false;
       return;
     }
-    const std::uint32_t word = runner_.program().read(step.pc);
-    if (depth_ == 0 && t.walk.empty()) note_push(t, word);
+    const std::uint32_t instruction = runner_.program().read(step.pc);
+    if (depth_ == 0 && t.walk.empty()) note_push(t, instruction);
     // CALL Wn of a list's function: its frame is all that lies above
-    if (depth_ == 0 && (word & 0xFFFFF0) == 0x010000) {
+    if (depth_ == 0 && (instruction & 0xFFFFF0) == 0x010000) {
       t.walk.push_back(step.begin - since_);
       if (t.walk.size() == 1) t.saved_words = static_cast<int>(stack - 4 - handler_stack_) / 2;
       depth_ = stack;
@@ -339,6 +357,9 @@ class Watch final : public chip::StepWatch {
   chip::ChipRunner& runner_;
   std::vector<Taken> scenes_;
   std::set<unsigned> functions_;
+  unsigned counter_at_ = 0, index_at_ = 0;
+  int counter_ = -1, index_ = -1;  // as the handler found them; -1: it has changed them
+  Cycle flagged_at_ = 0;
   unsigned scene_at_ = 0, stack_ = 0, back_ = 0, handler_stack_ = 0, depth_ = 0;
   static constexpr int kFree = 8;  // W0 to W7
   int before_[kFree] = {};
@@ -523,6 +544,8 @@ std::map<std::string, int> call_cycles(const std::string& level, std::vector<std
   c["scan_round"] = round("frames:all");
   c["scan_micro_round"] = round("frames:micro");
   copy({"array_filled", "completed", "scan_on", "scan_off"});
+  c["scan_counts"] = static_cast<int>(part(usual, "frames:all").counted);
+  c["scan_files"] = static_cast<int>(part(usual, "frames:all").filed);
   c["share_scan_micro"] = sum(part(usual, "frames:micro").frames, 4, kFrames) / kFrames;
   c["share_scan_round"] = sum(part(usual, "frames:all").frames, 4, kFrames);
   return c;
@@ -651,6 +674,8 @@ std::string call_cycles_text(const std::vector<std::map<std::string, int>>& leve
       {"scan_micro_round", "65 frames of MICRO_ONLY"},
       {"share_scan_round", "converter's handler, entry and RETFIE included: 65 frames"},
       {"share_scan_micro", "a frame of MICRO_ONLY"},
+      {"scan_counts", "its flag to the counters' step"},
+      {"scan_files", "to the microphones' samples and index"},
   };
   std::string text =
       "// SPDX-License-Identifier: MIT\n"

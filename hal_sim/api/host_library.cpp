@@ -45,7 +45,7 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
       served_(served),
       cycles_(call_cycles(served.level)),
       drivers_(std::make_unique<drivers::Drivers>(board)),
-      variables_(drivers_->scan()),
+      variables_(drivers_->scan(), cycles_),
       rhythm_(cycles_) {
   drivers_->leave_telling_to_others();
   agendas().leave_flag_to_others();
@@ -154,7 +154,7 @@ Cycle HostLibrary::pending_cycles() const {
 std::uint64_t HostLibrary::share_q32() const {
   std::uint64_t share = 0;
   if (!(held_ >> kAgendaHandler & 1)) share += agendas().share_q32() - agendas().calling_share_q32();
-  if (!(held_ >> kScanHandler & 1)) share += variables_.share_q32(cycles_);
+  if (!(held_ >> kScanHandler & 1)) share += variables_.share_q32();
   return share;
 }
 

@@ -8,9 +8,7 @@ namespace api {
 namespace {
 
 constexpr int kMostTicks = 65535, kMostRefresh = 64;  // where tickAdcIsr and updateAccI2CCounter stop
-// end of a sequence to the counters' steps and to the microphones' samples [measured: hal_dspic on the chip]
-constexpr Cycle kCountCycles = 28, kMicFileCycles = 81;
-constexpr Cycle kLongestFiling = 200;  // more than any of them takes
+constexpr Cycle kLongestFiling = 200;                 // more than any of them takes
 
 std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
 
@@ -46,18 +44,18 @@ void ScanVariables::started(int selector) {
   ++starts_;
 }
 
-std::uint64_t ScanVariables::share_q32(const CallCycles& cycles) const {
+std::uint64_t ScanVariables::share_q32() const {
   if (!scan_.is_on()) return 0;
   const auto q32 = [](Cycle taken, Cycle of) {
     return (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of);
   };
-  return scan_.micro_only() ? q32(cycles.share_scan_micro, drivers::kScanMicroFrameCycles)
-                            : q32(cycles.share_scan_round, scan_.round());
+  return scan_.micro_only() ? q32(cycles_.share_scan_micro, drivers::kScanMicroFrameCycles)
+                            : q32(cycles_.share_scan_round, scan_.round());
 }
 
 // --- samples ---------------------------------------------------------------------------------------------
 
-std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - kMicFileCycles); }
+std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - cycles_.scan_files); }
 
 std::int64_t ScanVariables::newest(std::int64_t count, std::int64_t offset, unsigned index, int ring) {
   // number n lies at (n + offset) mod ring
@@ -146,10 +144,10 @@ std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const 
     case HostVariable::selector:
       return selector_;
     case HostVariable::tickAdcIsr:
-      return ticks_.at(scan_.interrupts(at - kCountCycles), kMostTicks);
+      return ticks_.at(scan_.interrupts(at - cycles_.scan_counts), kMostTicks);
     case HostVariable::updateAccI2CCounter:
-      return static_cast<std::uint16_t>(acc_refresh_.at(scan_.interrupts(at - kCountCycles), kMostRefresh) |
-                                        beside_refresh_ << 8);
+      return static_cast<std::uint16_t>(
+          acc_refresh_.at(scan_.interrupts(at - cycles_.scan_counts), kMostRefresh) | beside_refresh_ << 8);
     case HostVariable::hal_starts:
       return starts_;
     case HostVariable::Count:
@@ -167,7 +165,7 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
   const Place place = place_of(address);
   const std::uint16_t old = read(address, at);
   value = static_cast<std::uint16_t>((old & ~lanes) | (value & lanes));
-  const std::int64_t interrupts = scan_.interrupts(at - kCountCycles);
+  const std::int64_t interrupts = scan_.interrupts(at - cycles_.scan_counts);
   // a ring that goes on elsewhere keeps what it holds
   const auto move_ring = [&](HostVariable ring, int words) {
     const unsigned start = served_address(ring);
@@ -230,12 +228,12 @@ Cycle ScanVariables::horizon(unsigned address, Cycle at) {
   };
   switch (place.which) {
     case HostVariable::e_last_mic_scan_id:
-      return after(filed(at) + 1, kMicFileCycles);
+      return after(filed(at) + 1, cycles_.scan_files);
     case HostVariable::tickAdcIsr:
     case HostVariable::updateAccI2CCounter:
-      return after(scan_.interrupts(at - kCountCycles) + 1, kCountCycles);
+      return after(scan_.interrupts(at - cycles_.scan_counts) + 1, cycles_.scan_counts);
     case HostVariable::e_mic_scan:
-      return after(number_of(place, at) + drivers::kMicSamples + 1, kMicFileCycles);
+      return after(number_of(place, at) + drivers::kMicSamples + 1, cycles_.scan_files);
     case HostVariable::e_last_acc_scan_id:
     case HostVariable::e_acc_scan:
       return scan_.acc_until(at);

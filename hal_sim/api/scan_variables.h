@@ -15,7 +15,8 @@ namespace api {
 
 class ScanVariables {
  public:
-  explicit ScanVariables(drivers::AdcScan& scan) : scan_(scan) {}
+  /// Both outlive this.
+  ScanVariables(drivers::AdcScan& scan, const CallCycles& cycles) : scan_(scan), cycles_(cycles) {}
   /// A reset of the chip: the drivers begin anew, words that nothing else writes stay.
   void reset();
 
@@ -34,7 +35,7 @@ class ScanVariables {
   /// e_init_ad_scan() sets the selector's variable and counts.
   void started(int selector);
   /// What the handler takes of each cycle, as a fraction of 2^32.
-  std::uint64_t share_q32(const CallCycles& cycles) const;
+  std::uint64_t share_q32() const;
 
  private:
   struct Place {
@@ -71,6 +72,7 @@ class ScanVariables {
   std::uint16_t value(unsigned address, Cycle at, bool keep) const;
 
   drivers::AdcScan& scan_;
+  const CallCycles& cycles_;
   std::unique_ptr<Overlay> overlay_;
   Counter ticks_, acc_refresh_;
   std::uint8_t beside_refresh_ = 0;  // byte behind updateAccI2CCounter, which is nobody's

@@ -85,6 +85,18 @@ TEST_P(HalTest, two_seconds_are_the_same) {
 
 INSTANTIATE_TEST_SUITE_P(Controllers, HalTest, ::testing::ValuesIn(kCases), name_of);
 
+// in the maze the two part behind 15 s: by then the converter's frames are 5 of 225,000 apart, and a reading
+// that decides between two ways falls otherwise
+TEST(HalLong, ten_seconds_of_obstacle_end_at_the_same_place) {
+  constexpr double kLong = 10, kNearM = 0.002;
+  const Flight sim(world_of({"maze", "obstacle"}), "sim", "", kLong),
+      dspic(world_of({"maze", "obstacle"}), "dspic", "", kLong);
+  ASSERT_TRUE(sim.is_there() && dspic.is_there());
+  const sim::Pose2 a = sim.twin().simulation().pose(0), b = dspic.twin().simulation().pose(0);
+  EXPECT_LT(std::hypot(a.x_m - b.x_m, a.y_m - b.y_m), kNearM);
+  EXPECT_NEAR(sim.twin().mind(0).runner()->cpu_load(), dspic.twin().mind(0).runner()->cpu_load(), kSameLoad);
+}
+
 // --- programs of this test -------------------------------------------------------------------------------
 
 const char* const kHead = R"(
