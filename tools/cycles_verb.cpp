@@ -177,7 +177,9 @@ int cycles(const CyclesArguments& a) {
   std::string image, chip_image;
   std::vector<cc::FunctionCycles> functions;
   chip::ProfileReport report;
-  if (problems.empty()) image = twin::provide_image(a.file, "", {}, problems);
+  twin::Options estimated;  // code of the PC knows what the chip's would take
+  estimated.way = "native";
+  if (problems.empty()) image = twin::provide_image(a.file, "", estimated, problems);
   if (!image.empty() && kind_of_image(image) == "chip") chip_image = std::exchange(image, "");
   if (!image.empty()) functions = estimates(image, problems);
   if (!image.empty() && problems.empty() && exact) {

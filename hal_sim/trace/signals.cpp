@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdlib>
@@ -109,8 +110,20 @@ bool register_signal(const std::string& name, Signal& out, std::string& error) {
   return false;
 }
 
-// the same bits of the chip's own register
-void take_from_chip(Signal& port) {
+// coils and IR pulses, which drivers known by heart move without the chip's latches
+bool is_of_drivers(const Signal& port) {
+  const auto letter = static_cast<char>(port.source.index);
+  if (port.source.kind == Source::Lat) return true;  // of a whole port, too
+  if (port.source.kind != Source::Port || port.width > 1) return false;
+  const bool is_pulse =
+      std::any_of(std::begin(board::kEmitterPins), std::end(board::kEmitterPins),
+                  [&](board::Pin p) { return p.letter() == letter && p.bit == port.shift; });
+  return is_pulse || (letter == 'D' && port.shift < kRight + 4);
+}
+
+// the same bits of the chip's own register, unless the board alone knows
+void take_from_chip(Signal& port, const host::Runner& runner) {
+  if (!runner.has_chip() || (runner.closed_drivers() && is_of_drivers(port))) return;
   const char* kind = nullptr;
   if (port.source.kind == Source::Lat) kind = "LAT";
   if (port.source.kind == Source::Port) kind = "PORT";
@@ -188,12 +201,12 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
     if (name == n.name) {
       Signal found = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
       found.is_signed = n.source == Source::Steps;
-      if (has_chip) take_from_chip(found);
+      if (runner) take_from_chip(found, *runner);
       return {found};
     }
   Signal port;
   if (port_signal(name, port)) {
-    if (has_chip) take_from_chip(port);
+    if (runner) take_from_chip(port, *runner);
     return {port};
   }
   for (int line = 0; line < 4; ++line)
@@ -207,8 +220,9 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
   Signal word;
   if (register_signal(name, word, error)) {
     if (has_chip) return {word};
-    error =
-        "got '" + name + "', a register, which is drawn in the register way only; expected --way register";
+    error = "got '" + name +
+            "', a register, which code of the PC has in the register way only; expected --way "
+            "register, or the robot's own code";
     return {};
   }
   if (!error.empty()) return {};

@@ -101,7 +101,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
         Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"},
         Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
-        Bad{"assembler", "build @/assembler -o @/x.so", 1, "add w0, w1, w2"},
+        Bad{"assembler", "build --way native @/assembler -o @/x.so", 1, "add w0, w1, w2"},
         Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
         Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"},
         Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "neither a file nor a controller"},

@@ -107,7 +107,7 @@ flags:  .space 2
     EXPECT_NE(hex.find(":0200000401F009"), std::string::npos);
     EXPECT_NE(hex.find(":0C000000E6FF000034920000"), std::string::npos) << hex;  // FOSC is the library's
   }
-  const auto refused = twinpuck("run maze --fw '*=" + (folder / "_main").string() + "'");
+  const auto refused = twinpuck("run maze --way native --fw '*=" + (folder / "_main").string() + "'");
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.text.find("only the chip way assembles"), std::string::npos) << refused.text;
 }
@@ -286,7 +286,7 @@ TEST_F(ChipProgram, a_run_shows_its_profile) {
   const auto without = twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5");
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   EXPECT_EQ(digest(run.text), digest(without.text));
-  const auto native = twinpuck("run maze --fw '*=obstacle' --for 0.5 --profile");
+  const auto native = twinpuck("run maze --fw '*=obstacle' --way native --for 0.5 --profile");
   EXPECT_EQ(native.exit_code, 2);
   EXPECT_NE(native.text.find("--profile: got no robot that runs the chip way"), std::string::npos)
       << native.text;

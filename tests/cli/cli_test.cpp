@@ -393,7 +393,12 @@ TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
   write("fat/main.c",
         "char picture[9000];\nvolatile int n;\nint main(void) {\n  int big = 70000;\n  picture[n] = big;\n"
         "  while (1);\n}\n");
-  const std::string run = "run maze --fw '*=" + path("fat") + "' --for 0.1 -q ";
+  // the chip's linker has no room for it
+  const Said linked = twinpuck("run maze --fw '*=" + path("fat") + "' --for 0.1 -q ");
+  EXPECT_EQ(linked.exit_code, 2) << linked.text;
+  for (const char* part : {"main.c:4", "70000", "link: error: RAM: no room for picture, 9000 bytes"})
+    EXPECT_NE(linked.text.find(part), std::string::npos) << linked.text;
+  const std::string run = "run maze --way native --fw '*=" + path("fat") + "' --for 0.1 -q ";
   for (const char* strict : {"", "", "--strict"}) {
     const Said s = twinpuck(run + strict);
     EXPECT_EQ(s.exit_code, *strict ? 1 : 0) << s.text;
@@ -404,7 +409,10 @@ TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
   }
   write("thin/main.c", "volatile int n;\nint main(void) {\n  while (1) n++;\n}\n");
   EXPECT_EQ(twinpuck("run maze --fw '*=" + path("thin") + "' --for 0.1 -q --strict").exit_code, 0);
-  const Said built = twinpuck("build " + path("thin") + " -o " + path("thin.so"));
+  const Said image = twinpuck("build " + path("thin") + " -o " + path("thin.elf"));
+  for (const char* part : {"RAM        2 of 8192 bytes (0 %)", "stack      4 bytes at most"})
+    EXPECT_NE(image.text.find(part), std::string::npos) << image.text;
+  const Said built = twinpuck("build --way native " + path("thin") + " -o " + path("thin.so"));
   EXPECT_NE(built.text.find("2 bytes of data, about 62 of stack, of 8192"), std::string::npos) << built.text;
 }
 

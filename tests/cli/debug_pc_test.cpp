@@ -215,7 +215,7 @@ TEST_P(PcDebug, library_controllers_and_their_agendas_are_seen) {
                      "next\nprint last_left\nlocals\ndelete\nc\ninfo world\n") +
                "'");
   EXPECT_EQ(said.exit_code, 0) << said.text;
-  const auto run = twinpuck("run maze --fw obstacle --opt -O0 --for 1");
+  const auto run = twinpuck("run maze --fw obstacle --way native --opt -O0 --for 1");
   expect_in_order(said.text, {"> c\nbreakpoint 2", "control_tick() (main.c:", "<-- interrupt", "main()",
                               "> finish", "> c\nbreakpoint 1", "drive() (main.c:44)", "> next", "main.c:45",
                               "> next", "main.c:46", "last_left = 730", "  right = 230",

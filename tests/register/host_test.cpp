@@ -82,6 +82,7 @@ TEST_F(RegisterTest, a_native_and_a_register_robot_in_one_world) {
   Robot& reg = add_robot_with_source(kStepper).selector(2);
   reg.settings().own["way"] = "register";
   Robot& native = add_robot("blink").at(0.5, 0);
+  native.settings().own["way"] = "native";
   run_for(0.505);
   EXPECT_EQ(reg.variable<std::uint16_t>("count"), 100);
   EXPECT_STREQ(runner(0).way(), "register");

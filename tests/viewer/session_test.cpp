@@ -582,8 +582,8 @@ TEST_F(Session, a_trap_is_told_with_its_place) {
   const Json trap = page.event("trap");
   EXPECT_EQ(trap.at("kind"), "math error");
   EXPECT_EQ(trap.at("line"), 3);
-  EXPECT_EQ(page.frame([](const Frame& f) { return f.time_s > 0.05; }).state.at(0),
-            std::uint32_t{viewer::kStopped});
+  // it begins anew
+  EXPECT_EQ(page.frame([](const Frame& f) { return f.time_s > 0.05; }).state.at(0) & viewer::kStopped, 0u);
 }
 
 TEST_F(Session, an_endless_wait_is_explained) {
