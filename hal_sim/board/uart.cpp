@@ -97,9 +97,9 @@ std::int64_t Uart::received(Cycle at) {
   return received_;
 }
 
-void Uart::put_on_wire(std::uint8_t byte, Cycle end) {
+void Uart::put_on_wire(std::uint8_t byte, Cycle start, Cycle end) {
   first_use.note();
-  last_start_ = end - byte_cycles();
+  last_start_ = start;
   free_at_ = end;
   out_bytes_.push_back(byte);
   out_ends_.push_back(end);

@@ -102,7 +102,7 @@ class Uart {
     brg_ = brg & 0xFFFF;
   }
   /// A byte leaves the chip, its stop bit over at `end`; not before the one before.
-  void put_on_wire(std::uint8_t byte, Cycle end);
+  void put_on_wire(std::uint8_t byte, Cycle start, Cycle end);
   /// The chip holds the line low until `end`.
   void break_on_wire(Cycle end);
   /// Does take_from_wire() have a byte?

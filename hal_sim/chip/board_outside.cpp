@@ -219,7 +219,7 @@ void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
   if (frame.broken)
     board_.uart(uart).break_on_wire(frame.end());
   else
-    board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.end());
+    board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.start, frame.end());
 }
 
 void BoardOutside::i2c_start(bool repeated, Cycle at) {

@@ -40,7 +40,7 @@ TEST(FirstUse, each_device_is_looked_at_from_then_on) {
   EXPECT_TRUE(byte.of_hash && byte.of_horizon);
   const Change line_low = after([](Board& b) { b.uart(1).send_break(100, 0); });
   EXPECT_TRUE(line_low.of_hash);
-  const Change chips_byte = after([](Board& b) { b.uart(1).put_on_wire('a', 100); });
+  const Change chips_byte = after([](Board& b) { b.uart(1).put_on_wire('a', 20, 100); });
   EXPECT_TRUE(chips_byte.of_hash && chips_byte.of_horizon);
   const Change sound = after([](Board& b) { b.codec().start_frames(0); });
   EXPECT_TRUE(sound.of_hash && sound.of_horizon);
