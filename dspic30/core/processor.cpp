@@ -380,6 +380,7 @@ void Processor::translate_all() {
 }
 int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
+Cycle Processor::own_cycles() const { return cpu_->clocks.own_cycles(cpu_->now); }
 void Processor::wait_until(Cycle at) {
   cpu_->now = std::max(cpu_->now, at);
   cpu_->clocks.reset(cpu_->now);

@@ -50,6 +50,8 @@ class Processor {
   /// Time passes without the processor, which stands still: before it was switched on, in a reset.
   void wait_until(Cycle at);
   bool is_asleep() const;
+  /// Cycles of the program so far: now() without the share of handlers known by heart.
+  Cycle own_cycles() const;
   /// Cycles spent in Idle or Sleep.
   Cycle slept() const { return slept_; }
   /// Cycles of the program up to `at` in which it only waited: in Idle and Sleep, in waits (waits.h), in

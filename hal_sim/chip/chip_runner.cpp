@@ -279,14 +279,20 @@ void ChipRunner::run_watched(Cycle end) {
     step.pc = processor_->pc();
     step.slept = processor_->is_asleep();
     const int nesting = device().nesting();
+    const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
     if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
       reset(*kind);
       continue;
     }
     step.end = processor_->now();
+    step.took = processor_->own_cycles() - own;
     step.next = processor_->pc();
-    if (device().nesting() > nesting)
+    if (device().nesting() > nesting) {
       step.entered = device().peek(dspic::sfr("INTTREG"), chip_.at(step.end)) & 0x3F;
+      step.by_heart = library_ && step.entered == library_->vector(0);
+      if (step.entered >= dspic::kFirstIrqVector)
+        step.flagged = step.by_heart ? due : device().flag_since(step.entered);
+    }
     step.left = device().nesting() < nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);

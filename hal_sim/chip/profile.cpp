@@ -6,6 +6,7 @@
 
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/device/chip_parts.h"
+#include "hal_sim/chip/program_places.h"
 
 namespace chip {
 
@@ -16,6 +17,7 @@ constexpr int kTrustedRounds = 15;   // after one whose RAM was compared
 constexpr int kMostIgnored = 64;     // rounds of a loop that turned out to be no wait
 constexpr std::size_t kMostFrames = 512;
 constexpr unsigned kSplim = dspic::sfr("SPLIM");
+constexpr Cycle kCallCycles = 2, kEntryCycles = 3;  // an interrupt's, up to its first instruction
 
 bool is_call(dspic::Insn id) { return id == dspic::Insn::Call_Expr || id == dspic::Insn::Rcall_Expr; }
 bool is_call_by_register(dspic::Insn id) { return id == dspic::Insn::Call_Wn || id == dspic::Insn::Rcall_Wn; }
@@ -40,14 +42,22 @@ Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& proces
       kinds_(dspic::kFlashWords, Kind::Unknown),
       function_of_(dspic::kFlashWords, 0),
       contexts_(1),
-      functions_(file.code.functions.size() + 1) {
+      functions_(file.code.functions.size() + 2),
+      host_functions_((dspic::kHostEnd - dspic::kHostStart) / 2, 0),
+      handler_by_heart_(static_cast<int>(file.code.functions.size() + 1)) {
   const auto& functions = file.code.functions;
+  // what the host plays stands in the image as a jump to it
+  for (std::size_t f = 0; f < functions.size(); ++f)
+    if (const unsigned to = goto_target(file, functions[f].begin); dspic::is_host_place(to))
+      host_functions_[(to - dspic::kHostStart) / 2] = static_cast<int>(f + 1);
+  host_functions_[(dspic::kHostHandlerReturn - dspic::kHostStart) / 2] = handler_by_heart_;
   for (std::size_t f = 0; f < functions.size(); ++f)
     for (std::uint32_t a = functions[f].begin; a < functions[f].end && a / 2 < function_of_.size(); a += 2)
       function_of_[a / 2] = static_cast<std::int16_t>(f + 1);
 }
 
 Profile::Kind Profile::kind_of(unsigned pc) {
+  if (dspic::is_host_place(pc)) return Kind::Return;  // as soon as it is over
   if (pc / 2 >= kinds_.size()) return Kind::Plain;
   Kind& kind = kinds_[pc / 2];
   if (kind != Kind::Unknown) return kind;
@@ -70,7 +80,7 @@ Profile::Kind Profile::kind_of(unsigned pc) {
 // --- steps
 
 void Profile::after(const Step& step) {
-  const Cycle took = step.end - step.begin;
+  const Cycle took = step.took;
   if (from_ < 0) {
     from_ = step.begin;
     here().frames.push_back({function_of(step.pc), 0, 0, step.begin});
@@ -82,11 +92,14 @@ void Profile::after(const Step& step) {
     return;
   }
   ++steps_;
+  in_handlers_ += step.end - step.begin - took;  // the share of those by heart
   if (step.entered != dspic::kNoVector) {
     enter_handler(step);
     here().clock += took;
     in_handlers_ += took;
-    functions_[static_cast<std::size_t>(function_of(step.next))].own += took;
+    const int handler = step.by_heart ? handler_by_heart_ : function_of(step.next);
+    functions_[static_cast<std::size_t>(handler)].own += took;
+    if (step.by_heart) call_agenda(step);
     watch_stack(step.end);
     return;
   }
@@ -96,8 +109,15 @@ void Profile::after(const Step& step) {
   watch_stack(step.end);
   watch_flags();
   if (step.left) return leave_handler(step);
+  if (step.pc == dspic::kHostHandlerReturn) return call_agenda(step);
+  if (dspic::is_host_place(step.pc) && step.next == step.pc) {  // a function of the host that waits
+    here().waited += took;
+    return;
+  }
   switch (kind_of(step.pc)) {
     case Kind::Call:
+      if (const int host = host_function_called(step.pc); host && !dspic::is_host_place(step.next))
+        return note_host_call(step, host);
       return call(step, false);
     case Kind::CallRegister:
       return call(step, true);
@@ -137,10 +157,46 @@ void Profile::call(const Step& step, bool by_register) {
   if (contexts_.size() == 1 && stack_base_ == 0) stack_base_ = processor_.w(15) - 4u;
   // a routine within a function, as assembler text has them, is nobody's call
   int callee = function_of(step.next);
-  if (callee > 0 && file_.code.functions[static_cast<std::size_t>(callee - 1)].begin != step.next) callee = 0;
+  if (callee > 0 && !dspic::is_host_place(step.next) &&
+      file_.code.functions[static_cast<std::size_t>(callee - 1)].begin != step.next)
+    callee = 0;
   if (callee == 0 && kind_of(step.pc) == Kind::Branch) return;
   context.frames.push_back({callee, processor_.w(15), context.clock, step.end, caller});
   if (by_register && contexts_.size() > 1) functions_[static_cast<std::size_t>(callee)].is_agenda = true;
+}
+
+/// The function of the host that the CALL or RCALL at `pc` leads to; 0: none.
+int Profile::host_function_called(unsigned pc) const {
+  const auto word = file_.words.find(pc);
+  const dspic::Row* row = word == file_.words.end() ? nullptr : dspic::find_row(word->second);
+  if (!row) return 0;
+  const dspic::Fields f = dspic::fields_of(*row, word->second);
+  unsigned to = (pc + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+  if (row->id == dspic::Insn::Call_Expr) {
+    const auto second = file_.words.find(pc + 2);
+    to = ((second == file_.words.end() ? 0 : second->second) & 0x7F) << 16 | f.n << 1;
+  }
+  if (!dspic::is_host_place(to)) to = goto_target(file_, to);
+  return dspic::is_host_place(to) ? function_of(to) : 0;
+}
+
+// it is over already: it took what is beside the call itself
+void Profile::note_host_call(const Step& step, int function) {
+  FunctionTally& f = functions_[static_cast<std::size_t>(function)];
+  const int caller = function_of(step.pc);
+  const Cycle took = step.took - kCallCycles;
+  if (f.cycles.count == 0 || took > f.cycles.max) f.max_caller = caller;
+  f.cycles.add(took, step.begin);
+  f.own += took;
+  functions_[static_cast<std::size_t>(caller)].own -= took;
+}
+
+// the handler known by heart calls what comes next
+void Profile::call_agenda(const Step& step) {
+  if (step.next == dspic::kHostHandlerReturn || here().frames.size() >= kMostFrames) return;
+  const int callee = function_of(step.next);
+  here().frames.push_back({callee, processor_.w(15), here().clock, step.end, handler_by_heart_});
+  functions_[static_cast<std::size_t>(callee)].is_agenda = true;
 }
 
 // also by longjmp(): whatever lies above the stack's end is over
@@ -166,10 +222,12 @@ void Profile::enter_handler(const Step& step) {
   Context context;
   context.vector = step.entered;
   context.at = step.begin;
-  context.frames.push_back({function_of(step.next), 0, 0, step.begin});
+  const int handler = step.by_heart ? handler_by_heart_ : function_of(step.next);
+  context.frames.push_back({handler, 0, 0, step.begin});
   if (step.entered >= dspic::kFirstIrqVector) {
-    const Cycle flagged = device_.flag_since(step.entered);
-    tally.latency.add(step.end - flagged, step.end);
+    const Cycle flagged = step.flagged;
+    // what is known by heart has come to its first call by then
+    tally.latency.add((step.by_heart ? step.begin + kEntryCycles : step.end) - flagged, step.end);
     if (tally.flagged >= 0) tally.period.add(flagged - tally.flagged, flagged);
     tally.flagged = flagged;
     flags_ &= ~(std::uint64_t{1} << (step.entered - dspic::kFirstIrqVector));
@@ -357,6 +415,7 @@ void Profile::end_wait(Round& round) {
 // --- the report
 
 std::string Profile::name_of(int function) const {
+  if (function == handler_by_heart_) return "_T2Interrupt";
   return function > 0 ? file_.code.functions[static_cast<std::size_t>(function - 1)].name : "?";
 }
 
@@ -367,7 +426,9 @@ ProfileReport Profile::report() const {
   report.slept = slept_;
   report.waited = contexts_[0].waited;
   report.in_handlers = in_handlers_;
-  for (std::size_t f = 1; f < functions_.size(); ++f) {
+  if (const FunctionTally& own = functions_.back(); own.own > 0)
+    report.functions.push_back({name_of(handler_by_heart_), "", own.cycles, own.own, "", false});
+  for (std::size_t f = 1; f + 1 < functions_.size(); ++f) {
     const FunctionTally& tally = functions_[f];
     if (tally.own == 0) continue;
     const auto& function = file_.code.functions[f - 1];

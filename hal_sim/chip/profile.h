@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "dspic30/load/firmware_file.h"
+#include "dspic30/memory/host_places.h"
 #include "hal_sim/chip/step_watch.h"
 
 namespace chip {
@@ -139,11 +140,17 @@ class Profile final : public StepWatch {
 
   Kind kind_of(unsigned pc);
   std::string name_of(int function) const;
-  int function_of(unsigned pc) const { return function_of_[pc / 2 < function_of_.size() ? pc / 2 : 0]; }
+  int function_of(unsigned pc) const {
+    if (dspic::is_host_place(pc)) return host_functions_[(pc - dspic::kHostStart) / 2];
+    return function_of_[pc / 2 < function_of_.size() ? pc / 2 : 0];
+  }
+  int host_function_called(unsigned pc) const;
   Context& here() { return contexts_.back(); }
   void enter_handler(const Step& step);
   void leave_handler(const Step& step);
   void call(const Step& step, bool by_register);
+  void call_agenda(const Step& step);
+  void note_host_call(const Step& step, int function);
   void come_back(Context& context, unsigned sp);
   void finish(Context& context, const Frame& frame);
   void turn_loop(const Step& step);
@@ -161,6 +168,8 @@ class Profile final : public StepWatch {
   dspic::Dspic30f6014a& device_;
   std::vector<Kind> kinds_;
   std::vector<std::int16_t> function_of_;  // by word; 0: none, else 1 + index
+  std::vector<int> host_functions_;        // as above, by place of the host
+  int handler_by_heart_ = 0;               // stands for it; behind the last function of the file
   std::vector<Context> contexts_;
   std::vector<FunctionTally> functions_;
   std::map<int, InterruptTally> interrupts_;

@@ -286,6 +286,19 @@ TEST_F(ChipProgram, a_run_shows_its_profile) {
   const auto without = twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5");
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   EXPECT_EQ(digest(run.text), digest(without.text));
+  // the program's functions take the same cycles whoever plays the library, whose functions have theirs; its
+  // wait for the first scan is one; agendas are called by the handler that is known by heart
+  const auto sim = twinpuck("run maze --fw '*=obstacle' --hal sim --for 0.5 --profile");
+  for (const char* line :
+       {"\ncontrol_tick (agenda)                8         5         5         5", "\n_T2Interrupt ",
+        "\ncloseness                           16       207       207       207",
+        "\ne_init_motors                        1 ", "\ne_init_ad_scan                       1 ",
+        "\nT2                    8 "})
+    EXPECT_NE(sim.text.find(line), std::string::npos) << line << " in:\n" << sim.text;
+  for (const char* line : {"\ncloseness                           16       207       207       207"})
+    EXPECT_NE(run.text.find(line), std::string::npos) << line << " in:\n" << run.text;
+  const auto load = [](const std::string& text) { return std::atof(text.c_str() + text.find("load  ") + 5); };
+  EXPECT_NEAR(load(sim.text), load(run.text), 1);
   const auto native = twinpuck("run maze --fw '*=obstacle' --way native --for 0.5 --profile");
   EXPECT_EQ(native.exit_code, 2);
   EXPECT_NE(native.text.find("--profile: got no robot that runs the chip way"), std::string::npos)
