@@ -112,7 +112,9 @@ Run Cpu::looked_at(const Decoded* d) {
   const WordRegisters& registers = registers_of(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
-  return table_->tells(d) ? d->run.load(std::memory_order_acquire) : plain(d);
+  if (!table_->tells(d)) return plain(d);
+  const Run beside = table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
+  return beside ? beside : d->run.load(std::memory_order_acquire);
 }
 
 void Cpu::run_each() {
