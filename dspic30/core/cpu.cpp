@@ -113,7 +113,8 @@ Run Cpu::looked_at(const Decoded* d) {
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
   if (!table_->tells(d)) return plain(d);
-  const Run beside = table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
+  const Run beside =
+      table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
   return beside ? beside : d->run.load(std::memory_order_acquire);
 }
 

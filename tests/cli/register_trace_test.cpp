@@ -258,8 +258,8 @@ TEST_F(RegisterTraces, registers_belong_to_the_register_way) {
   };
   refused("puck:T1COM", "did you mean 'T1CON'?");
   refused("puck:T1CON.TCKSP", "expected a field of T1CON, one of TCS, TSYNC, TCKPS");
-  const Said native =
-      twinpuck("run empty --way native --fw '*=blink' --for 0.01 --vcd " + path("x") + " --vcd-signals '*:T1CON'");
+  const Said native = twinpuck("run empty --way native --fw '*=blink' --for 0.01 --vcd " + path("x") +
+                               " --vcd-signals '*:T1CON'");
   EXPECT_EQ(native.exit_code, 2);
   EXPECT_NE(native.text.find("--way register"), std::string::npos) << native.text;
 }

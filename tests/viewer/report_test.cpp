@@ -130,7 +130,7 @@ TEST_F(Report, tells_serial_text_traps_and_time_line) {
   const Json trace = by_name.at("trace");
   int agendas = 0;
   for (const Json& span : trace.at("spans")) agendas += span.at(0) == 4 && span.at(3) == "count";
-  EXPECT_EQ(agendas, 5);
+  EXPECT_EQ(agendas, 9);  // 5 up to the trap, 4 behind the reset
   EXPECT_EQ(trace.at("signals").at(3), Json({"LED3", 1}));
   bool is_lit = false;
   for (const Json& change : trace.at("changes")) is_lit = is_lit || (change.at(0) == 3 && change.at(2) == 1);
