@@ -7,6 +7,7 @@
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/chip/translation.h"
 #include "hal_sim/host/endless_wait.h"
+#include "sim_core/base/hash.h"
 
 namespace chip {
 
@@ -38,13 +39,14 @@ constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless f
 }  // namespace
 
 ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
-                       board::Board& board, Cycle start)
+                       board::Board& board, Cycle start, std::uint64_t seed)
     : Runner(std::move(name)),
       image_(std::move(image)),
       file_(image_->file()),
       board_(board),
       chip_(board),
-      program_(image_->program()) {
+      program_(image_->program()),
+      seed_(seed) {
   program_eeprom();
   dspic::Configuration configuration;
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
@@ -61,6 +63,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   }
   processor_ =
       std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from_);
+  fill_ram();
   processor_->set_translator(translation());
   processor_->know(image_->known(program_));
   places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
@@ -151,7 +154,18 @@ void ChipRunner::begin_again() {
   chip_.begin_again(end_);
   if (library_) library_->reset(end_);
   processor_->power_up(end_);
+  fill_ram();
   wake();
+}
+
+/// Nobody knows what RAM holds at power-up: each run and robot has its own, the same with either HAL.
+void ChipRunner::fill_ram() {
+  std::uint64_t chance = sim::mix64(seed_);
+  for (const char c : name()) chance = sim::mix64(chance ^ static_cast<unsigned char>(c));
+  for (unsigned at = kRamStart; at < kRamEnd; ++at) {
+    if (at % 8 == 0) chance = sim::mix64(chance + at);
+    processor_->set_ram(at, static_cast<std::uint8_t>(chance >> 8 * (at % 8)));
+  }
 }
 
 void ChipRunner::tell_reset(Cycle at) {

@@ -41,9 +41,9 @@ class ChipRunner final : public host::Runner,
                          private api::CallWatch {
  public:
   /// `board` outlives the runner. `clock_factor`: the program's instruction rate over the usual one.
-  /// `start`: when it is powered up.
+  /// `start`: when it is powered up. `seed`: of what RAM holds then, which is chance on the robot.
   ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
-             board::Board& board, Cycle start = 0);
+             board::Board& board, Cycle start = 0, std::uint64_t seed = 0);
 
   const char* way() const override { return "chip"; }
 
@@ -115,6 +115,7 @@ class ChipRunner final : public host::Runner,
   void handler_ends(Cycle at) override { observer_->handler_ends(at); }
   void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().nesting()); }
   void program_eeprom();
+  void fill_ram();
   void run_watched(Cycle end);
   void run_looked_at(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
@@ -159,6 +160,7 @@ class ChipRunner final : public host::Runner,
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;
+  std::uint64_t seed_;     // of RAM at power-up
   bool gives_up_ = false;  // the reset that comes is the library's
 };
 

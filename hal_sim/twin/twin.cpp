@@ -144,8 +144,8 @@ host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board
   if (program.chip) {
     const std::uint16_t fosc = fosc_of(program.chip->file());
     setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
-    return [=, name = setup.name, image = program.chip](board::Board& board) {
-      return std::make_unique<chip::ChipRunner>(name, image, host::clock_factor(fosc), board, start);
+    return [=, name = setup.name, seed = setup.seed, image = program.chip](board::Board& board) {
+      return std::make_unique<chip::ChipRunner>(name, image, host::clock_factor(fosc), board, start, seed);
     };
   }
   const tp_image& image = program.image->copy(share).description();

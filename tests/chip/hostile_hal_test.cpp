@@ -203,10 +203,8 @@ const HostileProgram kHostile[] = {
           "= 0x100; DOSTARTL = 0x200;"),
      false},
     {"repeat_division", MAIN("start(); __asm__ volatile(\"mov #0, w2\\n repeat #17\\n div.ud w0, w2\");")},
-    {"erase_own_row",
-     MAIN("start(); TBLPAG = 0; NVMADRU = 0; NVMADR = (unsigned)main & 0xFFC0; NVMCON = "
-          "0x4041; NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; spend(3000);"),
-     false},
+    {"erase_own_row", MAIN("start(); TBLPAG = 0; NVMADRU = 0; NVMADR = (unsigned)main & 0xFFC0; NVMCON = "
+                           "0x4041; NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; spend(3000);")},
     {"erase_vectors",
      MAIN("start(); e_activate_agenda(tick, 10); NVMADRU = 0; NVMADR = 0; NVMCON = 0x4041; "
           "NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; spend(3000);"),
@@ -261,7 +259,7 @@ const HostileProgram kHostile[] = {
      MAIN("scan(); for (;;) { e_last_mic_scan_id = 60000u; e_last_acc_scan_id = 30000; tickAdcIsr = 65535u; "
           "e_ambient_ir[seen[0]++ & 7] = -1; seen[1] = e_get_acc(0); }"),
      false},
-    {"served_as_code", MAIN("scan(); func = (void (*)(void))e_mic_scan; func();")},
+    {"served_as_code", MAIN("scan(); func = (void (*)(void))e_mic_scan; func();"), false},
     {"served_byte_odd", MAIN("scan(); { volatile char *p = (volatile char *)e_acc_scan; int i; for (i = 0; i "
                              "< 300; i++) p[i] ^= p[299 - i]; } *(int *)((char *)e_acc_scan + one) = 3;")},
     {"free_twice", MAIN("start(); { char *p = malloc(20); free(p); free(p); free((void *)odd); p = "
