@@ -33,8 +33,8 @@ class TwoClocks {
     now += taken;
     settled_ = now;
   }
-  /// `share_q32`: of each true cycle, as a fraction of 2^32. Behind settle(). Handlers that take all leave the
-  /// program an instruction now and then: it has a hundredth at least.
+  /// `share_q32`: of each true cycle, as a fraction of 2^32. Behind settle(). Handlers that take all leave
+  /// the program an instruction now and then: it has a hundredth at least.
   void set_share(std::uint64_t share_q32) {
     constexpr std::uint64_t kMost = kOne / 100 * 99;
     share_q32 = share_q32 < kMost ? share_q32 : kMost;

@@ -158,13 +158,20 @@ void ChipRunner::begin_again() {
   wake();
 }
 
-/// Nobody knows what RAM holds at power-up: each run and robot has its own, the same with either HAL.
+/// Nobody knows what RAM holds at power-up: each run and robot has its own, the same with either HAL. Where
+/// variables lie that start-up code sets it is empty, for who looks at them before.
 void ChipRunner::fill_ram() {
   std::uint64_t chance = sim::mix64(seed_);
   for (const char c : name()) chance = sim::mix64(chance ^ static_cast<unsigned char>(c));
   for (unsigned at = kRamStart; at < kRamEnd; ++at) {
     if (at % 8 == 0) chance = sim::mix64(chance + at);
     processor_->set_ram(at, static_cast<std::uint8_t>(chance >> 8 * (at % 8)));
+  }
+  for (const auto& [variable, address] : file_.objects) {
+    const auto size = file_.object_bytes.find(variable);
+    const unsigned end = address + (size == file_.object_bytes.end() ? 2 : size->second);
+    for (unsigned at = std::max(address, kRamStart); at < std::min(end, kRamEnd); ++at)
+      processor_->set_ram(at, 0);
   }
 }
 
@@ -393,6 +400,8 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
 std::vector<char> ChipRunner::read_variable(const std::string& variable, std::size_t bytes) const {
   const auto found = file_.objects.find(variable);
   if (found == file_.objects.end()) return {};
+  const auto size = file_.object_bytes.find(variable);
+  if (size != file_.object_bytes.end() && bytes > size->second) return {};
   std::vector<char> data(bytes ? bytes : 2);
   read_memory(found->second, data.data(), data.size());
   return data;

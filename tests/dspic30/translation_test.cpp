@@ -273,8 +273,7 @@ wait: nop
   EXPECT_EQ(items.size(), 10u);
 }
 
-// A wait that a handler ends, and comes back to from time to time without looking: what counts as waited is
-// the same when its loop was translated before it was known as one.
+// what counts as waited is the same when a wait's loop was translated before it was known as one
 TEST(Translation, waits_are_counted_as_interpreted) {
   const std::string text = R"(__reset: mov #0x2700, w0
     mov w0, SPLIM
@@ -309,10 +308,9 @@ __T1Interrupt: bclr IFS0, #T1IF
     ASSERT_EQ(ready.cpu->idle(end), plain.cpu->idle(end)) << end;
   }
   EXPECT_GT(ready.cpu->translated(), 0);
-  EXPECT_GT(plain.cpu->idle(2000000), 1000000);
 }
 
-// what the host serves is read in the middle of a stretch, words and bytes, at the same cycles as interpreted
+// what the host serves is read in the middle, words and bytes, at the same cycles
 TEST(Translation, served_variables_are_read_within_a_stretch) {
   const std::string text = R"(__reset: mov #0x2700, w0
     mov w0, SPLIM

@@ -284,6 +284,7 @@ TEST_F(CameraApi, frame_rates_are_the_authors) {
 }
 
 TEST_F(CameraApi, rows_arrive_one_by_one_and_a_new_launch_starts_over) {
+  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <camera/fast_2_timer/e_poxxxx.h>
 char buffer[3200], other[3200];
@@ -314,6 +315,7 @@ int main(void) {
 }
 
 TEST_F(CameraApi, a_reset_robot_starts_over_and_a_robot_without_camera_gets_nothing) {
+  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <p30F6014A.h>
 #include <camera/fast_2_timer/e_poxxxx.h>
@@ -393,6 +395,7 @@ int main(void) {
 // 4.3 pictures a second of 40 lines of 160 bytes, taken or skipped, at 8 cycles, and 26 for the
 // interrupt: 1.5 %
 TEST_F(CameraApi, a_capture_takes_its_time_from_the_program) {
+  is_native();
   // counts rounds, without and with captures running
   for (const char* filming : {"0", "1"}) {
     Robot& r = add_robot_with_source(std::string("int filming = ") + filming + R"(;

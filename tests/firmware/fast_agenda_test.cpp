@@ -81,6 +81,7 @@ int main(void) {
 // driver confuses the periods, as the original does. The native way used to charge its own bookkeeping and
 // made 277.
 TEST_F(FastAgenda, motors_step_as_fast_as_with_the_drivers_for_the_chip) {
+  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>

@@ -31,6 +31,7 @@ int line_of(const std::string& text, const std::string& mark) {
 }
 
 TEST_P(HostileProgram, stops_its_robot_and_no_other) {
+  is_native();
 #if defined(__SANITIZE_ADDRESS__)
   GTEST_SKIP() << "the sanitizer ends the process at what these programs do on purpose";
 #endif

@@ -174,6 +174,7 @@ int main(void) {
 )";
 
 TEST_F(I2cApi, primitives_answer_as_the_bus_allows) {
+  is_native();
   Robot& r = add_robot_with_source(kPrimitives);
   Memory& memory = plug();
   memory.held[0] = 0x12;

@@ -27,9 +27,10 @@ int main(void) { int i; e_init_port(); e_set_led(8, 0);
   run_for(0.1);
   ASSERT_EQ(r.diagnoses().size(), 1u) << r.diagnoses_text();
   EXPECT_EQ(r.diagnoses()[0].count, 5);
-  EXPECT_EQ(r.diagnoses_text(),
-            "e_set_led(): LED out of range: got LED 12, expected 0 to 7, or 8 for all; the library sets all "
-            "eight; count from 0; body and front have functions of their own\n");
+  EXPECT_EQ(
+      r.diagnoses_text(),
+      "e_set_led(): LED out of range: got LED 12, expected 0 to 7, or 8 for all; the library sets all "
+      "eight; called at main() (main.c:11); count from 0; body and front have functions of their own\n");
   EXPECT_EQ(r.leds() & 0xFF, 0xFFu);
 }
 
@@ -62,7 +63,7 @@ int main(void) { e_init_port(); e_init_motors(); e_set_speed_left(300); e_start_
   run_for(0.1);
   EXPECT_EQ(never.diagnoses_text(),
             "e_init_motors(): motors stand: speed set, but e_init_motors() was never called: no motor turns; "
-            "call e_init_motors() before the loop\n");
+            "set at main() (main.c:10); call e_init_motors() before the loop\n");
   EXPECT_NE(asleep.diagnoses_text().find("e_start_agendas_processing() was never called"), std::string::npos)
       << asleep.diagnoses_text();
   EXPECT_EQ(fine.diagnoses_text(), "");
@@ -109,6 +110,7 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
 }
 
 TEST_F(Misuse, a_wait_for_the_band_gap_ends) {
+  is_native();
   Robot& r = add_robot_with_source(std::string(kHead) + R"(
 int main(void) { RCONbits.BGST = 0; while (!RCONbits.BGST); calls = 7; while (1); })");
   run_for(0.01);

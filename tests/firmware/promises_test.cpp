@@ -153,6 +153,7 @@ int main(void) {
 }
 
 TEST_F(Promise, a_polled_flag_without_volatile_is_seen) {
+  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <motor_led/advance_one_timer/e_agenda.h>
 int flag, seen;
@@ -336,6 +337,7 @@ struct Failure {
 class Failing : public FirmwareTest, public ::testing::WithParamInterface<Failure> {};
 
 TEST_P(Failing, stops_only_its_own_robot) {
+  is_native();
   const Failure& f = GetParam();
   Robot& bad = add_robot_with_source(std::string(R"(
 #include <stdlib.h>

@@ -79,6 +79,7 @@ TEST_F(FirmwareTest, remote_control_decodes_every_key_and_address) {
 
 // a key held for a second: nine frames with the same toggle bit are one change
 TEST_F(FirmwareTest, remote_control_sees_a_held_key_as_one) {
+  is_native();
   Robot& robot = add_robot_with_source(kListener);
   run_for(0.3);
   robot.press_key(5, 1);

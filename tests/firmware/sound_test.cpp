@@ -214,6 +214,7 @@ int main(void) {
 )";
 
 TEST_F(SoundTest, a_tone_of_1_khz_at_30_cm_peaks_in_its_bin_on_all_microphones) {
+  is_native();
   Robot& r = add_robot_with_source(std::string("#include <motor_led/e_epuck_ports.h>\n") + kListener);
   r.at(0, 0, 25);
   tone(1000, 80, {0.3, 0, 0.035});

@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "1b935046cf09ffb4"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "b0c462ea98367b2d"},
-                                         Pinned{"push", "worlds/push.toml", 10, "dee7b807c098b138"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "532c03f7639e9250"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "c6c894bdc447966f"},
+                                         Pinned{"push", "worlds/push.toml", 10, "638808b02bc6c3b5"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "ac85724751f6ed62"}),
+                                                "0869494d6ad1eaa0"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
