@@ -170,6 +170,13 @@ class Cpu final : public SfrOwner {
     if (!cpu.is_decoded(d)) cpu.decode(d);
     return cpu.plain(d)(cpu, d);
   }
+  /// ... and the onlooker hears of it.
+  static const Decoded* run_one(Cpu& cpu, const Decoded* d) {
+    if (!cpu.looks_at_each_ && !address_of_host_place(d) && cpu.is_decoded(d) && cpu.is_told(d) &&
+        !cpu.known_at(cpu.address_of(d)))
+      hear(cpu, d);
+    return run_alone(cpu, d);
+  }
   int translated() const { return table_->translated(); }
   /// Does somebody hear when it begins, or is it known by heart? Then it is not translated, nor is anything
   /// with it in the middle.

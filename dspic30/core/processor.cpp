@@ -246,7 +246,7 @@ bool Processor::raise_held(std::size_t h) {
     if (was_set) handler.missed_at = handler.source;
     handler.source = was_set ? kNever : cpu.host->source_event(static_cast<int>(h), handler.source);
   }
-  if (raises) waits_->stir(cpu);  // perhaps it waits for this
+  if (raises) waits_->hint(cpu);  // perhaps it waits for this
   return raises;
 }
 

@@ -2,6 +2,7 @@
 #include "dspic30/core/waits.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace dspic {
 
@@ -12,7 +13,7 @@ void Waits::step(Cpu& cpu) {
     return;
   }
   const Decoded* const d = cpu.at = cpu.next;  // a REPEAT moves `at` on
-  const Decoded* following = Cpu::run_alone(cpu, d);
+  const Decoded* following = Cpu::run_one(cpu, d);
   cpu.now += d->cycles;
   if (d == cpu.loop_end) following = cpu.loop_back(d, following);
   cpu.next = following;
@@ -198,6 +199,8 @@ void Waits::end_round(Cpu& cpu) {
 }
 
 void Waits::fail(Cpu& cpu) {
+  constexpr unsigned kRarestHints = 64;
+  if (std::exchange(is_hinted_, false)) hint_gap_ = std::min(2 * hint_gap_, kRarestHints);
   state_ = State::Away;
   cpu.still_since = kNever;
   const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
@@ -212,6 +215,7 @@ void Waits::fail(Cpu& cpu) {
 
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
+  if (std::exchange(is_hinted_, false)) hint_gap_ = 1;
   is_by_head_ = at_head_ || cpu.is_own_head(wait->first);
   wait_ = wait;
   until_ = cpu.watched_until;
@@ -339,6 +343,14 @@ void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
   at_head_ = true;
   is_passed(cpu, cpu.known_counts.at(head)->round(), at_true);
   cpu.passes_head = false;
+}
+
+void Waits::hint(Cpu& cpu) {
+  if (!is_away()) return stir(cpu);
+  if (++hints_ < hint_gap_) return;
+  hints_ = 0;
+  is_hinted_ = true;
+  schedule(cpu).at = 0;
 }
 
 void Waits::stir(Cpu& cpu) {

@@ -44,6 +44,8 @@ class Waits {
   }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
+  /// ... a flag that one may well wait for: it looks soon, each time more seldom where there was no wait.
+  void hint(Cpu& cpu);
   /// A reset.
   void forget(Cpu& cpu);
 
@@ -123,6 +125,8 @@ class Waits {
   State state_ = State::Away;
   std::array<Schedule, 2> schedules_;   // of the program, of its handlers
   unsigned handlers_ = 0;               // that have come into the program
+  unsigned hints_ = 0, hint_gap_ = 1;   // since the last look that one brought; between two
+  bool is_hinted_ = false;              // the look that is due, or goes on, is one
   bool is_by_head_ = false;             // the wait's first instruction is one where the program stops
   bool at_head_ = false;                // the look began at a known wait's first instruction
   const Decoded* cut_ = nullptr;        // first instruction of the wait that an interrupt came into last
