@@ -78,7 +78,8 @@ class ChipRunner final : public host::Runner,
   void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
   void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
   host::Place place_of(std::uintptr_t code) const override;
-  host::Place place_now() const override { return place_of(processor_->pc()); }
+  /// The program's own line: of the call, where a function of the library runs.
+  host::Place place_now() const override { return place_of(places_->own(processor_->pc())); }
 
   void observe(host::Observer* observer) override;
   bool flag(int vector, Cycle at) override;
