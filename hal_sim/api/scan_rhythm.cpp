@@ -2,6 +2,9 @@
 #include "hal_sim/api/scan_rhythm.h"
 
 #include <algorithm>
+#include <map>
+#include <mutex>
+#include <utility>
 
 #include "hal_sim/drivers/driver_params.h"
 
@@ -12,8 +15,18 @@ Cycle ScanRhythm::round(Cycle tick_cycles) {
   if (tick_cycles == 0) return cycles_.scan_round;
   // a handler that takes all time would leave the converter's none
   tick_cycles = std::min(tick_cycles, drivers::kAgendaTickCycles * 9 / 10);
-  const auto [found, is_new] = known_.emplace(tick_cycles, 0);
-  if (!is_new) return found->second;
+  if (tick_cycles == last_tick_) return last_round_;
+  // what one robot has found holds for all whose library was compiled alike
+  static std::mutex mutex;
+  static std::map<std::pair<const CallCycles*, Cycle>, Cycle> known;
+  const std::lock_guard lock(mutex);
+  const auto [place, is_new] = known.try_emplace({&cycles_, tick_cycles}, 0);
+  if (is_new) place->second = found(tick_cycles);
+  last_tick_ = tick_cycles;
+  return last_round_ = place->second;
+}
+
+Cycle ScanRhythm::found(Cycle tick_cycles) const {
   // in 65ths of a cycle, so that a frame is a whole number
   constexpr Cycle kUnit = drivers::kScanPeriod;
   constexpr int kSettle = 20 * drivers::kScanPeriod, kRounds = 20;
@@ -31,7 +44,7 @@ Cycle ScanRhythm::round(Cycle tick_cycles) {
     sequence_end = start + frame;
     if (++frames == kSettle) began = sequence_end;
   }
-  return found->second = (sequence_end - began) / (kRounds * kUnit);
+  return (sequence_end - began) / (kRounds * kUnit);
 }
 
 }  // namespace api

@@ -4,8 +4,6 @@
 // lengthens the frame. Three frames take a little less than two ticks: where the tick's handler takes more
 // than what is missing, the two fall into step, and every third frame waits.
 #pragma once
-#include <map>
-
 #include "hal_sim/api/call_cycles.h"
 
 namespace api {
@@ -17,8 +15,10 @@ class ScanRhythm {
   Cycle round(Cycle tick_cycles);
 
  private:
+  Cycle found(Cycle tick_cycles) const;
+
   const CallCycles& cycles_;
-  std::map<Cycle, Cycle> known_;
+  Cycle last_tick_ = 0, last_round_ = 0;  // asked last
 };
 
 }  // namespace api

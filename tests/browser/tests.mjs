@@ -346,14 +346,13 @@ export const tests = {
   },
 
   async a_trap_is_told(browser, live) {
-    const [, page] = await start(browser, live, kWorld, { drive: "int zero;\nint main(void) {\n  return 1 / zero;\n}\n" });
+    const programs = { drive: "int zero;\nint main(void) {\n  return 1 / zero;\n}\n" };
+    const [, page] = await start(browser, live, kWorld, programs);
     await page.click("#play");
     const isTold = () => /math error.*main.c:3/.test(document.querySelector("#pane-problems").textContent);
     await page.waitForFunction(isTold);
     assert.equal(await page.textContent("#stopped"), "");  // the chip goes on behind it
-    // code of the PC stands from then on
-    const [, other] = await start(browser, live, kWorld, { drive: "int zero;\nint main(void) {\n  return 1 / zero;\n}\n" },
-                                  ["--way", "native"]);
+    const [, other] = await start(browser, live, kWorld, programs, ["--way", "native"]);  // the PC's code stands
     await other.click("#play");
     await other.waitForFunction(isTold);
     assert.equal(await other.textContent("#stopped"), "1 stopped");
@@ -501,13 +500,9 @@ int main(void) {
     await page.evaluate(() => { const b = document.getElementById("battery"); b.value = "3.2"; b.dispatchEvent(new Event("change")); });
     await until(page, "(app) => app.values.get('puck.battery') < 3.3");
     // registers: only where there is a chip
-    const native = await view(kWorld, { drive: remote }, ["--way", "native"]);
-    live.push(native);
-    const bare = await open(browser, native);
+    const [, bare] = await start(browser, live, kWorld, { drive: remote }, ["--way", "native"]);
     assert.match(await ask(bare, "(app) => app.connection.ask('subscribe', { names: ['puck.reg:T2CON'] }).catch((e) => e.message)"), /without a chip/);
-    const chip = await view(kWorld, { drive: remote }, ["--hal", "dspic"]);
-    live.push(chip);
-    const other = await open(browser, chip);
+    const [, other] = await start(browser, live, kWorld, { drive: remote }, ["--hal", "dspic"]);
     await other.fill("#watch", "reg:T2CON");
     await other.keyboard.press("Enter");
     await ask(other, "(app) => app.togglePlay()");
