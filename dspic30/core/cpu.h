@@ -570,7 +570,7 @@ class Cpu final : public SfrOwner {
   static constexpr std::ptrdiff_t kMostHeads = 32, kHeadsTried = 4;
   /// One is at its place, or at one of the next.
   OwnHead& head_slot(std::ptrdiff_t place) {
-    return own_heads_[static_cast<std::size_t>(place % kMostHeads)];
+    return own_heads_[static_cast<std::size_t>(place) % kMostHeads];
   }
   OwnHead* own_head(const Decoded* d) {
     const std::ptrdiff_t place = d - code_;
