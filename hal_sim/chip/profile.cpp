@@ -41,10 +41,10 @@ Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& proces
       device_(device),
       kinds_(dspic::kFlashWords, Kind::Unknown),
       function_of_(dspic::kFlashWords, 0),
-      contexts_(1),
-      functions_(file.code.functions.size() + 2),
       host_functions_((dspic::kHostEnd - dspic::kHostStart) / 2, 0),
-      handler_by_heart_(static_cast<int>(file.code.functions.size() + 1)) {
+      handler_by_heart_(static_cast<int>(file.code.functions.size() + 1)),
+      contexts_(1),
+      functions_(file.code.functions.size() + 2) {
   const auto& functions = file.code.functions;
   // what the host plays stands in the image as a jump to it
   for (std::size_t f = 0; f < functions.size(); ++f)

@@ -155,7 +155,9 @@ TEST_F(ChipWayTest, an_observer_changes_nothing) {
       }
     } one;
     std::tie(digests[looks], loads[looks]) = one.run(looks ? &nobody : nullptr);
-    if (looks == 1) EXPECT_LT(nobody.reaches, 1000);
+    if (looks == 1) {
+      EXPECT_LT(nobody.reaches, 1000);
+    }
   }
   for (int looks = 1; looks < 3; ++looks) {
     EXPECT_EQ(digests[0], digests[looks]);

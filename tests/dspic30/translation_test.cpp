@@ -173,7 +173,7 @@ struct Host final : dspic::HostCalls {
     if (!again) calls.push_back(at);
     if (index == 0) {
       cpu.w[0] = static_cast<std::uint16_t>(at >> 6);
-      cpu.note_look((at >> 6) + 1 << 6);
+      cpu.note_look(((at >> 6) + 1) << 6);
       return dspic::HostResult::done(20);
     }
     if (index == 2) {
