@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The chip way: programs assembled here, run as .hex files in a world.
 #include "tests/chip/chip_fixture.h"
+#include "tests/chip/onlooker.h"
 
 namespace {
 
@@ -132,15 +133,7 @@ TEST_F(ChipWayTest, ways_mix_and_threads_do_not_matter) {
 
 // whoever is told what happens, or looks at each instruction, changes nothing
 TEST_F(ChipWayTest, an_observer_changes_nothing) {
-  struct Nobody : host::Observer {
-    int reaches = 0;
-    void reached(host::Cycle) override { ++reaches; }
-    void handler_begins(int, host::Cycle, host::Cycle, host::Cycle) override {}
-    void handler_ends(host::Cycle) override {}
-    void callback(std::uintptr_t, host::Cycle) override {}
-    void waited(host::Cycle, host::Cycle, int) override {}
-    void ended(host::Cycle) override {}
-  } nobody;
+  hal_test::Onlooker nobody;
   std::uint64_t digests[3];
   double loads[3];
   for (int looks = 0; looks < 3; ++looks) {

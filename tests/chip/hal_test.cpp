@@ -4,10 +4,12 @@
 #include <cmath>
 
 #include "tests/chip/hal_flight.h"
+#include "tests/chip/onlooker.h"
 
 namespace {
 
 using hal_test::Flight;
+using hal_test::Onlooker;
 using hal_test::world_with;
 
 constexpr double kSamePlaceM = 0.001, kSameLoad = 0.01;
@@ -265,17 +267,6 @@ TEST(HalArrays, what_is_written_stays_until_the_handler_writes) {
     EXPECT_EQ(sensors[1], 2);  // those of the turret
   }
 }
-
-// whoever looks, and wherever time is cut, sees the same
-struct Onlooker : host::Observer {
-  int reaches = 0;
-  void reached(host::Cycle) override { ++reaches; }
-  void handler_begins(int, host::Cycle, host::Cycle, host::Cycle) override {}
-  void handler_ends(host::Cycle) override {}
-  void callback(std::uintptr_t, host::Cycle) override {}
-  void waited(host::Cycle, host::Cycle, int) override {}
-  void ended(host::Cycle) override {}
-};
 
 // now and then, or at each instruction: the scan's first fill is waited for as long
 TEST(HalDigest, is_the_same_whoever_looks) {
