@@ -62,7 +62,7 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 // straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
   Cpu& cpu = *cpu_;
-  const Cycle end = cpu.deadline;
+  Cycle end = cpu.deadline;
   const std::int64_t writes = cpu.writes_seen = cpu.parts.bus.writes();
   while (cpu.now < end) {
     if (waits_->is_due(cpu)) {
@@ -72,16 +72,20 @@ void Processor::execute() {
       continue;  // it may be due again at once, as it would be in a window that begins here
     }
     cpu.pause_at = std::max(waits_->look_at(cpu), cpu.now + 1);
-    const Cycle pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
+    Cycle pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
     cpu.deadline = pause;
     if (cpu.looks_at_each())
       cpu.run_each();
     else
       cpu.run_straight();
-    cpu.pause_at = kNever;
     if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
-    if (cpu.deadline != pause || cpu.host_followed || cpu.repeating || cpu.parts.bus.writes() != writes ||
-        cpu.is_code_stale())
+    if (cpu.host_followed) {  // by another clock now
+      cpu.host_followed = false;
+      end = cpu.clocks.program_at(std::min(cpu.stop_at, cpu.host_due));
+      pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
+    }
+    cpu.pause_at = kNever;
+    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes || cpu.is_code_stale())
       return;
     cpu.deadline = end;
   }

@@ -53,14 +53,34 @@ void Waits::begin(Cpu& cpu) {
     if (is_passed(cpu, *known, rounds)) return;
     if (known->is_over(cpu) && is_passed(cpu, known->round(), look_began_)) return;
   }
-  const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next);
-  if (of_head && !of_head->memory.are_as_read(cpu.ram.data()) && is_passed(cpu, *of_head, look_began_))
-    return;
+  if (const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next)) {
+    if (!of_head->memory.are_as_read(cpu.ram.data())) {
+      if (is_passed(cpu, *of_head, look_began_)) return;
+    } else if (comes_round(cpu, *of_head)) {
+      return;
+    }
+  }
   state_ = State::Looking;
   chances_ = 2;
   again_ = 0;
   is_turned_ = at_head_;
   begin_round(cpu);
+}
+
+// What a known wait reads of RAM is as it was, but what the program did before has left other values in
+// registers: a round sets those that it uses.
+bool Waits::comes_round(Cpu& cpu, const KnownWaits::Wait& wait) {
+  const Cycle end = cpu.deadline;
+  const std::int64_t writes = cpu.parts.bus.writes();
+  for (Cycle left = wait.took; left > 0 && cpu.now < end;) {
+    const Cycle before = cpu.now;
+    step(cpu);
+    left -= cpu.now - before;
+    if (cpu.deadline != end || cpu.repeating || cpu.parts.bus.writes() != writes) break;
+  }
+  const KnownWaits::Wait* const known = cpu.next == wait.first ? cpu.known_waits.find(cpu) : nullptr;
+  if (known) enter(cpu, known);
+  return known;
 }
 
 // a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does

@@ -105,6 +105,7 @@ class Waits {
   void look(Cpu& cpu);
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);
+  bool comes_round(Cpu& cpu, const KnownWaits::Wait& wait);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
   bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now);
   Cycle look_behind(Cpu& cpu, const Decoded* head, Cycle now);

@@ -41,7 +41,7 @@ BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), select
 
 bool BoardOutside::may_have_news() const {
   return board_.uart(1).has_on_wire() || board_.uart(2).has_on_wire() || selector_ != board_.selector() ||
-         camera_.is_asked();
+         camera_.has_news();
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {

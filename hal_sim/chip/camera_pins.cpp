@@ -36,6 +36,11 @@ bool CameraPins::refresh(Cycle at) {
   return true;
 }
 
+bool CameraPins::has_news() const {
+  return f_.lines != 0 && (f_.start != told_start_ || f_.length != told_length_ ||
+                           (board_.camera() && board_.camera()->timing() != timing_));
+}
+
 bool CameraPins::take_news() {
   if (f_.lines == 0) return false;  // nobody has asked
   refresh(f_.start);

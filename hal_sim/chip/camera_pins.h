@@ -42,8 +42,8 @@ class CameraPins {
   /// The sensor's registers or the length of its frames have changed since the last call: edges told before
   /// are not true any more.
   bool take_news();
-  /// Has a program looked at its pins?
-  bool is_asked() const { return f_.lines != 0; }
+  /// Would take_news() say so?
+  bool has_news() const;
   /// The window ends: a frame of which the program read may be over, and what it got is a picture.
   void end_window(Cycle at) {
     if (captured_ >= 0 && at >= captured_ + f_.length && !lines_.empty()) finish_picture();
