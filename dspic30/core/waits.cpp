@@ -107,7 +107,7 @@ Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {
   const Cycle later = look_beside_heads(cpu, now);
   if (cpu.parts.interrupts.nesting() > 0) return later;
   const unsigned n = cpu.count_end(head);
-  const bool is_due = n < kEndsFirst || (n & (n - 1)) == 0;
+  const bool is_due = n < kStepsBehind || (n & (n - 1)) == 0;
   return is_due ? now + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
 }
 

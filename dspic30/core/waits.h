@@ -91,7 +91,7 @@ class Waits {
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
   // behind the first ends of a wait with a known head it looks soon, each time after another while
-  static constexpr unsigned kEndsFirst = 64, kStepsBehind = 17;
+  static constexpr unsigned kStepsBehind = 17;
   static constexpr Cycle kFirstBehind = 40, kStepBehind = 29;
   static constexpr Cycle kMostGap = 1 << 25;     // between two looks beside known heads
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
