@@ -482,8 +482,7 @@ class Cpu final : public SfrOwner {
   const Decoded* at = nullptr;        ///< the instruction that runs
   const Decoded* next = nullptr;      ///< the one that comes
   const Decoded* loop_end = nullptr;  ///< last instruction of the DO loop; null: none runs
-  std::array<std::uint8_t, kRamBytes> ram{};
-  bool repeating = false;        ///< RA
+  bool repeating = false;             ///< RA
   bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
   enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
   bool window_was_free = false;  ///< the last iteration read through the window at no cost
@@ -597,10 +596,13 @@ class Cpu final : public SfrOwner {
   std::uint64_t code_version_ = 0;  // of the flash that they were made of
   bool is_own_ = false;             // the store: nobody else has it
   bool looks_at_each_ = false;
-  int looked_at_ = 0;                          // instructions, since a register was written first
-  unsigned bad_address_ = 0;                   // where no flash is
-  std::array<OwnHead, kMostHeads> own_heads_;  // where waits of this program begin
+  int looked_at_ = 0;         // instructions, since a register was written first
+  unsigned bad_address_ = 0;  // where no flash is
   bool has_heads_ = false;
+  std::array<OwnHead, kMostHeads> own_heads_;  // where waits of this program begin
+
+ public:
+  std::array<std::uint8_t, kRamBytes> ram{};  ///< behind all else, which is looked at more often
 };
 
 /// A call, or a jump, to a function of the host, whose number is Decoded::imm.

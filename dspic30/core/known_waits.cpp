@@ -78,41 +78,43 @@ bool CoreState::is_of(const Cpu& c) const {
 // --- words of RAM
 
 bool RoundMemory::Words::holds(unsigned at) const {
-  return std::find(place.begin(), place.begin() + static_cast<std::ptrdiff_t>(count), at) !=
-         place.begin() + static_cast<std::ptrdiff_t>(count);
+  for (std::size_t i = 0; i < count; ++i)
+    if (words[i].place == at) return true;
+  return false;
 }
 
 bool RoundMemory::Words::add(const std::uint8_t* ram, unsigned at) {
   if (count == kMost) return false;
-  place[count] = static_cast<std::uint16_t>(at);
-  std::memcpy(&value[count++], &ram[at], 2);
+  Word& word = words[count++];
+  word.place = static_cast<std::uint16_t>(at);
+  std::memcpy(&word.value, &ram[at], 2);
   return true;
 }
 
 bool RoundMemory::Words::are_in(const std::uint8_t* ram) const {
   for (std::size_t i = 0; i < count; ++i)
-    if (std::memcmp(&ram[place[i]], &value[i], 2) != 0) return false;
+    if (std::memcmp(&ram[words[i].place], &words[i].value, 2) != 0) return false;
   return true;
 }
 
 bool RoundMemory::Words::are_in(const std::uint8_t* ram, unsigned but_for) const {
   for (std::size_t i = 0; i < count; ++i)
-    if (place[i] != but_for && std::memcmp(&ram[place[i]], &value[i], 2) != 0) return false;
+    if (words[i].place != but_for && std::memcmp(&ram[words[i].place], &words[i].value, 2) != 0) return false;
   return true;
 }
 
 std::uint16_t RoundMemory::Words::value_at(unsigned at) const {
   for (std::size_t i = 0; i < count; ++i)
-    if (place[i] == at) return value[i];
+    if (words[i].place == at) return words[i].value;
   return 0;
 }
 
 void RoundMemory::Words::take(const std::uint8_t* ram) {
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(&value[i], &ram[place[i]], 2);
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&words[i].value, &ram[words[i].place], 2);
 }
 
 void RoundMemory::Words::put(std::uint8_t* ram) const {
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(&ram[place[i]], &value[i], 2);
+  for (std::size_t i = 0; i < count; ++i) std::memcpy(&ram[words[i].place], &words[i].value, 2);
 }
 
 // --- waits

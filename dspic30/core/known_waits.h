@@ -82,8 +82,11 @@ class RoundMemory {
   }
   static constexpr std::size_t kMost = 24;
   struct Words {
-    std::size_t count = 0;
-    std::array<std::uint16_t, kMost> place, value;
+    struct Word {
+      std::uint16_t place, value;
+    };
+    std::uint32_t count = 0;
+    std::array<Word, kMost> words;
     bool holds(unsigned at) const;
     bool add(const std::uint8_t* ram, unsigned at);
     bool are_in(const std::uint8_t* ram) const;

@@ -123,27 +123,31 @@ class Waits {
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
 
+  // what every turn looks at, together
   State state_ = State::Away;
-  std::array<Schedule, 2> schedules_;   // of the program, of its handlers
-  unsigned handlers_ = 0;               // that have come into the program
-  unsigned hints_ = 0, hint_gap_ = 1;   // since the last look that one brought; between two
-  bool is_hinted_ = false;              // the look that is due, or goes on, is one
-  bool is_by_head_ = false;             // the wait's first instruction is one where the program stops
-  bool at_head_ = false;                // the look began at a known wait's first instruction
-  const Decoded* cut_ = nullptr;        // first instruction of the wait that an interrupt came into last
-  Cycle resumed_ = 0;                   // cycles of the program when the latest handler returned
-  Cycle resumed_delayed_ = 0;           // Cpu::delayed then
-  Cycle resumed_at_ = 0;                // true time then
-  const Decoded* look_head_ = nullptr;  // where the look began
-  // the round that is looked at
-  KnownWaits::Wait round_;
+  bool is_by_head_ = false;                 // the wait's first instruction is one where the program stops
+  bool at_head_ = false;                    // the look began at a known wait's first instruction
+  bool is_hinted_ = false;                  // the look that is due, or goes on, is one
+  std::array<Schedule, 2> schedules_;       // of the program, of its handlers
+  const KnownWaits::Wait* wait_ = nullptr;  // the wait: round_, or a known one
+  const Count* counts_ = nullptr;           // it is a loop that counts
+  Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
+  Cycle entered_at_ = 0;                    // entered_, in true time
+  Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
+  Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
+  Cycle waited_ = 0, jumped_ = 0;
+  unsigned handlers_ = 0;                   // that have come into the program
+  unsigned hints_ = 0, hint_gap_ = 1;       // since the last look that one brought; between two
+  const Decoded* cut_ = nullptr;            // first instruction of the wait that an interrupt came into last
+  Cycle resumed_ = 0;                       // cycles of the program when the latest handler returned
+  Cycle resumed_delayed_ = 0;               // Cpu::delayed then
+  Cycle resumed_at_ = 0;                    // true time then
+  const Decoded* look_head_ = nullptr;      // where the look began
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
   Cycle round_delayed_ = 0;                 // Cpu::delayed then
   Cycle round_began_at_ = 0;                // true time then
   bool is_turned_ = false;                  // it begins at a known head that the look came to
   int chances_ = 0, steps_ = 0;
-  std::vector<CountStep> trace_;  // of the last chance
-  Count proven_;
   // a loop that counts, with few rounds to go: the look goes on behind it, or when it still runs then
   struct Range {
     const Decoded *first = nullptr, *last = nullptr;
@@ -153,14 +157,10 @@ class Waits {
   int passes_ = 0;                                          // in a row
   Cycle passed_at_ = 0;                                     // cycles of the program
   Cycle look_by_ = kRarestLooks, look_gap_ = kRarestLooks;  // true time
-  // the wait
-  const KnownWaits::Wait* wait_ = nullptr;  // round_, or a known one
-  const Count* counts_ = nullptr;           // it is a loop that counts
-  Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
-  Cycle entered_at_ = 0;                    // entered_, in true time
-  Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
-  Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
-  Cycle waited_ = 0, jumped_ = 0;
+  // the round that is looked at
+  KnownWaits::Wait round_;
+  std::vector<CountStep> trace_;  // of the last chance
+  Count proven_;
 };
 
 }  // namespace dspic

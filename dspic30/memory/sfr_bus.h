@@ -138,8 +138,8 @@ class SfrBus {
   std::array<Slot, kSfrBytes / 2> slots_{};
   std::array<SfrOwner*, kMostOwners> owners_{};
   std::vector<std::uint16_t> unmodelled_;  // and not reported yet
-  std::int64_t writes_ = 0;
   std::vector<std::uint16_t> written_;
+  std::int64_t writes_ = 0;  // last: the events' next instant, which is looked at as often, lies behind it
 };
 
 }  // namespace dspic

@@ -139,16 +139,17 @@ class Events {
     int id = 0;
     std::uint64_t irqs = 0;
   };
-  std::array<Cycle, kMostSlots> when_{};
-  std::array<Slot, kMostSlots> slots_{};
-  int count_ = 0;
-  std::array<Known, kMostSlots + 1> queue_{kNone};  // and what is known, the soonest last
-  std::size_t queued_ = 0;
-  Cycle next_ = kNever;        // the last one's
-  std::uint64_t outward_ = 0;  // slots that act outwards
+  // what every turn of the processor looks at, together
+  Cycle next_ = kNever;  // the last one's in queue_
+  EventWatch* watch_ = nullptr;
   // slots that notice_horizon() looks for, and for which flags; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
-  EventWatch* watch_ = nullptr;
+  std::uint64_t outward_ = 0;  // slots that act outwards
+  std::size_t queued_ = 0;
+  std::array<Known, kMostSlots + 1> queue_{kNone};  // and what is known, the soonest last
+  int count_ = 0;
+  std::array<Cycle, kMostSlots> when_{};
+  std::array<Slot, kMostSlots> slots_{};
 };
 
 }  // namespace dspic

@@ -184,31 +184,32 @@ class Interrupts final : public SfrOwner {
   }
   __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
 
-  Diagnostics& diagnostics_;
-  std::array<FlagListener*, kIrqs> listeners_{};
-  std::uint64_t heard_ = 0;  // bit i: IRQ i has one that wants to hear
+  // what every turn of the processor looks at, together
   std::uint64_t ifs_ = 0, iec_ = 0;
-  std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
-  std::array<std::uint8_t, kIrqs> priority_{};
-  std::array<Cycle, kIrqs> since_{};
-  Cycle newest_ = -1;  // latest of since_
-  std::array<Cycle, 4> flags_read_{};
   std::uint16_t intcon1_ = 0, intcon2_ = 0;
-  std::uint16_t last_vector_ = 0, last_level_ = 0;
   int level_ = 0;
-  std::vector<Frame> frames_;  // of handlers under way, the innermost last; and room for more
   int depth_ = 0;
-  std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
-  Cycle disi_until_ = 0;
+  int resumed_level_ = 0;  // level of the handler that ended at resumed_
   Cycle resumed_ = -1;     // first instruction after RETFIE
-  int resumed_level_ = 0;  // level of the handler that ended there
+  Cycle disi_until_ = 0;
+  Cycle newest_ = -1;  // latest of since_
   std::optional<ResetKind> reset_due_;
   bool stirred_ = false;
-
-  std::array<std::int64_t, kIrqs> missed_{};
-  std::array<std::int64_t, kVectors> served_{};
+  std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
+  std::array<std::uint8_t, kIrqs> priority_{};
+  std::uint64_t heard_ = 0;    // bit i: IRQ i has a listener that wants to hear
+  std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   // bit i: the last handler of IRQ i returned with its flag untouched; more than one in turn did
   std::uint64_t uncleared_ = 0, uncleared_again_ = 0;
+  std::vector<Frame> frames_;  // of handlers under way, the innermost last; and room for more
+  std::array<Cycle, 4> flags_read_{};
+  std::uint16_t last_vector_ = 0, last_level_ = 0;
+  std::array<Cycle, kIrqs> since_{};
+
+  Diagnostics& diagnostics_;
+  std::array<FlagListener*, kIrqs> listeners_{};
+  std::array<std::int64_t, kIrqs> missed_{};
+  std::array<std::int64_t, kVectors> served_{};
 };
 
 // --- acceptance, asked after everything that may change it ------------------------------------------------

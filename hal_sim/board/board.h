@@ -288,6 +288,8 @@ class Board {
   void publish_sound(sim::SoundField& field, sim::Clicks now);
 
   int selector() const { return setup_.selector; }
+  /// Has a UART, the camera, the codec or a part of the robot's ever done anything?
+  bool is_any_used() const { return is_any_used_; }
 
  private:
   static int port_index(char port);

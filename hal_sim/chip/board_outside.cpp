@@ -34,18 +34,21 @@ std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 }  // namespace
 
-BoardOutside::BoardOutside(Board& board) : board_(board), camera_(board), selector_(board.selector()) {
+BoardOutside::BoardOutside(Board& board) : board_(board), selector_(board.selector()), camera_(board) {
   tris_.fill(0xFFFF);
   board_.leave_inputs_to_others();
 }
 
 bool BoardOutside::may_have_news() const {
-  return board_.uart(1).has_on_wire() || board_.uart(2).has_on_wire() || selector_ != board_.selector() ||
-         camera_.has_news();
+  if (selector_ != board_.selector() || (asks_camera_ && camera_.has_news())) return true;
+  return board_.is_any_used() &&
+         (board_.uart(1).has_on_wire() || board_.uart(2).has_on_wire() || camera_.has_news());
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
+  if (!may_have_news()) return false;
   bool news = false;
+  asks_camera_ = false;
   for (int n = 1; n <= 2; ++n) {
     board::Uart& uart = board_.uart(n);
     dspic::UartFrame frame;
@@ -66,10 +69,14 @@ bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
 }
 
 void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
-  for (int n = 1; n <= 2; ++n) {
-    const dspic::Uart& own = chip.parts().uarts[static_cast<std::size_t>(n - 1)];
-    board_.uart(n).follow_chip(own.enabled(), own.brg());
+  if (const std::int64_t writes = chip.parts().bus.writes(); writes != followed_writes_) {
+    followed_writes_ = writes;
+    for (int n = 1; n <= 2; ++n) {
+      const dspic::Uart& own = chip.parts().uarts[static_cast<std::size_t>(n - 1)];
+      board_.uart(n).follow_chip(own.enabled(), own.brg());
+    }
   }
+  if (!board_.is_any_used()) return;
   camera_.end_window(now);
   if (board_.codec().line().take_activity()) follow_codec(chip, now);
 }
@@ -148,8 +155,10 @@ Cycle BoardOutside::lit_for(int sensor, Cycle at) const {
 dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
   switch (port) {
     case Port::C:
+      asks_camera_ = true;
       return {camera_.levels(at), board_.camera() ? kCameraClocks : std::uint16_t{0}};
     case Port::D:
+      asks_camera_ = true;
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
               board_.camera() ? board::kCameraData : std::uint16_t{0}};
     case Port::F: {
@@ -169,8 +178,10 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
 Cycle BoardOutside::levels_horizon(Port port, std::uint16_t pins, Cycle after) {
   switch (port) {
     case Port::C:
+      asks_camera_ = true;
       return camera_.horizon(pins, after);
     case Port::D:
+      asks_camera_ = true;
       return pins & board::kCameraData ? camera_.next_byte(after) : dspic::kNever;
     case Port::F:
       return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().horizon(after));
@@ -180,16 +191,20 @@ Cycle BoardOutside::levels_horizon(Port port, std::uint16_t pins, Cycle after) {
 }
 
 std::int64_t BoardOutside::edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) {
-  if (pin.port == Port::C)
+  if (pin.port == Port::C) {
+    asks_camera_ = true;
     return CameraPins::has(pin.bit) ? camera_.edges(pin.bit, edge == dspic::Edge::Rising, after, until) : 0;
+  }
   if (pin.port == Port::D) return 0;
   return Outside::edges(pin, edge, after, until);
 }
 
 Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std::int64_t n) {
-  if (pin.port == Port::C)
+  if (pin.port == Port::C) {
+    asks_camera_ = true;
     return CameraPins::has(pin.bit) ? camera_.nth_edge(pin.bit, edge == dspic::Edge::Rising, after, n)
                                     : dspic::kNever;
+  }
   if (pin.port == Port::F && pin.bit == board::kRemotePin.bit && n == 1)
     return board_.remote().next_edge(after, edge == dspic::Edge::Falling);
   if (pin.port == Port::D) return dspic::kNever;
@@ -229,6 +244,7 @@ void BoardOutside::i2c_start(bool repeated, Cycle at) {
 
 dspic::I2cReply BoardOutside::i2c_write(std::uint8_t byte, Cycle at) {
   digest_.note(EventDigest::Kind::I2c, byte, at);
+  asks_camera_ = true;  // it may be for its registers
   return {board_.i2c().write(byte, at), 0xFF, 0};
 }
 
@@ -240,6 +256,7 @@ dspic::I2cReply BoardOutside::i2c_read(Cycle at) {
 
 void BoardOutside::i2c_stop(Cycle at) {
   digest_.note(EventDigest::Kind::I2c, 0x102, at);
+  asks_camera_ = true;
   board_.i2c().stop(at);
 }
 

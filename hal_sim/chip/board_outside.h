@@ -37,6 +37,12 @@ class BoardOutside final : public dspic::Outside {
   /// The board's UARTs learn rate and switch of the chip's.
   void end_window(dspic::Dspic30f6014a& chip, Cycle now);
 
+  /// The chip was reset, and with it what hangs on its pins: the next windows look at UARTs and camera.
+  void chip_was_reset() {
+    followed_writes_ = -1;
+    asks_camera_ = true;
+  }
+
   /// What the chip did to the board; others may add what they know of.
   EventDigest& digest() { return digest_; }
   const EventDigest& digest() const { return digest_; }
@@ -86,15 +92,18 @@ class BoardOutside final : public dspic::Outside {
   void follow_breaks(std::uint16_t low, Cycle at);
 
   board::Board& board_;
-  EventDigest digest_;
+  // what every window looks at
+  int selector_;
+  bool asks_camera_ = false;  // pins or registers of the camera, since it was last asked for news
   bool shares_coils_ = false;
+  std::int64_t followed_writes_ = -1;  // to the chip's registers, when its UARTs were looked at last
+  EventDigest digest_;
   CameraPins camera_;
   std::array<Emitter, 4> emitters_;
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not
   std::uint16_t low_lines_ = 0;             // those lines, as pins
-  int selector_;
 };
 
 }  // namespace chip

@@ -81,12 +81,14 @@ void SolderedChip::power_up(dspic::Configuration configuration) {
   device_ = std::make_unique<dspic::Dspic30f6014a>(outside_, sink, configuration);
   parts_ = &device_->parts();
   device_->watch(watch_);
+  outside_.chip_was_reset();
   board_.processor_reset(latest_);
   next_reset_ = dspic::ResetKind::PowerOn;
 }
 
 void SolderedChip::reset(Cycle now) {
   device_->reset(next_reset_, at(now));
+  outside_.chip_was_reset();
   next_reset_ = dspic::ResetKind::Instruction;
   board_.processor_reset(latest_);
 }
@@ -105,6 +107,7 @@ const char* SolderedChip::note_reset_due() {
 
 void SolderedChip::stop(Cycle now) {
   device_->reset(dspic::ResetKind::Pin, at(now));
+  outside_.chip_was_reset();
   board_.processor_reset(latest_);
 }
 

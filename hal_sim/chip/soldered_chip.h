@@ -97,13 +97,13 @@ class SolderedChip final : private dspic::DiagnosticSink {
   };
 
   board::Board& board_;
-  BoardEeprom eeprom_;
-  BoardOutside outside_;
+  Cycle latest_ = 0;
   std::unique_ptr<dspic::Dspic30f6014a> device_;
   dspic::ChipParts* parts_ = nullptr;  // of device_
+  BoardEeprom eeprom_;
+  BoardOutside outside_;
   dspic::EventWatch* watch_ = nullptr;
   dspic::ResetKind next_reset_ = dspic::ResetKind::PowerOn;
-  Cycle latest_ = 0;
   std::vector<dspic::Diagnosis> diagnoses_;
   std::function<std::string(const dspic::Diagnosis&)> comment_;
 };
