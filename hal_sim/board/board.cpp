@@ -335,7 +335,10 @@ void Board::set_battery(double volts, Cycle at) { battery_.set_voltage(volts, at
 
 void Board::exchange(Cycle at) {
   if (is_any_used_) {
-    for (Uart& uart : uarts_) uart.exchange(at);
+    for (Uart& uart : uarts_) {
+      uart.exchange(at);
+      has_wire_news_ |= uart.has_on_wire();
+    }
     codec_.forget(at);
   }
   if (driver_) driver_->exchange(at);

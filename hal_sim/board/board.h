@@ -19,6 +19,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal_sim/board/battery.h"
@@ -288,8 +289,9 @@ class Board {
   void publish_sound(sim::SoundField& field, sim::Clicks now);
 
   int selector() const { return setup_.selector; }
-  /// Has a UART, the camera, the codec or a part of the robot's ever done anything?
-  bool is_any_used() const { return is_any_used_; }
+  /// For models of the chip: has exchange() put a byte on a wire, since it was last taken note of?
+  bool has_wire_news() const { return has_wire_news_; }
+  bool take_wire_news() { return std::exchange(has_wire_news_, false); }
 
  private:
   static int port_index(char port);
@@ -335,6 +337,7 @@ class Board {
   RobotClock clock_;
   bool is_lit_ = false;       // do lamps shine in the scene, or ambient light?
   bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
+  bool has_wire_news_ = false;
   bool watches_inputs_ = true;
   bool may_hear_ =
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip

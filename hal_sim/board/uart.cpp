@@ -109,7 +109,7 @@ void Uart::put_on_wire(std::uint8_t byte, Cycle start, Cycle end) {
 }
 
 void Uart::break_on_wire(Cycle end) {
-  first_use.note();
+  if (end_) first_use.note();
   free_at_ = break_until_ = end;
   hash_ = sim::mix64(hash_ ^ static_cast<std::uint64_t>(end));
 }

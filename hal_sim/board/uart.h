@@ -78,7 +78,7 @@ class Uart {
     end_ = std::move(end);
     if (!end_) return;
     end_->first_use = first_use;
-    if (!end_->is_idle()) first_use.note();
+    if (!end_->is_idle() || break_until_ >= 0) first_use.note();
   }
   UartEnd* end() const { return end_.get(); }
   /// Null: nobody looks. `number` is told back.

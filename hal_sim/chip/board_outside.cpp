@@ -40,27 +40,27 @@ BoardOutside::BoardOutside(Board& board) : board_(board), selector_(board.select
 }
 
 bool BoardOutside::may_have_news() const {
-  if (selector_ != board_.selector() || (asks_camera_ && camera_.has_news())) return true;
-  return board_.is_any_used() &&
-         (board_.uart(1).has_on_wire() || board_.uart(2).has_on_wire() || camera_.has_news());
+  return board_.has_wire_news() || selector_ != board_.selector() || (asks_camera_ && camera_.has_news());
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
-  if (!may_have_news()) return false;
   bool news = false;
-  asks_camera_ = false;
-  for (int n = 1; n <= 2; ++n) {
-    board::Uart& uart = board_.uart(n);
-    dspic::UartFrame frame;
-    std::uint8_t byte = 0;
-    while (uart.take_from_wire(byte, frame.start)) {
-      frame.word = byte;
-      frame.bit = uart.byte_cycles() / board::kUartBitsPerByte;
-      chip.uart_receive(n, frame, now);
-      news = true;
+  if (board_.take_wire_news()) {
+    for (int n = 1; n <= 2; ++n) {
+      board::Uart& uart = board_.uart(n);
+      dspic::UartFrame frame;
+      std::uint8_t byte = 0;
+      while (uart.take_from_wire(byte, frame.start)) {
+        frame.word = byte;
+        frame.bit = uart.byte_cycles() / board::kUartBitsPerByte;
+        chip.uart_receive(n, frame, now);
+        news = true;
+      }
     }
   }
-  if (selector_ != board_.selector() || camera_.take_news()) {
+  const bool camera_is_new = asks_camera_ && camera_.take_news();
+  asks_camera_ = false;
+  if (selector_ != board_.selector() || camera_is_new) {
     selector_ = board_.selector();
     chip.outside_changed(now);
     news = true;
@@ -76,9 +76,8 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
       board_.uart(n).follow_chip(own.enabled(), own.brg());
     }
   }
-  if (!board_.is_any_used()) return;
-  camera_.end_window(now);
-  if (board_.codec().line().take_activity()) follow_codec(chip, now);
+  if (takes_pictures_) camera_.end_window(now);
+  if (sends_sound_ && board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
 // --- pins ------------------------------------------------------------------------------------------------
@@ -158,7 +157,7 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
       asks_camera_ = true;
       return {camera_.levels(at), board_.camera() ? kCameraClocks : std::uint16_t{0}};
     case Port::D:
-      asks_camera_ = true;
+      asks_camera_ = takes_pictures_ = true;
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
               board_.camera() ? board::kCameraData : std::uint16_t{0}};
     case Port::F: {
@@ -265,6 +264,7 @@ void BoardOutside::i2c_stop(Cycle at) {
 // the codec looks at the word that begins a frame; those of other slots are for other devices on the line
 std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {
   if (slot != 0) return 0;
+  sends_sound_ = true;
   const auto word = static_cast<std::uint16_t>(transmitted << (16 - bits));
   if (word != 0) digest_.note(EventDigest::Kind::CodecWord, word, end);
   return static_cast<std::uint16_t>(board_.codec().line().word(word, end) >> (16 - bits));

@@ -96,6 +96,7 @@ class BoardOutside final : public dspic::Outside {
   int selector_;
   bool asks_camera_ = false;  // pins or registers of the camera, since it was last asked for news
   bool shares_coils_ = false;
+  bool takes_pictures_ = false, sends_sound_ = false;  // the program ever did
   std::int64_t followed_writes_ = -1;  // to the chip's registers, when its UARTs were looked at last
   EventDigest digest_;
   CameraPins camera_;
