@@ -336,17 +336,70 @@ void lead_to_host(Decoded& d, const Row& row, const ProgramMemory& program, unsi
 
 namespace {
 
-/// W registers that it may read or write, and some more: W0 and the stack pointer always.
-std::uint16_t touched_by(const Decoded& d, const Row& row, const Registers& r) {
+unsigned touched_by(Operand kind, const Fields& f) {
+  switch (kind) {
+    case Operand::File:
+    case Operand::FileWord:
+    case Operand::FileBit:
+    case Operand::Literal:
+    case Operand::LiteralTwice:
+    case Operand::Bit:
+    case Operand::Shift4:
+    case Operand::Shift6:
+    case Operand::Branch:
+    case Operand::Target:
+    case Operand::DoEnd:
+    case Operand::Accumulator:
+      return 0;
+    case Operand::WregOption:
+    case Operand::Wreg:
+      return bit(0);
+    case Operand::Wb:
+      return bit(f.w);
+    case Operand::Rs:
+    case Operand::Source:
+    case Operand::SourceLiteral:
+      return bit(f.s);
+    case Operand::Rd:
+    case Operand::Destination:
+    case Operand::DestinationLiteral:
+      return bit(f.d);
+    case Operand::SourceOffset:
+      return bit(f.s) | bit(f.w);
+    case Operand::DestinationOffset:
+      return bit(f.d) | bit(f.w);
+    case Operand::RsPair:
+      return 3u << 2 * f.s;
+    case Operand::RdPair:
+      return 3u << 2 * f.d;
+    default:
+      return 0xFFFF;
+  }
+}
+
+/// W registers that it may read or write, perhaps some more; the stack pointer always. Registers that it
+/// reaches by their addresses are not among them.
+std::uint16_t touched_by(const Decoded& d, const Row& row, const Fields& f, const Registers& r) {
   const std::string_view name = row.mnemonic;
   const auto begins = [&](std::string_view with) { return name.substr(0, with.size()) == with; };
-  if (row.has(Operand::Prefetch) || d.run.load(std::memory_order_relaxed) == &call_host) return 0xFFFF;
-  unsigned all = bit(0) | bit(15) | bit(d.s) | bit(d.d) | bit(d.b) | r.written | r.moved | r.sources |
-                 r.destinations | r.offsets;
-  if (begins("MUL") || begins("DIV") || begins("MOV")) all |= all << 1;  // pairs
-  if (begins("MUL") || begins("PUSH") || begins("POP")) all |= 0x000F;   // MUL f, the shadow registers
-  if (begins("LNK") || begins("ULNK")) all |= bit(14);
-  return static_cast<std::uint16_t>(all);
+  if (d.run.load(std::memory_order_relaxed) == &call_host) return 0xFFFF;
+  unsigned all = bit(15) | r.written | r.moved | r.sources | r.destinations | r.offsets;
+  for (const Operand kind : row.kinds) all |= touched_by(kind, f);
+  if (begins("MUL") || begins("DIV") || begins("MOV.D")) all |= all << 1;  // pairs
+  switch (row.id) {
+    case Insn::Cp_f:
+    case Insn::Cpb_f:
+      return static_cast<std::uint16_t>(all | bit(0));
+    case Insn::Mul_f:
+    case Insn::Push_S:
+    case Insn::Pop_S:
+      return static_cast<std::uint16_t>(all | 0x000F);
+    case Insn::Lnk_lit14:
+    case Insn::Ulnk:
+      return static_cast<std::uint16_t>(all | bit(14));
+    default:
+      return static_cast<std::uint16_t>(all);
+  }
 }
 
 }  // namespace
@@ -377,7 +430,7 @@ Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeSt
     d.d = static_cast<std::uint8_t>(next ? next->words : 1);
   }
   lead_to_host(d, *row, program, address);
-  registers.touches = touched_by(d, *row, r);
+  registers.touches = touched_by(d, *row, f, r);
   registers.uses = (r.sources | r.destinations) & kAllWritten;
   if (!f.B || row->has(Operand::Prefetch)) registers.gives = r.written & kAllWritten;
   // a pointer that nobody has written since the reset resets the chip again
