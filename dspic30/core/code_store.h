@@ -75,6 +75,8 @@ struct WordRegisters {
   std::uint16_t uses = 0;          ///< as pointers
   std::uint16_t gives = 0;         ///< they count as written from then on
   std::uint16_t touches = 0xFFFF;  ///< that it may read or write, W15 among them; others as well
+  /// N, OV, Z, C and DC: whatever they were, it sets all; it neither reads nor writes any; or it may do both.
+  enum class Flags : std::uint8_t { May, Neither, SetsAll } flags = Flags::May;
 };
 
 /// The functions of words that are no instructions, and of those that are not decoded yet.

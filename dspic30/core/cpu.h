@@ -160,6 +160,16 @@ class Cpu final : public SfrOwner {
   unsigned touched_by(const Decoded* d) const {
     return address_of_host_place(d) ? 0xFFFFu : table_->registers(d).touches;
   }
+  /// Does the program, straight on from an instruction that was met, set all flags before it reads one?
+  bool sets_flags(const Decoded* d) const {
+    using Flags = WordRegisters::Flags;
+    constexpr int kFirstOnes = 4;
+    for (int i = 0; i < kFirstOnes && !address_of_host_place(d) && is_decoded(d); ++i, ++d) {
+      const Flags flags = table_->registers(d).flags;
+      if (flags != Flags::Neither) return flags == Flags::SetsAll;
+    }
+    return false;
+  }
   /// The function of this one instruction.
   Run plain(const Decoded* d) const {
     return address_of_host_place(d) ? d->run.load(std::memory_order_relaxed) : table_->plain(d);

@@ -402,6 +402,34 @@ std::uint16_t touched_by(const Decoded& d, const Row& row, const Fields& f, cons
   }
 }
 
+/// Of the instructions that waits begin with.
+WordRegisters::Flags flags_of(Insn id) {
+  switch (id) {
+    case Insn::Nop:
+    case Insn::Mov_f_Wnd:
+    case Insn::Mov_lit16_Wnd:
+    case Insn::Mov_B_lit8_Wnd:
+    case Insn::Mov_Wsslit10_Wnd:
+    case Insn::Mov_Wso_Wdo:
+      return WordRegisters::Flags::Neither;
+    case Insn::Cp0_f:
+    case Insn::Cp0_Ws:
+    case Insn::Cp_f:
+    case Insn::Cp_Wb_lit5:
+    case Insn::Cp_Wb_Ws:
+    case Insn::Sub_f:
+    case Insn::Sub_lit10_Wn:
+    case Insn::Sub_Wb_lit5_Wd:
+    case Insn::Sub_Wb_Ws_Wd:
+    case Insn::Add_lit10_Wn:
+    case Insn::Add_Wb_lit5_Wd:
+    case Insn::Add_Wb_Ws_Wd:
+      return WordRegisters::Flags::SetsAll;
+    default:
+      return WordRegisters::Flags::May;
+  }
+}
+
 }  // namespace
 
 Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeState& state,
@@ -431,6 +459,7 @@ Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeSt
   }
   lead_to_host(d, *row, program, address);
   registers.touches = touched_by(d, *row, f, r);
+  registers.flags = flags_of(row->id);
   registers.uses = (r.sources | r.destinations) & kAllWritten;
   if (!f.B || row->has(Operand::Prefetch)) registers.gives = r.written & kAllWritten;
   // a pointer that nobody has written since the reset resets the chip again

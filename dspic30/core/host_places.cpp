@@ -84,27 +84,31 @@ std::array<Decoded, kHostPlaces> make_places() {
 
 const std::array<Decoded, kHostPlaces> host_places = make_places();
 
+// the function waits, or there is none: the program stands at it, with the address that it returns to
+static const Decoded* stand_in_host(Cpu& cpu, const Decoded* d, Cycle at, Cycle until) {
+  const unsigned place = kHostStart + 2 * static_cast<unsigned>(d->imm);
+  if (cpu.host_stale) cpu.deadline = 0;
+  push_address(cpu, cpu.address_of(d) + 2u * d->b);
+  cpu.host_again = until > at;
+  cpu.stands_until = until;
+  cpu.stands_at = host_place(place);
+  cpu.note_effect();
+  return host_place(place);
+}
+
 // a function that does not wait needs no return address; d->cycles are the call's
 const Decoded* call_host(Cpu& cpu, const Decoded* d) {
-  const auto index = static_cast<unsigned>(d->imm);
   if (!cpu.host) {  // an address beyond the flash like any other
     push_address(cpu, cpu.address_of(d) + 2u * d->b);
-    return cpu.jump(kHostStart + 2 * index, d);
+    return cpu.jump(kHostStart + 2 * static_cast<unsigned>(d->imm), d);
   }
   const Cycle at = cpu.clocks.true_at(cpu.now + d->cycles);
   HostResult result;
-  if (is_done(cpu, index, at, false, result)) {
-    cpu.now += result.cycles;
-    if (cpu.host_stale) cpu.follow_changed_host(d->cycles);
-    return d + d->b;
-  }
-  if (cpu.host_stale) cpu.deadline = 0;
-  push_address(cpu, cpu.address_of(d) + 2u * d->b);
-  cpu.host_again = result.wait_until > at;
-  cpu.stands_until = result.wait_until;
-  cpu.stands_at = host_place(kHostStart + 2 * index);
-  cpu.note_effect();
-  return host_place(kHostStart + 2 * index);
+  if (!is_done(cpu, static_cast<unsigned>(d->imm), at, false, result))
+    return stand_in_host(cpu, d, at, result.wait_until);
+  cpu.now += result.cycles;
+  if (cpu.host_stale) cpu.follow_changed_host(d->cycles);
+  return d + d->b;
 }
 
 const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
@@ -149,6 +153,9 @@ bool Cpu::is_plain_frame(unsigned begin, unsigned words) const {
   return !watching && !(begin & 1) && begin >= plain_start && end <= kRamEnd && (!splim_on || end <= splim);
 }
 
+// how many of them are W0, W1, ... without a gap
+static unsigned count_low(unsigned registers) { return static_cast<unsigned>(__builtin_ctz(~registers)); }
+
 // registers from W0 up, then RCOUNT, PSVPAG, and others that are nobody's affair
 void Cpu::push_frame(unsigned registers, int words) {
   const auto other = [&](int i) { return i == 0 ? rcount : i == 1 ? psvpag : std::uint16_t{0}; };
@@ -161,7 +168,10 @@ void Cpu::push_frame(unsigned registers, int words) {
     return;
   }
   unsigned at_byte = w[15] - kRamStart;
-  for (unsigned left = registers; left != 0; left &= left - 1, at_byte += 2)
+  const unsigned low = count_low(registers);
+  std::memcpy(&ram[at_byte], w.data(), 2 * low);
+  at_byte += 2 * low;
+  for (unsigned left = registers >> low << low; left != 0; left &= left - 1, at_byte += 2)
     store(at_byte, w[__builtin_ctz(left)]);
   for (int i = 0; i < words; ++i, at_byte += 2) store(at_byte, other(i));
   w[15] = static_cast<std::uint16_t>(at_byte + kRamStart);
@@ -178,11 +188,13 @@ void Cpu::pop_frame(unsigned registers, int words) {
     if (i == 0) rcount = word & saved_register(kRcount).bits;
     if (i == 1) psvpag = word & saved_register(kPsvpag).bits;
   }
-  for (unsigned left = registers; left != 0;) {
+  const unsigned low = is_plain ? count_low(registers) : 0;
+  for (unsigned left = registers >> low << low; left != 0;) {
     const unsigned highest = 31u - static_cast<unsigned>(__builtin_clz(left));
     w[highest] = next_word();
     left &= ~(1u << highest);
   }
+  if (low > 0) std::memcpy(w.data(), &ram[at_byte - 2 * low], 2 * low);
   if (is_plain) w[15] = static_cast<std::uint16_t>(begin);
 }
 

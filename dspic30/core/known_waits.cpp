@@ -59,10 +59,21 @@ CoreState::CoreState(const Cpu& c) {
   for (std::size_t i = 0; i < words.size(); ++i) words[i] = state_word(c, i);
 }
 
-bool CoreState::is_of_round(const Cpu& c, unsigned registers) const {
+void CoreState::put_flags(Cpu& c) const {
+  c.n = words[5] & kN ? 0x8000 : 0;
+  c.z = words[5] & kZ ? 0 : 1;
+  c.c = words[5] & kC ? 1 : 0;
+  c.ov = words[5] & kOv ? 0x8000 : 0;
+  c.dc = words[5] & kDc ? 0x100 : 0;
+}
+
+bool CoreState::is_of_round(const Cpu& c, unsigned registers, bool sets_flags) const {
+  const std::uint64_t flags = sets_flags ? kDc | kZ | kC | kOv | kN : kDc;
 #pragma GCC unroll 11
   for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::uint64_t counts = i < 4 ? lanes(registers >> 4 * i & 0xF) : i == 5 ? ~kDc : ~std::uint64_t{0};
+    const std::uint64_t counts = i < 4    ? lanes(registers >> 4 * i & 0xF)
+                                 : i == 5 ? ~flags
+                                          : ~std::uint64_t{0};
     if ((words[i] ^ state_word(c, i)) & counts) return false;
   }
   return true;
@@ -129,7 +140,7 @@ bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon =
 const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
   const Wait* const wait = waits_[place_of(cpu.next)].get();
   return wait && wait->first == cpu.next && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
-                 wait->state.is_of_round(cpu, wait->registers)
+                 wait->state.is_of_round(cpu, wait->registers, wait->sets_flags)
              ? wait
              : nullptr;
 }

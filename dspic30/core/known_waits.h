@@ -26,10 +26,14 @@ struct CoreState {
   /// Is the core in this state?
   bool is_of(const Cpu& cpu) const;
   /// ... as far as a round with these W registers goes, a bit each; and but for DC, which RETFIE leaves as
-  /// the handler had it.
-  bool is_of_round(const Cpu& cpu, unsigned registers) const;
+  /// the handler had it; `sets_flags`: but for all flags.
+  bool is_of_round(const Cpu& cpu, unsigned registers, bool sets_flags) const;
   bool dc() const { return (words[5] & kDc) != 0; }
-  static constexpr std::uint64_t kDc = std::uint64_t{0x100} << 16;
+  /// Gives it the flags of this state.
+  void put_flags(Cpu& cpu) const;
+  static constexpr std::uint64_t kDc = std::uint64_t{0x100} << 16, kZ = std::uint64_t{1} << 16,
+                                 kC = std::uint64_t{2} << 16, kOv = std::uint64_t{0x8000} << 16,
+                                 kN = std::uint64_t{0x8000} << 48;
   std::uint16_t w(unsigned n) const { return static_cast<std::uint16_t>(words[n / 4] >> 16 * (n % 4)); }
   std::array<std::uint64_t, 11> words;
 };
@@ -105,7 +109,8 @@ class KnownWaits {
   struct Wait {
     const Decoded* first = nullptr;
     Cycle took = 0;
-    bool sets_dc = false;  // else it stays as it is; nothing in the round reads it
+    bool sets_dc = false;     // else it stays as it is; nothing in the round reads it
+    bool sets_flags = false;  // all, before anything reads one
     CoreState state;
     unsigned registers = 0xFFFF;  // W registers that an instruction of it may read or write, a bit each
     RoundMemory memory;

@@ -72,7 +72,9 @@ void Processor::execute() {
       continue;  // it may be due again at once, as it would be in a window that begins here
     }
     cpu.pause_at = std::max(waits_->look_at(cpu), cpu.now + 1);
-    Cycle pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
+    // by the true clock it is behind `end` anyway, as nearly always
+    Cycle pause =
+        cpu.pause_at >= cpu.clocks.true_at(end) ? end : std::min(end, cpu.clocks.program_at(cpu.pause_at));
     cpu.deadline = pause;
     if (cpu.looks_at_each())
       cpu.run_each();

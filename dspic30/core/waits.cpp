@@ -190,6 +190,7 @@ bool Waits::goes_elsewhere(Cpu& cpu) {
 void Waits::end_round(Cpu& cpu) {
   round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
   round_.sets_dc = !(cpu.dc & kNotSet);
+  round_.sets_flags = cpu.sets_flags(round_.first);
   const bool is_whole = round_.memory.is_whole(),
              is_fixed = cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core;
   if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
@@ -298,7 +299,10 @@ void Waits::wait(Cpu& cpu) {
 // what whole rounds leave behind
 void Waits::jump_over(Cpu& cpu) {
   wait_->memory.put_written(cpu.ram.data());
-  if (wait_->sets_dc) cpu.dc = wait_->state.dc() ? 0x100 : 0;
+  if (wait_->sets_flags)
+    wait_->state.put_flags(cpu);
+  else if (wait_->sets_dc)
+    cpu.dc = wait_->state.dc() ? 0x100 : 0;
 }
 
 void Waits::leave(Cpu& cpu) {
