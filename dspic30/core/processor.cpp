@@ -172,11 +172,11 @@ bool Processor::is_held_off(std::size_t h, int next_vector) const {
 }
 
 /// All that is_held_off() looks at, as one word; priorities by the count of writes to registers. While DISI
-/// runs, or something is due, another one each time.
+/// runs, another one each time.
 std::uint64_t Processor::hold_state(int next_vector) const {
   const Cpu& cpu = *cpu_;
   const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.disi_active(cpu.now) || cpu.host_due <= cpu.now) return kUnseen;
+  if (interrupts.disi_active(cpu.now)) return kUnseen;
   const auto bits_of = [&](int irq) {  // bit 63 is nobody's
     return (interrupts.enabled_mask() >> (irq & 63) & 1) << 1 | (interrupts.flags() >> (irq & 63) & 1);
   };
@@ -326,9 +326,8 @@ Cycle Processor::idle_until() const {
   const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
-  if (cpu.host && (cpu.host_stale || is_held_off(0, outlook.vector) != by_heart_[0].held ||
-                   is_held_off(1, outlook.vector) != by_heart_[1].held))
-    return 0;  // what handlers take is another from now on
+  // what handlers take may be another from now on
+  if (cpu.host && (cpu.host_stale || seen_ == kUnseen || hold_state(outlook.vector) != seen_)) return 0;
   if (outlook.reset_due || (cpu.host_due <= cpu.now && !by_heart_[0].held)) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
   if (is_asleep()) return std::min(until, cpu.parts.interrupts.wakes_at());
