@@ -410,7 +410,7 @@ class Cpu final : public SfrOwner {
   Cycle host_due = kNever;     ///< when the next one comes that calls the program
   Cycle stop_at = kNever;      ///< true time: `deadline` but for that handler and for looks
   Cycle pause_at = kNever;     ///< ... when a look for a wait comes
-  std::int64_t writes_seen = 0;  ///< to registers, when Processor::run() looked last
+  std::int64_t writes_seen = 0;  ///< to interrupt registers, when Processor::run() looked last
   bool host_again = false;       ///< the function of the host that stands there has been called already
   int host_handlers = 0;         ///< handlers known by heart under way, or left by a jump
   /// A handler known by heart is entered, as an interrupt is; go_on_with_handler() is next.

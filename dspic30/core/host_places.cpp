@@ -121,7 +121,7 @@ bool Cpu::stands_in_host() const { return host_again && address_of_host_place(ne
 
 void Cpu::follow_changed_host(Cycle ahead) {
   // it stops anyway, or flags of handlers are to be followed
-  if (deadline <= now || host_is_held || parts.bus.writes() != writes_seen) {
+  if (deadline <= now || host_is_held || parts.interrupts.writes() != writes_seen) {
     deadline = 0;
     return;
   }

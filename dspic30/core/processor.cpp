@@ -63,11 +63,12 @@ bool Processor::still_reads() const { return cpu_->still_reads; }
 void Processor::execute() {
   Cpu& cpu = *cpu_;
   Cycle end = cpu.deadline;
-  const std::int64_t writes = cpu.writes_seen = cpu.parts.bus.writes();
+  const Cycle stop = cpu.stop_at;
+  const std::int64_t writes = cpu.writes_seen = cpu.parts.interrupts.writes();
   while (cpu.now < end) {
     if (waits_->is_due(cpu)) {
       waits_->go_on(cpu);
-      if (cpu.deadline != end || cpu.host_followed || cpu.parts.bus.writes() != writes) return;
+      if (cpu.deadline != end || cpu.host_followed || cpu.parts.interrupts.writes() != writes) return;
       if (cpu.repeating) return;
       continue;  // it may be due again at once, as it would be in a window that begins here
     }
@@ -87,7 +88,9 @@ void Processor::execute() {
       pause = std::min(end, cpu.clocks.program_at(cpu.pause_at));
     }
     cpu.pause_at = kNever;
-    if (cpu.deadline != pause || cpu.repeating || cpu.parts.bus.writes() != writes || cpu.is_code_stale())
+    // something is due sooner, or may be; `end` may be too late then
+    if (cpu.deadline != pause || cpu.stop_at != stop || cpu.repeating ||
+        cpu.parts.interrupts.writes() != writes || cpu.is_code_stale())
       return;
     cpu.deadline = end;
   }
@@ -126,7 +129,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       outlook.horizon = cpu.parts.interrupt_horizon(outlook.vector);
       if (outlook.horizon <= cpu.now) continue;
     }
-    cpu.deadline = std::min(until, outlook.horizon);
+    cpu.deadline = cpu.stop_at = std::min(until, outlook.horizon);
     if (cpu.host) {
       cpu.host_followed = false;
       cpu.stop_at = std::min(cpu.deadline, disi_horizon());
@@ -180,7 +183,7 @@ std::uint64_t Processor::hold_state(int next_vector) const {
   const auto bits_of = [&](int irq) {  // bit 63 is nobody's
     return (interrupts.enabled_mask() >> (irq & 63) & 1) << 1 | (interrupts.flags() >> (irq & 63) & 1);
   };
-  return static_cast<std::uint64_t>(cpu.parts.bus.writes()) << 16 |
+  return static_cast<std::uint64_t>(cpu.parts.interrupts.writes()) << 16 |
          (static_cast<std::uint64_t>(next_vector) & 63) << 10 | bits_of(irqs_[1]) << 8 |
          bits_of(irqs_[0]) << 6 | static_cast<std::uint64_t>(interrupts.level()) << 1 | (is_asleep() ? 1 : 0);
 }

@@ -71,12 +71,12 @@ void Waits::begin(Cpu& cpu) {
 // registers: a round sets those that it uses.
 bool Waits::comes_round(Cpu& cpu, const KnownWaits::Wait& wait) {
   const Cycle end = cpu.deadline;
-  const std::int64_t writes = cpu.parts.bus.writes();
+  const std::int64_t writes = cpu.parts.interrupts.writes();
   for (Cycle left = wait.took; left > 0 && cpu.now < end;) {
     const Cycle before = cpu.now;
     step(cpu);
     left -= cpu.now - before;
-    if (cpu.deadline != end || cpu.repeating || cpu.parts.bus.writes() != writes) break;
+    if (cpu.deadline != end || cpu.repeating || cpu.parts.interrupts.writes() != writes) break;
   }
   const KnownWaits::Wait* const known = cpu.next == wait.first ? cpu.known_waits.find(cpu) : nullptr;
   if (known) enter(cpu, known);

@@ -153,6 +153,7 @@ void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lane
   if (address >= kIfs0 && address < kIec0)
     return write_flags(static_cast<int>(address - kIfs0) / 2, value, lanes, now);
   stirred_ = true;
+  ++writes_;
   if (address == kIntcon1) {
     intcon1_ = merge_lanes(intcon1_, value, lanes);
   } else if (address == kIntcon2) {

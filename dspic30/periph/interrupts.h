@@ -134,6 +134,8 @@ class Interrupts final : public SfrOwner {
   /// earlier? A flag that falls is no such thing.
   bool stirred() const { return stirred_; }
   void forget_stir() { stirred_ = false; }
+  /// Writes to its registers so far.
+  std::int64_t writes() const { return writes_; }
 
   // --- flags of IFS0 to 2, what handlers touch most
   std::uint16_t read_flags(int word, Cycle now) {
@@ -145,6 +147,7 @@ class Interrupts final : public SfrOwner {
   bool lower_flags(int word, std::uint16_t keep, Cycle now) {
     const auto lowered = static_cast<std::uint64_t>(static_cast<std::uint16_t>(~keep)) << 16 * word & ifs_;
     if ((lowered & heard_) || newest_ > now) return false;
+    ++writes_;
     flags_read_[static_cast<std::size_t>(word)] = now;
     ifs_ &= ~lowered;
     note_lowered(lowered);
@@ -195,6 +198,7 @@ class Interrupts final : public SfrOwner {
   Cycle newest_ = -1;  // latest of since_
   std::optional<ResetKind> reset_due_;
   bool stirred_ = false;
+  std::int64_t writes_ = 0;
   std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
   std::array<std::uint8_t, kIrqs> priority_{};
   std::uint64_t heard_ = 0;    // bit i: IRQ i has a listener that wants to hear
@@ -262,6 +266,7 @@ inline constexpr Cycle kReadModifyWrite = 3;
 
 __attribute__((always_inline)) inline void Interrupts::write_flags(int word, std::uint16_t value,
                                                                    std::uint16_t lanes, Cycle now) {
+  ++writes_;
   const int shift = 16 * word;
   const auto mask = static_cast<std::uint64_t>(lanes) << shift;
   std::uint64_t wanted = (ifs_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
