@@ -53,10 +53,12 @@ void Waits::begin(Cpu& cpu) {
     if (is_passed(cpu, *known, rounds)) return;
     if (known->is_over(cpu) && is_passed(cpu, known->round(), look_began_)) return;
   }
+  comes_round_ = nullptr;
   if (const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next)) {
-    if (!of_head->memory.are_as_read(cpu.ram.data())) {
-      if (is_passed(cpu, *of_head, look_began_)) return;
-    } else if (comes_round(cpu, *of_head)) {
+    if (of_head->memory.are_as_read(cpu.ram.data())) {
+      comes_round_ = of_head;
+      left_ = of_head->took;
+    } else if (is_passed(cpu, *of_head, look_began_)) {
       return;
     }
   }
@@ -64,23 +66,7 @@ void Waits::begin(Cpu& cpu) {
   chances_ = 2;
   again_ = 0;
   is_turned_ = at_head_;
-  begin_round(cpu);
-}
-
-// What a known wait reads of RAM is as it was, but what the program did before has left other values in
-// registers: a round sets those that it uses.
-bool Waits::comes_round(Cpu& cpu, const KnownWaits::Wait& wait) {
-  const Cycle end = cpu.deadline;
-  const std::int64_t writes = cpu.parts.interrupts.writes();
-  for (Cycle left = wait.took; left > 0 && cpu.now < end;) {
-    const Cycle before = cpu.now;
-    step(cpu);
-    left -= cpu.now - before;
-    if (cpu.deadline != end || cpu.repeating || cpu.parts.interrupts.writes() != writes) break;
-  }
-  const KnownWaits::Wait* const known = cpu.next == wait.first ? cpu.known_waits.find(cpu) : nullptr;
-  if (known) enter(cpu, known);
-  return known;
+  if (!comes_round_) begin_round(cpu);
 }
 
 // a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does
@@ -146,8 +132,32 @@ void Waits::begin_round(Cpu& cpu) {
   cpu.watched_until = kNever;
 }
 
+// What a known wait reads of RAM is as it was, but what the program did before has left other values in
+// registers: a round sets those that it uses. Where the time is up it goes on from there the next time.
+void Waits::come_round(Cpu& cpu) {
+  const Cycle end = cpu.deadline;
+  while (left_ > 0 && cpu.now < end) {
+    const Cycle before = cpu.now;
+    step(cpu);
+    left_ -= cpu.now - before;
+    if (cpu.deadline == end) continue;
+    comes_round_ = nullptr;
+    return fail(cpu);
+  }
+  if (left_ > 0) return;
+  const bool is_back = cpu.next == comes_round_->first;
+  comes_round_ = nullptr;
+  if (const KnownWaits::Wait* const known = is_back ? cpu.known_waits.find(cpu) : nullptr)
+    return enter(cpu, known);
+  begin_round(cpu);
+}
+
 // a round or two; where the time is up it goes on from there the next time
 void Waits::look(Cpu& cpu) {
+  if (comes_round_) {
+    come_round(cpu);
+    if (comes_round_ || state_ != State::Looking) return;
+  }
   const Cycle end = cpu.deadline;
   cpu.watch_round(&round_.memory);
   while (cpu.now < end && state_ == State::Looking) {

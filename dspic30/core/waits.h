@@ -105,7 +105,7 @@ class Waits {
   void look(Cpu& cpu);
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);
-  bool comes_round(Cpu& cpu, const KnownWaits::Wait& wait);
+  void come_round(Cpu& cpu);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
   bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now);
   Cycle look_behind(Cpu& cpu, const Decoded* head, Cycle now);
@@ -136,12 +136,15 @@ class Waits {
   Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
   Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
   Cycle waited_ = 0, jumped_ = 0;
-  unsigned handlers_ = 0;                   // that have come into the program
-  unsigned hints_ = 0, hint_gap_ = 1;       // since the last look that one brought; between two
-  const Decoded* cut_ = nullptr;            // first instruction of the wait that an interrupt came into last
-  Cycle resumed_ = 0;                       // cycles of the program when the latest handler returned
-  Cycle resumed_delayed_ = 0;               // Cpu::delayed then
-  Cycle resumed_at_ = 0;                    // true time then
+  unsigned handlers_ = 0;              // that have come into the program
+  unsigned hints_ = 0, hint_gap_ = 1;  // since the last look that one brought; between two
+  const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
+  Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
+  Cycle resumed_delayed_ = 0;          // Cpu::delayed then
+  Cycle resumed_at_ = 0;               // true time then
+  const KnownWaits::Wait* comes_round_ =
+      nullptr;                              // the look's first round is one of this, its registers apart
+  Cycle left_ = 0;                          // ... of that round: cycles of the program
   const Decoded* look_head_ = nullptr;      // where the look began
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
   Cycle round_delayed_ = 0;                 // Cpu::delayed then

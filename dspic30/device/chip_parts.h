@@ -189,9 +189,9 @@ struct ChipParts {
 
  private:
   static constexpr unsigned kIfs0 = sfr("IFS0"), kIfsEnd = sfr("IFS2") + 2, kAdcon1 = sfr("ADCON1"),
-                            kAdpcfg = sfr("ADPCFG"), kFirstPort = sfr("TRISA"), kLastPort = sfr("LATG"),
-                            kBsram = sfr("BSRAM"), kSsram = sfr("SSRAM"), kPmd1 = sfr("PMD1"),
-                            kPmd2 = sfr("PMD2"), kPmd3 = sfr("PMD3");
+                            kAdpcfg = sfr("ADPCFG"), kTrisB = sfr("TRISB"), kFirstPort = sfr("TRISA"),
+                            kLastPort = sfr("LATG"), kBsram = sfr("BSRAM"), kSsram = sfr("SSRAM"),
+                            kPmd1 = sfr("PMD1"), kPmd2 = sfr("PMD2"), kPmd3 = sfr("PMD3");
   static bool is_flags(unsigned address) { return address - kIfs0 < kIfsEnd - kIfs0; }
   static int flag_word(unsigned address) { return static_cast<int>((address - kIfs0) / 2); }
 

@@ -133,6 +133,7 @@ void ChipParts::write_beyond(unsigned address, std::uint16_t value, unsigned bit
   if (!store.owner) return;
   if ((word >= kFirstPort && word <= kLastPort) || word == kAdpcfg) {
     adc.advance(now);  // inputs held up to now saw the pins as they were
+    if (word == kAdpcfg || word == kTrisB) adc.pins_changed();
     const int latch = Ports::latch_at(word);
     if (latch >= 0 && store.lanes == 0xFFFF) return ports.write_latch(latch, store.value, now);
     return ports.write(word, store.value, store.lanes, now);

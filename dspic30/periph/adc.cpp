@@ -41,6 +41,7 @@ void Adc::reset(Cycle now) {
   form_ = kForms[0];
   set_times();
   buffer_.fill(0);
+  fine_ = 0;
   sampling_ = converting_ = cruising_ = false;
   flag_at_ = kNever;
   if (wants_timer_) timers_.want_matches(3, false, now);
@@ -84,10 +85,7 @@ void Adc::start_sampling(Half at) {
   sampling_ = true;
   con1_ |= kSamp;
   sampling_since_ = at;
-  if (begun_ && count_ == 0 && is_regular()) {
-    start_cruising(at);
-    return;
-  }
+  if (count_ == 0 && is_regular() && (begun_ || begins_regularly())) start_cruising(at);
 }
 
 void Adc::hold(Half at, Half conversion_start) {
@@ -126,6 +124,12 @@ bool Adc::is_regular() const {
          f_.outside.analogue_is_function_of_time();
 }
 
+bool Adc::begins_regularly() const {
+  const std::uint16_t scanned = (con2_ & kCscna) ? cssl_ : 0,
+                      inputs = scanned ? scanned : static_cast<std::uint16_t>(1u << kCh0sa.of(chs_));
+  return pointer_ == 0 && !mux_b_ && (!scanned || scan_at_ == __builtin_ctz(scanned)) && !(inputs & ~fine_);
+}
+
 void Adc::start_cruising(Half at) {
   cruising_ = true;
   cruise_.sample = sample_time_;
@@ -155,16 +159,22 @@ void Adc::cruise(Cycle now) {
   flag_at_ = up(cruise_.start) + kEndToFlag;
 }
 
-/// Back to single stages, as if there had never been anything else.
-void Adc::stop_cruising(Cycle now) {
-  if (!cruising_) return;
+void Adc::keep_results(Cycle now) {
   cruise(now);
   for (int slot = 0; slot < cruise_.count; ++slot)
     buffer_[static_cast<std::size_t>(slot)] = slot_now(slot, now);
+}
+
+/// Back to single stages, as if there had never been anything else.
+void Adc::stop_cruising(Cycle now) {
+  if (!cruising_) return;
+  keep_results(now);
   cruising_ = false;
   restart_sequence();
-  con1_ |= kDone;
-  start_sampling(cruise_.start);
+  if (!is_fresh(now)) con1_ |= kDone;
+  sampling_ = true;
+  con1_ |= kSamp;
+  sampling_since_ = cruise_.start;
   advance(now);
 }
 
@@ -246,6 +256,7 @@ std::uint16_t Adc::peek(unsigned address, Cycle now) const {
   switch (address) {
     case kCon1: {
       if (!cruising_) return con1_;
+      if (is_fresh(now)) return con1_;
       const bool samples = (2 * now - cruise_.start) % cruise_.cycle < cruise_.sample;
       return static_cast<std::uint16_t>((con1_ & ~(kSamp | kDone)) | (samples ? kSamp | kDone : 0));
     }
@@ -280,7 +291,18 @@ void Adc::changed_while_on(unsigned address, Cycle now) {
 
 void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
   advance(now);
-  stop_cruising(now);
+  if (cruising_) {
+    // what switches it off needs no stages any more
+    const bool goes_off = address == kCon1 && !(merge_lanes(con1_, value, lanes) & kAdon);
+    const std::uint16_t status = peek(kCon1, now);
+    if (goes_off) {
+      keep_results(now);
+      cruising_ = false;
+      con1_ = status;
+    } else {
+      stop_cruising(now);
+    }
+  }
   const Half at = 2 * (now + 1);
   switch (address) {
     case kCon1: {
@@ -327,7 +349,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     default:
       break;  // results are read-only
   }
-  schedule(now);
+  if (on() || address == kCon1) schedule(now);
 }
 
 Cycle Adc::horizon(unsigned address, Cycle now) const {
@@ -342,7 +364,11 @@ Cycle Adc::horizon(unsigned address, Cycle now) const {
 
 void Adc::check_channel(int channel, Cycle at) {
   const bool output = f_.ports.is_output({Port::B, channel});
-  if ((f_.ports.is_analogue(channel) && !output) || (complained_ >> channel & 1)) return;
+  if (f_.ports.is_analogue(channel) && !output) {
+    fine_ |= static_cast<std::uint16_t>(1 << channel);
+    return;
+  }
+  if (complained_ >> channel & 1) return;
   complained_ |= static_cast<std::uint16_t>(1 << channel);
   const std::string n = std::to_string(channel);
   const std::string why = output ? "TRISB.TRISB" + n + " = 0 makes its pin an output"

@@ -35,6 +35,8 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
       advance_by_stages(now);
     }
   }
+  /// Port B is another, or ADPCFG: what is converted is checked once more.
+  void pins_changed() { fine_ = 0; }
   /// Edge of INT0's active polarity.
   void int0_edge(Cycle at);
   bool wants_int0() const { return sampling_ && ssrc() == 1; }
@@ -70,6 +72,12 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void advance_by_stages(Cycle now);
   __attribute__((noinline)) void irregular_event(Cycle at);
   void stop_cruising(Cycle now);
+  /// Results of a cruise that has ended, to the buffer.
+  void keep_results(Cycle now);
+  /// Nothing of a cruise has been held yet.
+  bool is_fresh(Cycle now) const { return 2 * now < cruise_.first + cruise_.sample; }
+  /// Is the sequence that begins one as all that follow, and its inputs are known to be fine?
+  bool begins_regularly() const;
   /// Instant at which what a slot of the buffer holds at `now` was held; below cruise_.first: before the
   /// cruise, or never.
   Half held_instant(int slot, Cycle now) const;
@@ -111,6 +119,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool mux_b_ = false;
   bool wants_timer_ = false;
   std::uint16_t complained_ = 0;    // channels
+  std::uint16_t fine_ = 0;          // channels whose pins were checked, and nothing was wrong
   std::uint16_t changed_told_ = 0;  // registers from ADCON1 on
   bool begun_ = false;              // a whole sequence was done stage by stage since the converter was set up
   bool cruising_ = false;
