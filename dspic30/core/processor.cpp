@@ -116,7 +116,10 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     if (cpu.host && is_host_first(outlook.vector)) {
       begin_handler();
-      continue;
+      // straight on, unless something else is to be looked at first
+      outlook.horizon = cpu.parts.interrupt_horizon();
+      if (outlook.horizon <= cpu.now || cpu.now >= until || cpu.host_stale || cpu.is_code_stale()) continue;
+      outlook.vector = kNoVector;
     }
     if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1] && !by_heart_[1].held) {
       serve_pending(outlook.vector);
