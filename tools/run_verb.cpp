@@ -188,8 +188,10 @@ int run(const RunArguments& arguments) {
           std::any_of(asked.begin(), asked.end(), [](const auto& c) { return c.value == "-"; });
       if (twin->uart_choice(i, port) == "-" && (by_option || !arguments.quiet)) serial.listen(*twin, i, port);
     }
-  // where nothing is due ticks are passed over, but text and ^C are looked for in between
-  const sim::Clicks look = outputs.wants_ticks() ? 0 : sim::kClicksPerSecond / 64;
+  // where nothing is due ticks are passed over, but text and ^C are looked for in between; somebody who looks
+  // on sees more of it
+  const bool is_seen = arguments.live || speed > 0 || !team->is_empty();
+  const sim::Clicks look = outputs.wants_ticks() ? 0 : sim::kClicksPerSecond / (is_seen ? 64 : 4);
   while (simulation.now() < end && !team->has_ended()) {
     is_stepping = true;
     if (replay) replay->apply_due(inputs, simulation.now());
