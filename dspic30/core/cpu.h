@@ -427,9 +427,6 @@ class Cpu final : public SfrOwner {
   /// Does it wait now?
   bool stands_in_host() const;
 
-  /// The host hears which handlers known by heart the program holds off by now.
-  std::function<void()> follow_host;
-
   // --- waits (waits.h)
   Waits* waits = nullptr;
   /// Does the program stop at this own head, at that true time?
@@ -472,8 +469,6 @@ class Cpu final : public SfrOwner {
   bool looks_outside = false;           ///< since then a register of a peripheral was read
   bool reads_core = false;              ///< ... or one of the core's, by its address; or DC
   RoundMemory* round_memory = nullptr;  ///< notes accesses to RAM: watch_round()
-  KnownWaits known_waits;
-  KnownCounts known_counts;
   Cycle still_since =
       kNever;                ///< since when nothing that the program looks at can change but by an interrupt
   bool still_reads = false;  ///< does such a round read anything at all?
@@ -503,20 +498,9 @@ class Cpu final : public SfrOwner {
   std::optional<ResetKind> reset_due;
   unsigned written = 0;  ///< W registers that were written since the reset
   std::uint16_t splim = 0, tblpag = 0, psvpag = 0, rcount = 0, corcon = 0, modcon = 0, xbrev = 0;
-  std::array<std::uint16_t, 4> modulo{};  ///< XMODSRT, XMODEND, YMODSRT, YMODEND
-  struct Loop {
-    unsigned count = 0, start = 0, end = 0;
-  } loop, outer_loop;
-  int loop_depth = 0;  ///< DL
-  std::array<std::int64_t, 2> acc{};
   bool oa = false, ob = false, sa = false, sb = false;
-  struct {
-    std::array<std::uint16_t, 4> w{};
-    unsigned flags = 0;  // SR<8>, SR<3:0>
-  } shadow;
   ChipParts& parts;
   ProgramMemory& program;
-  std::optional<TrapRecord> latest_trap;  ///< resets do not forget it
 
  private:
   /// Bytes of RAM that are accessed without further ado: none while somebody notes it.
@@ -612,7 +596,23 @@ class Cpu final : public SfrOwner {
   std::array<OwnHead, kMostHeads> own_heads_;  // where waits of this program begin
 
  public:
-  std::array<std::uint8_t, kRamBytes> ram{};  ///< behind all else, which is looked at more often
+  // what is looked at less often than at each turn lies behind all else
+  std::array<std::uint16_t, 4> modulo{};  ///< XMODSRT, XMODEND, YMODSRT, YMODEND
+  struct Loop {
+    unsigned count = 0, start = 0, end = 0;
+  } loop, outer_loop;
+  int loop_depth = 0;  ///< DL
+  std::array<std::int64_t, 2> acc{};
+  struct {
+    std::array<std::uint16_t, 4> w{};
+    unsigned flags = 0;  // SR<8>, SR<3:0>
+  } shadow;
+  std::optional<TrapRecord> latest_trap;  ///< resets do not forget it
+  /// The host hears which handlers known by heart the program holds off by now.
+  std::function<void()> follow_host;
+  KnownWaits known_waits;
+  KnownCounts known_counts;
+  std::array<std::uint8_t, kRamBytes> ram{};
 };
 
 /// A call, or a jump, to a function of the host, whose number is Decoded::imm.
