@@ -37,6 +37,23 @@ TEST(RobotClock, conversions_are_monotone_and_fit_each_other) {
   }
 }
 
+// a span of 20 hours and more, or a crystal that is off by half a per cent, is counted as any other
+TEST(RobotClock, long_spans_and_bad_crystals_are_as_exact) {
+  const auto floor_of = [](__int128 a, __int128 b) {
+    return static_cast<std::int64_t>(a / b - (a % b < 0 ? 1 : 0));
+  };
+  constexpr std::int64_t kBillion = 1'000'000'000, kEdge = std::int64_t{1} << 40;
+  for (std::int64_t ppb :
+       {-999'999'999, -4'194'304, -4'194'303, -7, 131'000, 4'194'303, 4'194'304, 900'000'000}) {
+    const RobotClock clock(ppb);
+    for (std::int64_t span :
+         {-kEdge - 1, -kEdge, -kEdge + 1, std::int64_t{-3}, kEdge - 1, kEdge, 7 * kEdge + 3}) {
+      EXPECT_EQ(clock.cycle_at(span), floor_of(static_cast<__int128>(span) * (kBillion + ppb), kBillion));
+      EXPECT_EQ(clock.click_at(span), -floor_of(-static_cast<__int128>(span) * kBillion, kBillion + ppb));
+    }
+  }
+}
+
 // a robot that begins again counts on; its cycles lie as they lay after the world's beginning
 TEST(RobotClock, a_new_beginning_is_as_the_first_one_and_forgets_nothing) {
   for (std::int64_t ppb : {-37'123, 0, 131'000}) {
