@@ -319,7 +319,8 @@ bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* norm
 namespace {
 
 template <typename Meets>
-bool cast_each(const Fan& fan, double factor, RayEnd* ends, Meets meets) {
+bool cast_each(const Fan& fan, double factor, RayEnd* ends, bool has_ends, Meets meets) {
+  if (!has_ends) fan.end_freely(ends);
   bool any = false;
   for (const Vec3& dir : fan.dirs) {
     if (meets(dir, ends->distance_m)) {
@@ -331,46 +332,55 @@ bool cast_each(const Fan& fan, double factor, RayEnd* ends, Meets meets) {
   return any;
 }
 
-__attribute__((noinline)) bool cast_at_any(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
-  return cast_each(fan, factor, ends, [&](const Vec3& dir, double& distance_m) {
+__attribute__((noinline)) bool cast_at_any(const Fan& fan, const Placed& what, double factor, RayEnd* ends,
+                                           bool has_ends) {
+  return cast_each(fan, factor, ends, has_ends, [&](const Vec3& dir, double& distance_m) {
     return cast_ray({fan.from, dir}, what, distance_m);
   });
 }
 
-__attribute__((noinline)) bool cast_at_box(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+__attribute__((noinline)) bool cast_at_box(const Fan& fan, const Placed& what, double factor, RayEnd* ends,
+                                           bool has_ends) {
   const SeenBox box({fan.from.x, fan.from.y}, what);
   if (!fan.is_wide && box.is_out_of_sight(fan.axis, fan.half_sin, fan.half_cos, fan.range_m)) return false;
-  return cast_each(fan, factor, ends,
+  return cast_each(fan, factor, ends, has_ends,
                    [&](const Vec3& dir, double& distance_m) { return box.let_in(dir.x, dir.y, distance_m); });
+}
+
+/// No ray within a plan angle of the axis can touch the circle around the solid.
+inline bool misses_bound(Vec2 gap, Vec2 axis, double half_sin, double range_m, double bound_m) {
+  return dot(gap, gap) > (range_m + bound_m) * (range_m + bound_m) || dot(gap, axis) < -bound_m ||
+         std::fabs(cross(axis, gap)) > bound_m + range_m * half_sin;
 }
 
 }  // namespace
 
-bool cast_at_other(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+bool cast_at_other(const Fan& fan, const Placed& what, double factor, RayEnd* ends, bool has_ends) {
   const Solid& solid = *what.solid;
   const Vec2 point{fan.from.x, fan.from.y};
+  if (solid.kind == SolidKind::Cylinder && fan.is_level) {
+    const Vec2 gap = what.frame.at - point;
+    if (!fan.is_wide && misses_bound(gap, fan.axis, fan.half_sin, fan.range_m, solid.bound_m)) return false;
+    const Vec2 from = point - what.frame.at;
+    const double c = dot(from, from) - solid.radius_m * solid.radius_m;
+    return cast_each(fan, factor, ends, has_ends, [&](const Vec3& dir, double& distance_m) {
+      return enter_circle(from, c, {dir.x, dir.y}, distance_m);
+    });
+  }
   if (!fan.is_wide && out_of_sight(point, fan.axis, fan.half_sin, fan.half_cos, fan.range_m, what))
     return false;
-  if (!fan.is_level || solid.kind != SolidKind::Cylinder) return cast_at_any(fan, what, factor, ends);
-  const Vec2 from = point - what.frame.at;
-  const double c = dot(from, from) - solid.radius_m * solid.radius_m;
-  return cast_each(fan, factor, ends, [&](const Vec3& dir, double& distance_m) {
-    return enter_circle(from, c, {dir.x, dir.y}, distance_m);
-  });
+  return cast_at_any(fan, what, factor, ends, has_ends);
 }
 
-bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends) {
+bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends, bool has_ends) {
   if (fan.is_level && !is_at_height(fan.from.z, what)) return false;
-  return fan.is_level && what.solid->is_box() ? cast_at_box(fan, what, factor, ends)
-                                              : cast_at_other(fan, what, factor, ends);
+  return fan.is_level && what.solid->is_box() ? cast_at_box(fan, what, factor, ends, has_ends)
+                                              : cast_at_other(fan, what, factor, ends, has_ends);
 }
 
 bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m,
                   const Placed& what) {
-  const Vec2 gap = what.frame.at - from;
-  const double bound = what.solid->bound_m;
-  if (dot(gap, gap) > (range_m + bound) * (range_m + bound)) return true;
-  if (dot(gap, axis) < -bound || std::fabs(cross(axis, gap)) > bound + range_m * half_sin) return true;
+  if (misses_bound(what.frame.at - from, axis, half_sin, range_m, what.solid->bound_m)) return true;
   if (what.solid->kind != SolidKind::Prism) return false;
   if (what.solid->is_box()) return SeenBox(from, what).is_out_of_sight(axis, half_sin, half_cos, range_m);
   const Vec2 point = what.frame.to_local(from);

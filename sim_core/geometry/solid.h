@@ -64,6 +64,12 @@ struct Ray {
 /// distance 0.
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal = nullptr);
 
+/// Where a ray of a fan ends, and what the caller has said of the solid that it meets there.
+struct RayEnd {
+  double distance_m;
+  double factor;
+};
+
 /// Rays of one sensor: they leave one point and differ little in direction.
 struct Fan {
   Vec3 from;
@@ -74,17 +80,17 @@ struct Fan {
   bool is_level = false;
   double range_m = 0;
   std::vector<Vec3> dirs;  ///< unit vectors
-};
 
-/// Where a ray of a fan ends, and what the caller has said of the solid that it meets there.
-struct RayEnd {
-  double distance_m;
-  double factor;
+  /// Ends of rays that meet nothing.
+  void end_freely(RayEnd* ends) const {
+    for (std::size_t i = 0; i < dirs.size(); ++i) ends[i] = {range_m, 1};
+  }
 };
 
 /// cast_ray() for each ray of a fan, whose ends are not beyond its range; `factor` for those that meet the
-/// solid. True when one does.
-bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends);
+/// solid. True when one does. Without `has_ends` nothing was met before: `ends` hold something only once this
+/// has returned true.
+bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends, bool has_ends = true);
 
 /// True when no ray from a point can meet the solid within `range_m`, if it leaves within half_sin/half_cos
 /// (sine and cosine of the half angle) of the axis. Sure when true; when false, cast.

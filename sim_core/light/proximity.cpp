@@ -45,22 +45,26 @@ struct Surroundings {
     Placed placed;  // in the robot's frame; in worlds with ramps, where robots tilt, in the world's
     const Surface* surface;
   };
-  Clicks at = -1;
-  std::uint64_t version = 0;
+  Clicks at = 0;
   Frame2 frame;
   std::vector<Item> items;
 };
 
 struct ProximityOptics {
   std::vector<std::unique_ptr<SensorOptics>>
-      sensors;                      // robots of one model without settings of their own share
-  std::vector<std::int32_t> first;  // per robot: its sensor 0 among the sensors
-  std::vector<std::int32_t> count;  // per robot
-  std::vector<double> reach_m;
+      sensors;  // robots of one model without settings of their own share
+  struct Robot {
+    std::int32_t first = 0, count = 0;  // its sensors among all
+    double reach_m = 0;
+  };
+  std::vector<Robot> robots;
   /// A scan's newest samples are of four instants.
   struct alignas(64) Kept {
-    std::array<Surroundings, 4> instants;
+    static constexpr Clicks kNone = -1;
+    std::array<Clicks, 4> at{kNone, kNone, kNone, kNone};
+    std::uint64_t version = 0;  // of the scene that all are of
     unsigned oldest = 0;
+    std::array<Surroundings, 4> instants;
   };
   mutable std::vector<Kept> around;  // per robot; used by that robot's thread only
 };
@@ -70,25 +74,18 @@ namespace {
 const SensorOptics& optics_of(const Scene& scene, int robot, int sensor) {
   const ProximityOptics* optics = scene.optics();
   CHECK(optics, "a scene has its optics attached before anybody looks");
-  const std::size_t r = static_cast<std::size_t>(robot);
-  CHECK(sensor >= 0 && sensor < optics->count[r], "no such sensor");
-  return *optics->sensors[static_cast<std::size_t>(optics->first[r] + sensor)];
+  const ProximityOptics::Robot& own = optics->robots[static_cast<std::size_t>(robot)];
+  CHECK(static_cast<unsigned>(sensor) < static_cast<unsigned>(own.count), "no such sensor");
+  return *optics->sensors[static_cast<std::size_t>(own.first + sensor)];
 }
 
 constexpr Clicks quantised(Clicks at) { return at & -kPoseQuantum; }
 
-const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
-  ProximityOptics::Kept& kept = scene.optics()->around[static_cast<std::size_t>(robot)];
-  at = quantised(at);
-  for (const Surroundings& s : kept.instants)
-    if (s.at == at && s.version == scene.version()) return s;
-  Surroundings& s = kept.instants[kept.oldest++ % kept.instants.size()];
-  s.at = at;
-  s.version = scene.version();
-  s.frame = Frame2(scene.pose(robot, at));
+void look_around(const Scene& scene, int robot, Surroundings& s) {
+  s.frame = Frame2(scene.pose(robot, s.at));
   s.items.clear();
   const bool is_tilting = scene.layout().ground.has_ramps();
-  const double reach = scene.optics()->reach_m[static_cast<std::size_t>(robot)];
+  const double reach = scene.optics()->robots[static_cast<std::size_t>(robot)].reach_m;
   const auto add = [&](const Candidate& c, const Placed& placed) {
     if (is_beyond(s.frame.at, reach, placed)) return;
     Surroundings::Item& item = s.items.emplace_back(Surroundings::Item{placed, &scene.surface(c)});
@@ -96,11 +93,26 @@ const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
   };
   const Neighbours& near = scene.neighbours();
   for (const Candidate *c = near.begin(robot), *end = near.end(robot); c != end; ++c) {
-    if (!near.may_see(c, at)) continue;
-    c->moving ? add(*c, scene.placed(c->index, at))
+    if (!near.may_see(c, s.at)) continue;
+    c->moving ? add(*c, scene.placed(c->index, s.at))
               : add(*c, scene.layout().fixed[static_cast<std::size_t>(c->index)]);
   }
-  return s;
+}
+
+/// `at` of a whole quantum.
+const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
+  ProximityOptics::Kept& kept = scene.optics()->around[static_cast<std::size_t>(robot)];
+  if (kept.version == scene.version()) {
+    for (std::size_t i = 0; i < kept.at.size(); ++i)
+      if (kept.at[i] == at) return kept.instants[i];
+  } else {
+    kept.at.fill(ProximityOptics::Kept::kNone);
+    kept.version = scene.version();
+  }
+  const std::size_t i = kept.oldest++ % kept.at.size();
+  kept.at[i] = kept.instants[i].at = at;
+  look_around(scene, robot, kept.instants[i]);
+  return kept.instants[i];
 }
 
 /// Colour factor f of a surface. [Webots B2]: .2 + .8 red, since R2019b with red times (1 - roughness / 2).
@@ -152,14 +164,14 @@ bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, cons
   return any;
 }
 
-/// Fills one end per ray; returns false when none met anything.
+/// Returns false when no ray met anything; otherwise fills one end per ray.
 bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around, RayEnd* ends) {
   if (scene.layout().ground.has_ramps()) return shoot_over_ramps(scene, robot, s, around, ends);
-  for (std::size_t i = 0; i < s.rays.size(); ++i) ends[i] = {s.fan.range_m, 1};
   bool any = false;
   for (const Surroundings::Item& item : around.items)
-    any |= cast_fan(s.fan, item.placed, colour_factor(s.config, *item.surface), ends);
+    any |= cast_fan(s.fan, item.placed, colour_factor(s.config, *item.surface), ends, any);
   if (!s.meets_floor) return any;
+  if (!any) s.fan.end_freely(ends);
   const Vec3& from = s.fan.from;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
     const Vec3& dir = s.fan.dirs[i];
@@ -246,7 +258,7 @@ std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const S
   fan.half_sin = std::min(1.0, std::sin(widest) + 1e-9);
   fan.half_cos = std::cos(widest) - 1e-9;
   RayEnd ends[kMostRays];
-  for (std::size_t i = 0; i < s->rays.size(); ++i) ends[i] = {fan.range_m, 1};
+  fan.end_freely(ends);
   s->nothing = respond(*s, ends);
   return s;
 }
@@ -263,11 +275,11 @@ std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
     const bool plain = desc.sensors.empty() && desc.proximity.is_empty();
     const auto known = shared.find(model);
     if (plain && known != shared.end()) {
-      optics->first.push_back(optics->first[static_cast<std::size_t>(known->second)]);
-      optics->reach_m.push_back(optics->reach_m[static_cast<std::size_t>(known->second)]);
+      const ProximityOptics::Robot own = optics->robots[static_cast<std::size_t>(known->second)];
+      optics->robots.push_back(own);
     } else {
       if (plain) shared.emplace(model, robot);
-      optics->first.push_back(static_cast<std::int32_t>(optics->sensors.size()));
+      const auto first = static_cast<std::int32_t>(optics->sensors.size());
       double reach = model->body_radius_m;
       for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
         const SensorMount& mount = model->proximity[static_cast<std::size_t>(i)];
@@ -275,20 +287,24 @@ std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
         reach = std::max(reach,
                          length({mount.at_m.x, mount.at_m.y}) + optics->sensors.back()->config.max_range_m());
       }
-      optics->reach_m.push_back(reach);
+      optics->robots.push_back({first, static_cast<std::int32_t>(model->proximity.size()), reach});
     }
-    optics->count.push_back(static_cast<std::int32_t>(model->proximity.size()));
   }
   optics->around.resize(world.robots.size());
   return optics;
 }
 
-std::vector<double> optics_reach_m(const ProximityOptics& optics) { return optics.reach_m; }
+std::vector<double> optics_reach_m(const ProximityOptics& optics) {
+  std::vector<double> reach_m;
+  for (const ProximityOptics::Robot& robot : optics.robots) reach_m.push_back(robot.reach_m);
+  return reach_m;
+}
 
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const bool sees_ground = s.meets_floor || scene.layout().ground.has_ramps();
-  if (!sees_ground && !scene.neighbours().may_see(robot, quantised(at))) return s.nothing;
+  at = quantised(at);
+  if (!sees_ground && !scene.neighbours().may_see(robot, at)) return s.nothing;
   const Surroundings& around = surroundings(scene, robot, at);
   if (!sees_ground && around.items.empty()) return s.nothing;
   RayEnd ends[kMostRays];
@@ -323,7 +339,7 @@ struct Eye {
 Eye eye_of(const Scene& scene, int robot, int sensor, Clicks at) {
   const WorldDesc& world = scene.world();
   const SensorOptics& s = optics_of(scene, robot, sensor);
-  const Frame2& frame = surroundings(scene, robot, at).frame;
+  const Frame2& frame = surroundings(scene, robot, quantised(at)).frame;
   const Vec2 at_m = frame.to_world({s.fan.from.x, s.fan.from.y});
   const SensorMount& mount = world.model_of(world.robots[static_cast<std::size_t>(robot)])
                                  ->proximity[static_cast<std::size_t>(sensor)];
@@ -386,9 +402,9 @@ const ProximityConfig& proximity_config(const Scene& scene, int robot, int senso
 
 std::vector<RayTrace> trace_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
-  const Surroundings& around = surroundings(scene, robot, at);
+  const Surroundings& around = surroundings(scene, robot, quantised(at));
   RayEnd ends[kMostRays];
-  shoot(scene, robot, s, around, ends);
+  if (!shoot(scene, robot, s, around, ends)) s.fan.end_freely(ends);
   const TiltedFrame frame(scene, robot, around.at);
   const Vec3 from = frame.to_world(s.fan.from);
   std::vector<RayTrace> out;
