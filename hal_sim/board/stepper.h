@@ -100,12 +100,12 @@ class Stepper {
   void turn(std::int64_t count, int direction, Cycle last, Cycle before, Cycle earlier, unsigned coils) {
     if (count > 1) {
       const Cycle since = count > 2 ? earlier : motion_.stepped_at;
-      motion_.steps += (count - 2) * direction;
-      motion_.ready_at += (count - 2) * kPullOutCycles;
-      turn_once(direction, before, since);
+      before_ = motion_.after((count - 2) * direction, (count - 2) * kPullOutCycles, direction, before,
+                              before - since);
+    } else {
+      before_ = motion_;
     }
-    before_ = motion_;
-    turn_once(direction, last, motion_.stepped_at);
+    motion_ = before_.after(0, 0, direction, last, last - before_.stepped_at);
     coils_ = coils;
     changed_at_ = last;
   }
@@ -155,19 +155,24 @@ class Stepper {
       if (since <= 0) return from;
       return from + (target - from) * (static_cast<double>(since) / static_cast<double>(move));
     }
+    /// A step further, which begins at `at` where the rotor is, at `from`.
+    Motion stepped(int direction, double from, Cycle at, Cycle move) const {
+      return {steps + direction,
+              from,
+              at,
+              std::min(move, kRotorMoveCycles),
+              at,
+              at,
+              std::max(ready_at, at) + kPullOutCycles};
+    }
+    /// A regular step, behind others that took it so far: the rotor stands where they have brought it.
+    Motion after(std::int64_t passed, Cycle lasted, int direction, Cycle at, Cycle move) const {
+      Motion m = *this;
+      m.steps += passed;
+      m.ready_at += lasted;
+      return m.stepped(direction, static_cast<double>(m.steps), at, move);
+    }
   };
-
-  void begin_step(int direction, double from, Cycle at, Cycle move) {
-    motion_.from = from;
-    motion_.steps += direction;
-    motion_.moved_at = motion_.stepped_at = motion_.pulled_at = at;
-    motion_.move = std::min(move, kRotorMoveCycles);
-    motion_.ready_at = std::max(motion_.ready_at, at) + kPullOutCycles;
-  }
-  /// A regular step: the rotor stands where the one before, at `since`, has brought it.
-  void turn_once(int direction, Cycle at, Cycle since) {
-    begin_step(direction, static_cast<double>(motion_.steps), at, at - since);
-  }
 
   /// -1: no pattern of the motor.
   static int phase_of(unsigned coils) {
@@ -182,8 +187,7 @@ class Stepper {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
-    const double from = position(at);
-    begin_step(direction, from, at, move);
+    motion_ = motion_.stepped(direction, position(at), at, move);
   }
 
   /// The pattern that ends at `at`: has it heated the motor for nothing?

@@ -276,8 +276,10 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
   AgendaMotor& m = bring(wheel, done_tick(serial_of(wheel), at));
+  const bool counted = m.count.counts();
   const bool fine = m.fire(at, stepper(wheel));
   note(Command::Run, at);
+  if (m.count.counts() != counted) shares_known_ = 0;
   m.disturb();
   if (!walking_) find_next_fire();
   return fine;
@@ -493,25 +495,6 @@ AgendaTimer::Function AgendaTimer::following() const {
 
 Cycle AgendaTimer::take_walk_cost() { return std::exchange(walk_cost_, 0); }
 
-std::uint64_t AgendaTimer::share_q32() const {
-  if (!running_) return 0;
-  if (shares_known_ != kAllShares) find_shares();
-  return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
-}
-
-Cycle AgendaTimer::tick_cycles() const {
-  if (!running_) return 0;
-  Cycle tick = nodes_.empty() ? costs_.empty : costs_.list;
-  for (const Node& node : nodes_) tick += cost_of(node);
-  return tick;
-}
-
-std::uint64_t AgendaTimer::calling_share_q32() const {
-  if (!running_) return 0;
-  if (shares_known_ != kAllShares) find_shares();
-  return calling_share_q32_;
-}
-
 /// Ticks that call a function, of all, as a fraction of 2^32. Several agendas that fire at the same tick make
 /// it one: the sum of all is too many by those that two share, which is too few by those that three share ...
 std::uint64_t AgendaTimer::calling_ticks_q32() const {
@@ -562,7 +545,9 @@ void AgendaTimer::find_shares() const {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
   if (!(shares_known_ & kTicks)) {
-    tick_share_q32_ = share(tick_cycles(), 1);
+    tick_cycles_ = nodes_.empty() ? costs_.empty : costs_.list;
+    for (const Node& node : nodes_) tick_cycles_ += cost_of(node);
+    tick_share_q32_ = share(tick_cycles_, 1);
     calling_share_q32_ = tick_share_q32_ * (calling_ticks_q32() >> 8) / (kAllTicks >> 8);
   }
   for (std::size_t i = 0; i < 2; ++i)

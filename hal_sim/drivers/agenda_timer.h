@@ -161,11 +161,23 @@ class AgendaTimer {
   std::int64_t ticks_at(Cycle at) const;
   /// What the ticks take of each cycle that call no function of the program, as a fraction of 2^32; those
   /// that do are run and charged one by one.
-  std::uint64_t share_q32() const;
+  std::uint64_t share_q32() const {
+    if (!running_) return 0;
+    if (shares_known_ != kAllShares) find_shares();
+    return tick_share_q32_ + motor_share_q32_[0] + motor_share_q32_[1];
+  }
   /// What a tick takes that calls nothing and in which no motor fires; 0: the timer stands.
-  Cycle tick_cycles() const;
+  Cycle tick_cycles() const {
+    if (!running_) return 0;
+    if (!(shares_known_ & kTicks)) find_shares();
+    return tick_cycles_;
+  }
   /// The part of it that ticks take which do call one, so that these may be charged in full.
-  std::uint64_t calling_share_q32() const;
+  std::uint64_t calling_share_q32() const {
+    if (!running_) return 0;
+    if (shares_known_ != kAllShares) find_shares();
+    return calling_share_q32_;
+  }
   /// Does the driver step this wheel on and on?
   bool runs(Wheel wheel) const {
     return running_ && motor(wheel).count.counts() && motor(wheel).speed() != 0;
@@ -203,7 +215,7 @@ class AgendaTimer {
   /// The motor, brought to `tick`. Nothing that follows is earlier, whoever asks.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick) const {
     AgendaMotor& m = motors_[static_cast<std::size_t>(wheel)];
-    m.advance_to(tick, line_, *steppers_[static_cast<std::size_t>(wheel)]);
+    if (tick > m.count.tick) m.advance_to(tick, line_, *steppers_[static_cast<std::size_t>(wheel)]);
     return m;
   }
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }
@@ -245,6 +257,7 @@ class AgendaTimer {
 
   static constexpr unsigned kTicks = 4, kAllShares = 7;  // bits 0 and 1: the motors
   mutable std::uint64_t tick_share_q32_ = 0, calling_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
+  mutable Cycle tick_cycles_ = 0;
   mutable unsigned shares_known_ = 0;  // cleared when the list, a cycle or a speed has changed
   std::int64_t next_fire_ = -1;        // next tick that needs the handler, -1 none
   bool walking_ = false;
