@@ -65,13 +65,15 @@ void HostLibrary::begin(Cycle at) {
 // --- calls -----------------------------------------------------------------------------------------------
 
 HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
+  if (index == static_cast<unsigned>(HostFunction::e_get_prox) && is_right_reading(cpu, index))
+    return e_get_prox({cpu, index, at, again});
   if (index >= kHostFunctionCount) return {};
   if (watch_ && !again && !is_right_reading(cpu, index)) watch_->called(static_cast<HostFunction>(index));
   return (this->*kMethods[index])({cpu, index, at, again});
 }
 
 /// By far the most calls: of a sensor that there is, and a scan was started. Nobody need hear of them.
-bool HostLibrary::is_right_reading(const Cpu& cpu, unsigned index) const {
+inline bool HostLibrary::is_right_reading(const Cpu& cpu, unsigned index) const {
   return index >= static_cast<unsigned>(HostFunction::e_get_prox) &&
          index <= static_cast<unsigned>(HostFunction::e_get_ambient_light) &&
          cpu.w[0] < board::kRingSensors && variables_.was_started();

@@ -46,11 +46,12 @@ void ScanVariables::started(int selector) {
 
 std::uint64_t ScanVariables::share_q32() const {
   if (!scan_.is_on()) return 0;
-  const auto q32 = [](Cycle taken, Cycle of) {
-    return (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of);
-  };
-  return scan_.micro_only() ? q32(cycles_.share_scan_micro, drivers::kScanMicroFrameCycles)
-                            : q32(cycles_.share_scan_round, scan_.round());
+  const bool micro = scan_.micro_only();
+  const Cycle taken = micro ? cycles_.share_scan_micro : cycles_.share_scan_round,
+              of = micro ? drivers::kScanMicroFrameCycles : scan_.round();
+  if (share_.taken != taken || share_.of != of)
+    share_ = {taken, of, (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of)};
+  return share_.q32;
 }
 
 // --- samples ---------------------------------------------------------------------------------------------

@@ -25,6 +25,13 @@ class ScanVariables {
   std::uint16_t read(HostVariable array, unsigned index, Cycle at) const {
     return sample({array, index}, at, true);
   }
+  /// A sensor's dark word at one instant less its lit one at another, the difference as a word too.
+  int dark_less_lit(unsigned sensor, Cycle dark_at, Cycle lit_at) const {
+    if (!overlay_)
+      return static_cast<std::int16_t>(scan_.dark_less_lit(static_cast<int>(sensor), dark_at, lit_at));
+    return static_cast<std::int16_t>(read(HostVariable::e_ambient_ir, sensor, dark_at) -
+                                     read(HostVariable::e_ambient_and_reflected_ir, sensor, lit_at));
+  }
   /// Since the last reset.
   bool was_started() const { return scan_.starts() > 0; }
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at);
@@ -73,6 +80,11 @@ class ScanVariables {
 
   drivers::AdcScan& scan_;
   const CallCycles& cycles_;
+  struct Share {
+    Cycle taken = -1, of = 0;
+    std::uint64_t q32 = 0;
+  };
+  mutable Share share_;  // asked for last
   std::unique_ptr<Overlay> overlay_;
   Counter ticks_, acc_refresh_;
   std::uint8_t beside_refresh_ = 0;  // byte behind updateAccI2CCounter, which is nobody's

@@ -371,33 +371,47 @@ IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   c.light_counts = c.irradiance_w_m2 * setup_.ambient_counts_per_w_m2;
   if (lit_for >= 0) {
     c.offset_counts = setup_.ir_offset_counts[i];
-    // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
-    if (lit_for < 40 * kIrSettleCycles) {
-      Settled& kept = settled_[i < kRingSensors / 2 ? 0 : 1];
-      if (lit_for != kept.lit_for)
-        kept = {lit_for,
-                1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles))};
-      c.settled = kept.share;
-    }
+    c.settled = settled_share(sensor, lit_for);
   }
   return c;
 }
 
+// the phototransistor follows the flash with one time constant; after 300 us nothing is missing
+inline double Board::settled_share(int sensor, Cycle lit_for) const {
+  if (lit_for >= 40 * kIrSettleCycles) return 1;
+  Settled& kept = settled_[sensor < kRingSensors / 2 ? 0 : 1];
+  if (lit_for != kept.lit_for)
+    kept = {lit_for, 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles))};
+  return kept.share;
+}
+
+inline double Board::reflected_counts(int sensor, Cycle at, Cycle lit_for) const {
+  const std::size_t i = static_cast<std::size_t>(sensor);
+  double reflection = 0;
+  if (scene_) {
+    const sim::ProximityResponse seen =
+        sim::sense_proximity(*scene_, setup_.robot, sensor, clock_.click_at(at));
+    reflection = seen.value * setup_.ir_gain[i];
+    if (reflection != 0 && seen.relative_noise > 0 && setup_.ir_noise_scale > 0) {
+      const double noise = seen.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
+                                              : noise_.normal(NoiseOf::Reflection, sensor, at);
+      reflection *= 1.0 + noise * seen.relative_noise * setup_.ir_noise_scale;
+    }
+  }
+  return (reflection + setup_.ir_offset_counts[i]) * settled_share(sensor, lit_for);
+}
+
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   const bool lit = lit_for >= 0;
-  if (!lit && is_dark()) return kAdcMax;
-  const IrConversion c = ir_conversion(sensor, at, lit_for);
-  double light = c.light_counts, reflection = c.reflection_counts;
-  if (reflection != 0 && c.relative_noise > 0 && setup_.ir_noise_scale > 0) {
-    const double noise = c.uniform_noise ? noise_.uniform(NoiseOf::Reflection, sensor, at)
-                                         : noise_.normal(NoiseOf::Reflection, sensor, at);
-    reflection *= 1.0 + noise * c.relative_noise * setup_.ir_noise_scale;
-  }
-  if (lit) reflection = (reflection + c.offset_counts) * c.settled;
+  if (is_dark()) return lit ? adc_counts(kAdcMax - reflected_counts(sensor, at, lit_for)) : kAdcMax;
+  double light = 0;
+  if (scene_ && is_lit_)
+    light = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, clock_.click_at(at)) *
+            setup_.ambient_counts_per_w_m2;
   if (setup_.ambient_noise_counts > 0)
     light += setup_.ambient_noise_counts *
              noise_.normal(lit ? NoiseOf::AmbientLit : NoiseOf::AmbientDark, sensor, at);
-  return adc_counts(kAdcMax - light - reflection);
+  return adc_counts(kAdcMax - light - (lit ? reflected_counts(sensor, at, lit_for) : 0));
 }
 
 double Board::mic_level(int microphone, Cycle at) const {

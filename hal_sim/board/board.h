@@ -311,6 +311,10 @@ class Board {
     return driver_ ? driver_->motor_at(wheel, at) : motors_[static_cast<std::size_t>(wheel)];
   }
   void connect_steppers(Cycle at);
+  /// Counts that the flash adds to a lit sample, noise included.
+  double reflected_counts(int sensor, Cycle at, Cycle lit_for) const;
+  /// Part of the flash that a phototransistor has followed, 0 to 1.
+  double settled_share(int sensor, Cycle lit_for) const;
   /// Share of the time for which a wheel's two coils are energised while nothing new is commanded, 0 to 1.
   double coil_duty(Wheel wheel, Cycle at) const;
   /// Tells whoever looks at pins that a latch or a direction has changed.

@@ -33,7 +33,7 @@ constexpr Frame kMicroFrame{3, kScanTadCycles6};
 constexpr Cycle hold_to_end(Frame f, int channel) {
   return ((f.channels - channel) * kScanChannelTad - 1) * f.tad + kScanFlagCycles;
 }
-Cycle hold_to_end(int sensor) {
+constexpr Cycle hold_to_end(int sensor) {
   return hold_to_end(frame_of(kScanLitSlot), sensor < 4 ? 3 : sensor < 8 ? 4 : 9 - sensor);
 }
 // converter clocks of scans of 3, 5 and 6 channels give sequences of one length
@@ -192,15 +192,22 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
   kept.number = static_cast<std::int32_t>(number);
 }
 
-int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
+inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
-  if (kept.is_regular && held_since_ < 0) {
-    const Cycle turn = pairs_ * run_.round;
-    const std::int64_t turns = 1 + quotient(at - kept.until, turn);
-    kept.until += turns * turn;
-    keep(kept, sensor, kept.number + turns * pairs_, lit_sample);
-    return kept.counts;
-  }
+  if (!kept.is_regular || held_since_ >= 0) return read_anew(kept, sensor, at, lit_sample);
+  // whole turns take whole cycles: the new sample's frame ends a turn before the next one's
+  const Cycle turn = pairs_ * run_.round;
+  const std::int64_t turns = 1 + quotient(at - kept.until, turn);
+  kept.until += turns * turn;
+  kept.number += static_cast<std::int32_t>(turns * pairs_);
+  if (sensor >= kRingSensors) return kept.counts;
+  const Cycle held = kept.until - turn - kScanFileCycles - hold_to_end(sensor);
+  kept.counts =
+      static_cast<std::int16_t>(board_.ir_counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
+  return kept.counts;
+}
+
+int AdcScan::read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   const std::int64_t filed = full_interrupts(at - kScanFileCycles);
   const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
   const std::int64_t number = newest(filed, slot, shift, pair_of_sensor(sensor));
@@ -228,6 +235,11 @@ int AdcScan::dark(int sensor, Cycle at) {
 
 int AdcScan::lit(int sensor, Cycle at) {
   return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
+}
+
+int AdcScan::dark_less_lit(int sensor, Cycle dark_at, Cycle lit_at) {
+  const int dark = stays_dark(sensor) ? kAdcMax : this->dark(sensor, dark_at);
+  return dark - read(lit_[static_cast<std::size_t>(sensor)], sensor, lit_at, true);
 }
 
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {

@@ -88,6 +88,8 @@ class AdcScan {
   /// the value.
   int dark(int sensor, Cycle at);
   int lit(int sensor, Cycle at);
+  /// The first at one instant less the second at another, as a program reads a sensor.
+  int dark_less_lit(int sensor, Cycle dark_at, Cycle lit_at);
   /// Both, and the cycle before which neither changes.
   struct Pair {
     int dark = 0, lit = 0;
@@ -184,6 +186,7 @@ class AdcScan {
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
   int read(Sample& kept, int sensor, Cycle at, bool lit_sample);
+  int read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample);
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);
   int evaluate_acc(int axis, std::int64_t sample) const;
