@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <map>
 
@@ -51,6 +52,7 @@ struct Surroundings {
 };
 
 struct ProximityOptics {
+  std::uint64_t serial;  // of all that were made
   std::vector<std::unique_ptr<SensorOptics>>
       sensors;  // robots of one model without settings of their own share
   struct Robot {
@@ -58,15 +60,6 @@ struct ProximityOptics {
     double reach_m = 0;
   };
   std::vector<Robot> robots;
-  /// A scan's newest samples are of four instants.
-  struct alignas(64) Kept {
-    static constexpr Clicks kNone = -1;
-    std::array<Clicks, 4> at{kNone, kNone, kNone, kNone};
-    std::uint64_t version = 0;  // of the scene that all are of
-    unsigned oldest = 0;
-    std::array<Surroundings, 4> instants;
-  };
-  mutable std::vector<Kept> around;  // per robot; used by that robot's thread only
 };
 
 namespace {
@@ -99,15 +92,29 @@ void look_around(const Scene& scene, int robot, Surroundings& s) {
   }
 }
 
+/// What the robot that a thread looked at last sees around it: one after the other runs up to the end of a
+/// tick, and then the scene is another one. A scan's newest samples are of four instants.
+struct Kept {
+  static constexpr Clicks kNone = -1;
+  std::uint64_t optics = 0, version = 0;  // of the scene
+  int robot = 0;
+  unsigned oldest = 0;
+  std::array<Clicks, 4> at{kNone, kNone, kNone, kNone};
+  std::array<Surroundings, 4> instants;
+};
+
 /// `at` of a whole quantum.
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
-  ProximityOptics::Kept& kept = scene.optics()->around[static_cast<std::size_t>(robot)];
-  if (kept.version == scene.version()) {
+  thread_local Kept kept;
+  const std::uint64_t optics = scene.optics()->serial;
+  if (kept.robot == robot && kept.version == scene.version() && kept.optics == optics) {
     for (std::size_t i = 0; i < kept.at.size(); ++i)
       if (kept.at[i] == at) return kept.instants[i];
   } else {
-    kept.at.fill(ProximityOptics::Kept::kNone);
+    kept.at.fill(Kept::kNone);
+    kept.robot = robot;
     kept.version = scene.version();
+    kept.optics = optics;
   }
   const std::size_t i = kept.oldest++ % kept.at.size();
   kept.at[i] = kept.instants[i].at = at;
@@ -266,7 +273,9 @@ std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const S
 }  // namespace
 
 std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
+  static std::atomic<std::uint64_t> made{0};
   auto optics = std::make_shared<ProximityOptics>();
+  optics->serial = ++made;
   std::map<const RobotModel*, int> shared;  // looked up only, never walked in order of address
   for (int robot = 0; robot < static_cast<int>(world.robots.size()); ++robot) {
     const RobotDesc& desc = world.robots[static_cast<std::size_t>(robot)];
@@ -290,7 +299,6 @@ std::shared_ptr<const ProximityOptics> make_optics(const WorldDesc& world) {
       optics->robots.push_back({first, static_cast<std::int32_t>(model->proximity.size()), reach});
     }
   }
-  optics->around.resize(world.robots.size());
   return optics;
 }
 

@@ -28,7 +28,7 @@ struct ProximityResponse {
 
 /// Sensor `sensor` of robot `robot` at instant `at`. `at` may lie up to 40 ms before or one tick after the
 /// last tick: poses are interpolated, or carried on with the last tick's velocity. Deterministic; may be
-/// called from any thread, but for one robot from one thread at a time (each robot keeps a cache).
+/// called from any thread. Quickest for one robot after the other (each thread keeps what it saw last).
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at);
 
 /// What a sensor answers to an endless flat wall across its axis, without a scene: what response curves show.
