@@ -12,7 +12,7 @@ constexpr unsigned kSensors = 10;  // with the turret's two
 }  // namespace
 
 /// The sensor's dark value less its lit one, each as its word is read in the call.
-int HostLibrary::reading(const Call& call, unsigned sensor, Cycle dark_after, Cycle lit_after) {
+inline int HostLibrary::reading(const Call& call, unsigned sensor, Cycle dark_after, Cycle lit_after) {
   if (!call.cpu.watching) return variables_.dark_less_lit(sensor, call.at + dark_after, call.at + lit_after);
   const int dark = look_at(call, HostVariable::e_ambient_ir, sensor, dark_after),
             lit = look_at(call, HostVariable::e_ambient_and_reflected_ir, sensor, lit_after);

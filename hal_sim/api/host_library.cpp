@@ -17,7 +17,8 @@ namespace {
 constexpr int kAgendaHandler = 0, kScanHandler = 1;
 constexpr Cycle kEntryCycles = 4, kRetfieCycles = 3, kCallCycles = 2;  // [DS70143 5.4, 19.1]
 
-drivers::AgendaCosts costs_of(const CallCycles& c) {
+drivers::AgendaCosts costs_of(Level level) {
+  const CallCycles& c = call_cycles(level);
   drivers::AgendaCosts costs;
   costs.empty = kEntryCycles + c.walk_empty + kRetfieCycles;
   costs.list = kEntryCycles + c.walk_begin + c.walk_end + kRetfieCycles;
@@ -31,6 +32,14 @@ drivers::AgendaCosts costs_of(const CallCycles& c) {
   costs.motor_off = c.share_motor_off;
   costs.motor_step = c.share_motor_step;
   return costs;
+}
+
+/// Of all robots whose library was compiled alike.
+const drivers::AgendaCosts& common_costs(Level level) {
+  static const std::array<drivers::AgendaCosts, 4> kCosts = {
+      costs_of(static_cast<Level>(0)), costs_of(static_cast<Level>(1)), costs_of(static_cast<Level>(2)),
+      costs_of(static_cast<Level>(3))};
+  return kCosts[static_cast<std::size_t>(level)];
 }
 
 }  // namespace
@@ -49,7 +58,7 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
       rhythm_(cycles_) {
   drivers_->leave_telling_to_others();
   agendas().leave_flag_to_others();
-  agendas().set_costs(costs_of(cycles_));
+  agendas().set_costs(common_costs(served.level));
   begin(0);
 }
 

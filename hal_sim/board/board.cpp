@@ -385,7 +385,8 @@ inline double Board::settled_share(int sensor, Cycle lit_for) const {
   return kept.share;
 }
 
-inline double Board::reflected_counts(int sensor, Cycle at, Cycle lit_for) const {
+__attribute__((always_inline)) inline double Board::reflected_counts(int sensor, Cycle at,
+                                                                     Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);
   double reflection = 0;
   if (scene_) {

@@ -91,10 +91,48 @@ class AgendaMotor {
   /// by firing.
   void advance_to(std::int64_t tick, const TickLine& line, board::Stepper& stepper) {
     if (tick <= count.tick) return;
-    if (!count.counts() || speed_ == 0) {
+    if (count.counts() && speed_ != 0 && tick - count.tick >= count.ticks_to_fire())
+      step_to(tick, line, stepper);
+    else
       count_idle(tick);
-      return;
-    }
+  }
+
+  /// Ticks from one step to the next.
+  std::int64_t full_period() const { return saves_power() ? step_ticks_ : count.cycle; }
+
+  /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the
+  /// one before ended. (Before, the rotor is followed from step to step: how it catches up decides on the
+  /// wheel's slip, half a per cent of the way where speeds are set 20 times a second.)
+  bool is_even() const { return regular_ >= kRegularSteps; }
+  /// left: forward only for v > 0; right: backward only for v < 0
+  int step_direction() const {
+    if (forward_ < 0) return speed_ > 0 ? 1 : -1;
+    return speed_ < 0 ? -1 : 1;
+  }
+  /// Tick of the next step (not coil-off), or -1 if there is none without a command.
+  std::int64_t next_step_tick() const {
+    if (!count.counts() || speed_ == 0) return -1;
+    std::int64_t next = count.tick + count.ticks_to_fire();
+    if (phase_on && saves_power()) next += step_ticks_ - kPowerSaveTicks;
+    return next;
+  }
+
+  void set_cycle(int cycle) { count.cycle = static_cast<std::uint16_t>(cycle); }
+
+  /// Somebody changed speed, cycle, pins or phase: the rhythm has to be found again.
+  void disturb() { regular_ = 0; }
+
+ private:
+  /// Steps in a row after which every one has had the time to finish: two that came a period after the one
+  /// before. The last of them begins where the one before has ended, so it can be added up with what follows.
+  static constexpr int kRegularSteps = 3;
+  int forward_;
+  int regular_ = 0;  // steps since the last command
+  int speed_ = 0, magnitude_ = 0;
+  int step_ticks_ = 0;  // from step to step, as the driver divides
+
+  /// advance_to() where something fires.
+  __attribute__((noinline)) void step_to(std::int64_t tick, const TickLine& line, board::Stepper& stepper) {
     const auto fire_at = [&](std::int64_t fire_tick) {
       count.tick = fire_tick;
       fire(line.cycle_of(fire_tick), stepper);
@@ -141,40 +179,6 @@ class AgendaMotor {
     if (count.tick + count.ticks_to_fire() <= tick) fire_at(count.tick + count.ticks_to_fire());
     count_idle(tick);
   }
-
-  /// Ticks from one step to the next.
-  std::int64_t full_period() const { return saves_power() ? step_ticks_ : count.cycle; }
-
-  /// Does the wheel turn evenly until the next command? From the third step on, when each begins where the
-  /// one before ended. (Before, the rotor is followed from step to step: how it catches up decides on the
-  /// wheel's slip, half a per cent of the way where speeds are set 20 times a second.)
-  bool is_even() const { return regular_ >= kRegularSteps; }
-  /// left: forward only for v > 0; right: backward only for v < 0
-  int step_direction() const {
-    if (forward_ < 0) return speed_ > 0 ? 1 : -1;
-    return speed_ < 0 ? -1 : 1;
-  }
-  /// Tick of the next step (not coil-off), or -1 if there is none without a command.
-  std::int64_t next_step_tick() const {
-    if (!count.counts() || speed_ == 0) return -1;
-    std::int64_t next = count.tick + count.ticks_to_fire();
-    if (phase_on && saves_power()) next += step_ticks_ - kPowerSaveTicks;
-    return next;
-  }
-
-  void set_cycle(int cycle) { count.cycle = static_cast<std::uint16_t>(cycle); }
-
-  /// Somebody changed speed, cycle, pins or phase: the rhythm has to be found again.
-  void disturb() { regular_ = 0; }
-
- private:
-  /// Steps in a row after which every one has had the time to finish: two that came a period after the one
-  /// before. The last of them begins where the one before has ended, so it can be added up with what follows.
-  static constexpr int kRegularSteps = 3;
-  int forward_;
-  int regular_ = 0;  // steps since the last command
-  int speed_ = 0, magnitude_ = 0;
-  int step_ticks_ = 0;  // from step to step, as the driver divides
 
   /// In a regular rhythm: was the last firing a step (true) or the coils' switching off?
   bool phase_on_is_new() const { return !saves_power() || phase_on; }

@@ -16,6 +16,7 @@ constexpr int kDone = 1;      // EXIT_OK of the library, AG_ALREADY_CREATED too
 constexpr int kNotFound = 2;  // AG_NOT_FOUND
 constexpr std::uint32_t kBeforeAll = UINT32_MAX;
 constexpr std::uint64_t kAllTicks = std::uint64_t{1} << 32;
+constexpr AgendaCosts kNativeCosts;
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {
   const std::int64_t q = a / b;
@@ -24,8 +25,8 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
-    : steppers_{&left, &right}, motors_{AgendaMotor(-1), AgendaMotor(+1)} {
-  nodes_.reserve(8);
+    : costs_(&kNativeCosts), steppers_{&left, &right}, motors_{AgendaMotor(-1), AgendaMotor(+1)} {
+  nodes_.reserve(4);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
 
@@ -362,7 +363,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     for (Node& one : nodes_)
       if (one.serial == walk_serial_) node = &one;
     if (node) node->count.counter = 0;
-    walk_cost_ += node ? costs_.after : costs_.after_destroyed;
+    walk_cost_ += node ? costs_->after : costs_->after_destroyed;
   }
   // newest first, those that are older than the one just processed
   for (std::size_t i = nodes_.size(); i-- > 0;) {
@@ -379,7 +380,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     ++count.counter;
     if (count.counter < count.cycle) continue;
     if (node.kind == Kind::User) {
-      walk_cost_ += costs_.fires - cost;
+      walk_cost_ += costs_->fires - cost;
       in_callback_ = true;
       return node.function;
     }
@@ -472,7 +473,7 @@ void AgendaTimer::release(Cycle at) {
 
 Cycle AgendaTimer::cost_of(const Node& node) const {
   const AgendaCount& count = count_of(node);
-  return !count.active ? costs_.paused : count.cycle == 0 ? costs_.resting : costs_.counts;
+  return !count.active ? costs_->paused : count.cycle == 0 ? costs_->resting : costs_->counts;
 }
 
 const AgendaTimer::Node* AgendaTimer::node_of(std::uint32_t serial) const {
@@ -545,7 +546,7 @@ void AgendaTimer::find_shares() const {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
   };
   if (!(shares_known_ & kTicks)) {
-    tick_cycles_ = nodes_.empty() ? costs_.empty : costs_.list;
+    tick_cycles_ = nodes_.empty() ? costs_->empty : costs_->list;
     for (const Node& node : nodes_) tick_cycles_ += cost_of(node);
     tick_share_q32_ = share(tick_cycles_, 1);
     calling_share_q32_ = tick_share_q32_ * (calling_ticks_q32() >> 8) / (kAllTicks >> 8);
@@ -554,7 +555,7 @@ void AgendaTimer::find_shares() const {
     if (const AgendaMotor& m = motors_[i]; !(shares_known_ >> i & 1))
       motor_share_q32_[i] =
           m.count.counts() && m.speed() != 0
-              ? share(m.saves_power() ? costs_.motor_half + costs_.motor_off : costs_.motor_step,
+              ? share(m.saves_power() ? costs_->motor_half + costs_->motor_off : costs_->motor_step,
                       m.full_period())
               : 0;
   shares_known_ = kAllShares;

@@ -48,9 +48,9 @@ class AgendaTimer {
 
   /// The board's motors, left and right; they outlive this.
   explicit AgendaTimer(board::Stepper& left, board::Stepper& right);
-  /// What the handler takes from now on; without it, as the native way charges.
+  /// What the handler takes from now on; without it, as the native way charges. They outlive this.
   void set_costs(const AgendaCosts& costs) {
-    costs_ = costs;
+    costs_ = &costs;
     shares_known_ = 0;
   }
   /// The state's hash counts cycles from here on, so that one begun later has that of one begun at 0.
@@ -215,7 +215,7 @@ class AgendaTimer {
   /// The motor, brought to `tick`. Nothing that follows is earlier, whoever asks.
   AgendaMotor& bring(Wheel wheel, std::int64_t tick) const {
     AgendaMotor& m = motors_[static_cast<std::size_t>(wheel)];
-    if (tick > m.count.tick) m.advance_to(tick, line_, *steppers_[static_cast<std::size_t>(wheel)]);
+    m.advance_to(tick, line_, *steppers_[static_cast<std::size_t>(wheel)]);
     return m;
   }
   std::uint32_t serial_of(Wheel wheel) const { return motor_serial_[static_cast<int>(wheel)]; }
@@ -236,35 +236,34 @@ class AgendaTimer {
   void find_shares() const;
   std::uint64_t calling_ticks_q32() const;
 
-  AgendaCosts costs_;
+  // what each look at the ticks needs lies together, with large swarms in mind
   TickLine line_;
-  bool running_ = false, enabled_ = false;
-  std::int64_t stopped_tick_ = 0;  // ticks processed while not running
-  Cycle held_since_ = -1;          // -1: not held
-  std::int64_t held_done_ = 0;     // ticks processed then
-  bool has_no_flag_ = false;
-  std::int64_t lost_ticks_ = 0;
-  Cycle first_lost_ = 0, first_speed_ = -1;
+  std::int64_t next_fire_ = -1;  // next tick that needs the handler, -1 none
+  Cycle held_since_ = -1;        // -1: not held
+  std::int64_t held_done_ = 0;   // ticks processed then
+  std::int64_t walk_tick_ = 0;
+  std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
+  bool running_ = false, enabled_ = false, walking_ = false, in_callback_ = false;
+  bool has_no_flag_ = false, has_node_[2] = {false, false};
+  std::uint32_t motor_serial_[2] = {0, 0};
   std::vector<Node> nodes_;  // oldest first; the list is walked from the back
+  Cycle walk_cost_ = 0;      // since it was taken last
+  const AgendaCosts* costs_;
   board::Stepper* steppers_[2];
   mutable AgendaMotor motors_[2];  // as far as somebody has asked: when changes no answer
   std::uint64_t history_ = 0;      // of commands, for the hash
   Cycle origin_ = 0;               // ... which counts from here
-  bool has_node_[2] = {false, false};
-  Function motor_functions_[2] = {nullptr, nullptr};
-  std::uint32_t motor_serial_[2] = {0, 0};
-  std::uint32_t last_serial_ = 0;
 
   static constexpr unsigned kTicks = 4, kAllShares = 7;  // bits 0 and 1: the motors
+  mutable unsigned shares_known_ = 0;  // cleared when the list, a cycle or a speed has changed
   mutable std::uint64_t tick_share_q32_ = 0, calling_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
   mutable Cycle tick_cycles_ = 0;
-  mutable unsigned shares_known_ = 0;  // cleared when the list, a cycle or a speed has changed
-  std::int64_t next_fire_ = -1;        // next tick that needs the handler, -1 none
-  bool walking_ = false;
-  std::int64_t walk_tick_ = 0;
-  std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
-  Cycle walk_cost_ = 0;            // since it was taken last
-  bool in_callback_ = false;
+
+  Function motor_functions_[2] = {nullptr, nullptr};
+  std::uint32_t last_serial_ = 0;
+  std::int64_t stopped_tick_ = 0;  // ticks processed while not running
+  std::int64_t lost_ticks_ = 0;
+  Cycle first_lost_ = 0, first_speed_ = -1;
 };
 
 }  // namespace drivers
