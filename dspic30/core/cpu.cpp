@@ -79,6 +79,7 @@ void Cpu::have_own_store(const std::vector<std::uint32_t>& told, std::shared_ptr
 void Cpu::choose_code() {
   if (program.version() != code_version_) {
     code_version_ = program.version();
+    window_words = nullptr;
     forget_code(true);
   }
   const auto [reads, writes] = special_registers();
@@ -154,6 +155,8 @@ void Cpu::reset() {
   host_handlers = 0;
   host_stale = true;
   written = 0;
+  stack_most = kNoLimit;
+  window_words = nullptr;
   splim = tblpag = psvpag = rcount = modcon = xbrev = 0;
   corcon = kCorconAtReset;
   modulo = {0, 1, 0, 1};
@@ -170,7 +173,7 @@ void Cpu::reset() {
 
 // --- flow -----------------------------------------------------------------------------------------------
 
-unsigned Cpu::address_of(const Decoded* d) const {
+unsigned Cpu::address_of_any(const Decoded* d) const {
   if (const unsigned place = address_of_host_place(d)) return place;
   const auto index = static_cast<unsigned>(d - code_);
   return index < kFlashWords ? 2 * index : bad_address_;
@@ -232,6 +235,20 @@ const Decoded* Cpu::jump_back(unsigned address, const Decoded* from) {
   if (!is_decoded(target)) decode(target);
   now -= target->lead;
   return target;
+}
+
+void Cpu::check_stack(unsigned ea) {
+  if (ea < kRamStart || ea > stack_most) trap(Trap::StackError);
+}
+
+void Cpu::push_slowly(unsigned address) {
+  push(address & 0xFFFF);
+  push(address >> 16);
+}
+
+unsigned Cpu::pop_slowly() {
+  const unsigned high = pop() & 0x7F, low = pop();
+  return high << 16 | (low & 0xFFFE);
 }
 
 void Cpu::trap(Trap which) {
@@ -432,12 +449,14 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kSplim:
       splim = wanted;
       splim_on |= lanes == 0xFFFF;
+      if (splim_on) stack_most = splim;
       break;
     case kTblpag:
       tblpag = wanted;
       break;
     case kPsvpag:
       psvpag = wanted;
+      window_words = nullptr;
       break;
     case kRcount:
       rcount = wanted;
@@ -464,6 +483,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       break;
     case kCorcon:
       corcon = wanted & kCorconKept;
+      window_words = nullptr;
       if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.level() > 7)
         parts.interrupts.set_level(parts.interrupts.level() & 7, when);
       end_loop |= (value & kEdt) && loop_depth > 0;
@@ -596,6 +616,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
   const unsigned address = static_cast<unsigned>(psvpag) << 15 | (ea & 0x7FFE);
   const bool is_eeprom = address - kEepromStart < 2 * kEepromWordCount;
   if (is_eeprom) note_effect();
+  if (psvpag < kFlashPages) window_words = program.flash() + (static_cast<std::size_t>(psvpag) << 14);
   const unsigned word = (is_eeprom ? parts.nvm.table_read(address) : program.read(address)) & 0xFFFF;
   return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
 }
@@ -635,6 +656,7 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
   if (ea < kDisicnt && bits == 16)
     if (const Saved saved = saved_register(ea); saved.word) {
       this->*saved.word = static_cast<std::uint16_t>(value & saved.bits);
+      window_words = nullptr;
       return;
     }
   const Cycle t = true_now() + at->lead;

@@ -115,7 +115,10 @@ class Cpu final : public SfrOwner {
   const KnownRoutine* known_at(unsigned address) const { return table_->known_at(address); }
 
   // --- flow
-  unsigned address_of(const Decoded* d) const;
+  unsigned address_of(const Decoded* d) const {
+    if constexpr (kIsTranslated) return 2 * static_cast<unsigned>(d - code_);
+    return address_of_any(d);
+  }
   /// The instruction at a program address that the course jumps to.
   const Decoded* jump(unsigned address, const Decoded* from);
   const Decoded* arrive(const Decoded* target) {
@@ -269,7 +272,7 @@ class Cpu final : public SfrOwner {
   unsigned read16(unsigned ea) {
     if (ea - plain_start < plain_ram() && !(ea & 1)) return load(ea - kRamStart);
     if constexpr (kIsTranslated) {
-      if (is_flash_constant(ea) && !(ea & 1)) return flash_constant(ea);
+      if (!(ea & 1) && is_flash_constant(ea)) return flash_constant(ea);
       if (is_served(ea) && !(ea & 1)) return read_served(ea, 16);
     }
     return read_elsewhere(ea, 16);
@@ -318,6 +321,26 @@ class Cpu final : public SfrOwner {
   }
   /// What stands there becomes (old & keep) ^ flip; as read and write, faster for what handlers change.
   void modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits);
+  /// A return address: two words, as push() puts them one after the other, and as pop() takes them.
+  void push_address(unsigned address) {
+    const unsigned ea = w[15];
+    if (is_plain_pair(ea)) {
+      std::memcpy(&ram[ea - kRamStart], &address, 4);
+      w[15] = static_cast<std::uint16_t>(ea + 4);
+      return;
+    }
+    push_slowly(address);
+  }
+  unsigned pop_address() {
+    const auto ea = static_cast<std::uint16_t>(w[15] - 4);
+    if (is_plain_pair(ea)) {
+      std::uint32_t address;
+      std::memcpy(&address, &ram[ea - kRamStart], 4);
+      w[15] = ea;
+      return address & 0x7FFFFE;
+    }
+    return pop_slowly();
+  }
   void push(unsigned value) {
     const unsigned ea = stack_checked(w[15]);
     w[15] = static_cast<std::uint16_t>(ea + 2);
@@ -359,7 +382,11 @@ class Cpu final : public SfrOwner {
     return stack_checked(ea);
   }
   unsigned stack_checked(unsigned ea) {
-    if (ea < kRamStart || (splim_on && ea > splim)) trap(Trap::StackError);
+    if constexpr (kIsTranslated) {
+      if (ea - plain_start >= plain_ram() || ea > stack_most) check_stack(ea);
+    } else if (ea < kRamStart || ea > stack_most) {
+      trap(Trap::StackError);
+    }
     return ea;
   }
   /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
@@ -494,11 +521,16 @@ class Cpu final : public SfrOwner {
   bool code_is_stale = false;    ///< choose_code() before the next instruction
   bool end_loop = false;         ///< CORCON.EDT
   bool splim_on = false;
+  unsigned stack_most = kNoLimit;  ///< SPLIM, if it is on
+  static constexpr unsigned kNoLimit = 0xFFFF;
   enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
   std::optional<ResetKind> reset_due;
   unsigned written = 0;  ///< W registers that were written since the reset
   std::uint16_t splim = 0, tblpag = 0, psvpag = 0, rcount = 0, corcon = 0, modcon = 0, xbrev = 0;
   bool oa = false, ob = false, sa = false, sb = false;
+  /// What of the flash the PSV window shows; null: nothing, or nobody has looked through it since PSVPAG,
+  /// CORCON or the flash changed.
+  const std::uint32_t* window_words = nullptr;
   ChipParts& parts;
   ProgramMemory& program;
 
@@ -522,16 +554,12 @@ class Cpu final : public SfrOwner {
   }
   /// In translated code, of which none is repeated: a word of the flash through the PSV window, and what that
   /// costs (Decoded::psv; the translator knows it).
-  bool is_flash_constant(unsigned ea) const {
-    return ea >= kPsvStart && (corcon & kPsvOn) && psvpag < kFlashPages;
-  }
+  bool is_flash_constant(unsigned ea) const { return ea >= kPsvStart && window_words; }
   unsigned flash_constant(unsigned ea) {
     now += psv_cost();
     return flash_word(ea);
   }
-  unsigned flash_word(unsigned ea) const {
-    return program.flash()[static_cast<unsigned>(psvpag) << 14 | (ea & 0x7FFE) >> 1] & 0xFFFF;
-  }
+  unsigned flash_word(unsigned ea) const { return window_words[(ea & 0x7FFE) >> 1] & 0xFFFF; }
   static int psv_cost();
   /// Does whoever plays the library hold it?
   bool is_served(unsigned ea) const { return ea - kRamStart < plain_start - kRamStart; }
@@ -542,6 +570,14 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  bool is_plain_pair(unsigned ea) const {
+    const unsigned bytes = plain_ram();
+    return bytes >= 4 && ea - plain_start <= bytes - 4 && !(ea & 1) && ea + 2 <= stack_most;
+  }
+  __attribute__((noinline)) void push_slowly(unsigned address);
+  __attribute__((noinline)) unsigned pop_slowly();
+  __attribute__((noinline)) void check_stack(unsigned ea);
+  unsigned address_of_any(const Decoded* d) const;
   bool is_plain_frame(unsigned begin, unsigned words) const;
   void push_frame(unsigned registers, int words);
   void pop_frame(unsigned registers, int words);

@@ -39,10 +39,7 @@ const Decoded* go_to_register(Cpu& cpu, const Decoded* d) {
   return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
 
-void push_return(Cpu& cpu, unsigned address) {
-  cpu.push(address & 0xFFFF);
-  cpu.push(address >> 16);
-}
+void push_return(Cpu& cpu, unsigned address) { cpu.push_address(address); }
 const Decoded* call(Cpu& cpu, const Decoded* d) {
   const unsigned back = cpu.address_of(d) + 4;
   push_return(cpu, back);
@@ -73,9 +70,9 @@ void hurry_to_exception(Cpu& cpu) {
 }
 
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {
-  const unsigned high = cpu.pop() & 0x7F, low = cpu.pop();
+  const unsigned address = cpu.pop_address();
   if constexpr (!kIsTranslated) hurry_to_exception(cpu);  // translated, it runs only if nothing comes so soon
-  return cpu.return_to(high << 16 | (low & 0xFFFE), d);
+  return cpu.return_to(address, d);
 }
 template <bool Byte>
 const Decoded* return_literal(Cpu& cpu, const Decoded* d) {

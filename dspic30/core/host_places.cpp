@@ -15,11 +15,6 @@ namespace {
 
 constexpr unsigned kRcount = sfr("RCOUNT"), kPsvpag = sfr("PSVPAG");
 
-void push_address(Cpu& cpu, unsigned address) {
-  cpu.push(address & 0xFFFF);
-  cpu.push(address >> 16);
-}
-
 /// Calls function `index`. False: it waits, or there is none.
 bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result) {
   cpu.parts.events.tell_change(at);
@@ -88,7 +83,7 @@ const std::array<Decoded, kHostPlaces> host_places = make_places();
 static const Decoded* stand_in_host(Cpu& cpu, const Decoded* d, Cycle at, Cycle until) {
   const unsigned place = kHostStart + 2 * static_cast<unsigned>(d->imm);
   if (cpu.host_stale) cpu.deadline = 0;
-  push_address(cpu, cpu.address_of(d) + 2u * d->b);
+  cpu.push_address(cpu.address_of(d) + 2u * d->b);
   cpu.host_again = until > at;
   cpu.stands_until = until;
   cpu.stands_at = host_place(place);
@@ -99,7 +94,7 @@ static const Decoded* stand_in_host(Cpu& cpu, const Decoded* d, Cycle at, Cycle 
 // a function that does not wait needs no return address; d->cycles are the call's
 const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   if (!cpu.host) {  // an address beyond the flash like any other
-    push_address(cpu, cpu.address_of(d) + 2u * d->b);
+    cpu.push_address(cpu.address_of(d) + 2u * d->b);
     return cpu.jump(kHostStart + 2 * static_cast<unsigned>(d->imm), d);
   }
   const Cycle at = cpu.clocks.true_at(cpu.now + d->cycles);
@@ -186,7 +181,10 @@ void Cpu::pop_frame(unsigned registers, int words) {
   for (int i = words; i-- > 0;) {
     const std::uint16_t word = next_word();
     if (i == 0) rcount = word & saved_register(kRcount).bits;
-    if (i == 1) psvpag = word & saved_register(kPsvpag).bits;
+    if (i == 1 && psvpag != (word & saved_register(kPsvpag).bits)) {
+      psvpag = word & saved_register(kPsvpag).bits;
+      window_words = nullptr;
+    }
   }
   const unsigned low = is_plain ? count_low(registers) : 0;
   for (unsigned left = registers >> low << low; left != 0;) {
@@ -231,7 +229,7 @@ const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
     return at;
   }
   if (step.function) {
-    push_address(*this, kHostHandlerReturn);
+    push_address(kHostHandlerReturn);
     at = host_place(kHostHandlerReturn);
     return jump(pointed(step.function & ~1u, at), from);
   }

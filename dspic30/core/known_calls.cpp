@@ -27,9 +27,8 @@ std::uint32_t return_address(const Cpu& cpu, unsigned top) {
 // nobody looks on, no loop of the chip can end in it, and pointers and stack are as everywhere
 bool can_be_answered(const Cpu& cpu) {
   const unsigned top = cpu.w[15], full = top + KnownCalls::kStack;
-  return !(cpu.watching | cpu.repeating | (cpu.rcount | cpu.modcon) | (cpu.loop_end != nullptr)) &&
-         top >= Cpu::kRamStart + kReturnAddress && full <= Cpu::kRamEnd &&
-         (!cpu.splim_on || full <= cpu.splim);
+  return !(cpu.watching | cpu.repeating | cpu.rcount | cpu.modcon) && !cpu.loop_end &&
+         top >= Cpu::kRamStart + kReturnAddress && full <= Cpu::kRamEnd && full <= cpu.stack_most;
 }
 
 }  // namespace
@@ -54,8 +53,7 @@ void KnownCalls::add(unsigned address, const KnownRoutine& routine) {
 Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle begin) {
   cpu.note_written(KnownCalls::kWrites);
   if (!can_be_answered(cpu)) return 0;
-  const unsigned top = cpu.w[15], address = return_address(cpu, top);
-  if (address == 0 || address >= kFlashEnd) return 0;
+  const unsigned top = cpu.w[15];
   // what comes at its very end may come before its RETURN is over, which is shorter then
   const Cycle limit = cpu.deadline - begin - 1;
   cpu.at = d;
@@ -73,10 +71,15 @@ Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle be
 }
 
 const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
+  cpu.note_written(KnownCalls::kWrites);
+  const unsigned top = cpu.w[15];
+  if (top < Cpu::kRamStart + kReturnAddress || top > Cpu::kRamEnd) return nullptr;
+  const std::uint32_t address = return_address(cpu, top);
+  if (address == 0 || address >= kFlashEnd) return nullptr;
   const Cycle begin = cpu.now + d->lead, cycles = answered(cpu, d, routine, begin);
   if (cycles == 0) return nullptr;
   cpu.now = begin + cycles - d->cycles;
-  return cpu.jump(return_address(cpu, cpu.w[15] + kReturnAddress), d);
+  return cpu.jump(address, d);
 }
 
 }  // namespace dspic

@@ -30,6 +30,7 @@ struct KnownRoutine {
   std::uint64_t code = 0;  ///< code_sum() of its words (known_routines.h): another code is another routine
   KnownFunction function = nullptr;  ///< one of the two
   KnownAction action = nullptr;
+  bool keeps_flags = false;  ///< its action leaves some flags as they were; others leave all of them anew
 };
 
 }  // namespace dspic

@@ -254,7 +254,7 @@ const std::vector<KnownRoutine>& memory_routines() {
       {"_memset", 0xc4c5b8d0b05322d4, nullptr, &set_memory},
       {"_memcmp", 0x123860181c720b90, nullptr, &compare_memory},
       {"_strlen", 0x8f2aa31c73dc0047, nullptr, &length},
-      {"_strcpy", 0x45da54b652adc00c, nullptr, &copy_text},
+      {"_strcpy", 0x45da54b652adc00c, nullptr, &copy_text, true},
       {"_strcmp", 0x638518e71ee101d9, nullptr, &compare_text},
       {"_strncmp", 0x13818694348e5f1f, nullptr, &compare_text_within},
   };

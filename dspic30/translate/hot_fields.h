@@ -15,6 +15,7 @@ inline std::uint64_t offset_of(const Cpu& cpu, const void* field) {
 
 /// Those that a stretch keeps to itself, one after another: w, n, z, c, ov, dc, now.
 struct Hot {
+  using Fields = std::uint32_t;  ///< a bit each
   struct Field {
     std::uint64_t offset;
     unsigned bytes;
@@ -32,16 +33,21 @@ struct Hot {
     const std::uint64_t n = (f.offset - begin) / 2;
     return n <= 7 || n == 15;
   }
-  bool is_flag(const Field& f) const { return f.offset - begin >= 2 * 16 && &f != &fields.back(); }
+  bool is_clock(const Field& f) const { return &f == &fields.back(); }
+  bool is_flag(const Field& f) const { return f.offset - begin >= 2 * 16 && !is_clock(f); }
   bool holds(std::uint64_t offset) const { return offset >= begin && offset < end; }
-  /// `writer`: null where it is read.
-  void touch(std::uint64_t offset, std::uint64_t bytes, const Item* writer) {
+  /// `writer`: null where it is read. Returns which fields these are.
+  Fields touch(std::uint64_t offset, std::uint64_t bytes, const Item* writer) {
+    Fields touched = 0;
     for (Field& f : fields) {
       if (f.offset >= offset + bytes || offset >= f.offset + f.bytes) continue;
       f.is_used = true;
       if (writer) f.writers.insert(writer);
+      touched |= bit(f);
     }
+    return touched;
   }
+  Fields bit(const Field& f) const { return Fields{1} << (&f - fields.data()); }
   std::uint64_t begin, end;
   std::vector<Field> fields;  // the clock is the last
 };

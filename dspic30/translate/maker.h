@@ -28,6 +28,9 @@ inline constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                                kServed = "_ZN5dspic3Cpu11read_servedEjj",
                                kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
                                kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib",
+                               kPushSlowly = "_ZN5dspic3Cpu11push_slowlyEj",
+                               kPopSlowly = "_ZN5dspic3Cpu10pop_slowlyEv",
+                               kCheckStack = "_ZN5dspic3Cpu11check_stackEj",
                                kPsvCost = "_ZN5dspic3Cpu8psv_costEv";
 
 // the files' bitcode may have types of its own for one class, and then calls through a cast
@@ -57,7 +60,8 @@ inline bool is_of_peripheral(const CallInst& call) {
 /// Seldom called, as RAM is what pointers point to.
 inline bool is_beyond_ram(const CallInst& call) {
   const StringRef name = name_of(call);
-  return (is_access(call) && !address_in(call)) || name == kTrap || name == kSpecial;
+  return (is_access(call) && !address_in(call)) || name == kTrap || name == kSpecial || name == kPushSlowly ||
+         name == kPopSlowly || name == kCheckStack;
 }
 
 class Maker {
@@ -69,6 +73,16 @@ class Maker {
   std::unique_ptr<Module> make();
 
  private:
+  // calls, and stores to the deadline, of the instruction at a place
+  struct Effect {
+    WeakVH what;
+    const Item* item;
+    // what is put back before it, taken behind it; behind a Look nothing has changed, not even the deadline
+    enum Scope { All, ClockOnly, HostCall, Routine, Look, LookAtCall } scope;
+    /// Can it begin or end a DO loop?
+    bool is_any() const { return scope == All; }
+    bool is_look() const { return scope == Look || scope == LookAtCall; }
+  };
   void put_entry();
   bool put_item(const Item& item);
   BasicBlock* aside(const Item& item, BasicBlock* first);
@@ -79,6 +93,7 @@ class Maker {
   void drop_dead(BasicBlock* first);
   void put_costs(const Item& item, BasicBlock* first);
   void take_saved(BasicBlock* first);
+  void put_saved(const Cpu::Saved& saved, Value* value);
   void find_effects(const Item& item, BasicBlock* first);
   void leave(const Item& item, BasicBlock* block, Value* next);
   void leave_by_return(const Item& item, BasicBlock* block);
@@ -87,6 +102,10 @@ class Maker {
   BasicBlock* passed(const Item& item);
   Value* jump_to(std::ptrdiff_t place, int frame);
   bool keep_state();
+  bool find_accesses(Hot& hot);
+  void find_unsaved();
+  bool sees(const Hot& hot, const Effect& effect, const Hot::Field& f) const;
+  bool changes(const Hot& hot, const Effect& effect, const Hot::Field& f) const;
   std::array<BasicBlock*, 4> exits() const { return {exit_, ways_[0].block, ways_[1].block, ways_[2].block}; }
   void optimise();
   std::unique_ptr<Module> moved_out();
@@ -171,9 +190,9 @@ class Maker {
   std::vector<int> sections_;                                    // of the items: time is checked for each
   std::set<std::pair<std::ptrdiff_t, std::ptrdiff_t>> pieces_;   // places: begin and end
   std::vector<BasicBlock*> blocks_;
-  std::vector<AllocaInst*> backs_;   // of the frames: program address to which they return
-  Value* return_address_ = nullptr;  // ... to which the instruction returns that is being put
-  BasicBlock* exit_;                 // to where the interpreter goes on
+  std::vector<AllocaInst*> backs_;  // of the frames: program address to which they return
+  WeakTrackingVH return_address_;   // ... to which the instruction returns that is being put
+  BasicBlock* exit_;                // to where the interpreter goes on
   PHINode* exit_at_;
   // ... beyond the stretch, where jumps to a place are counted: by a jump, straight on, or by a return
   struct Way {
@@ -184,14 +203,7 @@ class Maker {
   std::array<Way, 3> ways_;
   AllocaInst* left_ = nullptr;  // something was called that may have changed the deadline
   bool may_leave_ = false;      // ... by the instruction that is being put
-  // calls, and stores to the deadline, of the instruction at a place
-  struct Effect {
-    WeakVH what;
-    const Item* item;
-    // what is put back before it, taken behind it; behind a Look nothing has changed, not even the deadline
-    enum Scope { All, ClockOnly, HostCall, Routine, Look, LookAtCall } scope;
-    bool is_look() const { return scope == Look || scope == LookAtCall; }
-  };
+  bool may_loop_ = false;       // ... or have begun a DO loop
   std::vector<Effect> effects_;
   // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch
   // ends
@@ -202,8 +214,14 @@ class Maker {
   std::vector<Aside> asides_;
   bool takes_long_ = false;  // more than Item::most_cycles
   std::set<const BasicBlock*> live_;
+  // loads and stores of the state that is kept apart, and which operand is the pointer
+  std::vector<std::pair<Instruction*, unsigned>> accesses_;
+  // what stores write, and what calls leave as the core has it
+  std::map<const Instruction*, Hot::Fields> writes_, settles_;
+  // fields that are not as the core has them: where blocks begin, and before calls
+  std::map<const BasicBlock*, Hot::Fields> unsaved_;
+  std::map<const Instruction*, Hot::Fields> unsaved_before_;
   std::ptrdiff_t end_ = 0;  // place behind the stretch itself
-  bool goes_back_ = false;
 };
 
 }  // namespace dspic::translate

@@ -15,7 +15,7 @@ namespace dspic::translate {
 namespace {
 
 // most cycles between two looks at the time: what is left of them before something happens is interpreted
-constexpr int kSection = 16;
+constexpr int kSection = 48;
 constexpr std::ptrdiff_t kGap = 16;  // words that were not met, within a piece
 
 }  // namespace
@@ -310,15 +310,28 @@ void Maker::take_saved(BasicBlock* first) {
       if (reads)
         call->replaceAllUsesWith(ir_.CreateZExt(ir_.CreateLoad(word, place), call->getType()));
       else
-        ir_.CreateStore(ir_.CreateTrunc(ir_.CreateAnd(call->getArgOperand(2), saved.bits), word), place);
+        put_saved(saved, ir_.CreateTrunc(ir_.CreateAnd(call->getArgOperand(2), saved.bits), word));
       call->eraseFromParent();
     }
+}
+
+// another page is another window
+void Maker::put_saved(const Cpu::Saved& saved, Value* value) {
+  Value* const place = field(&(cpu_.*saved.word), value->getType());
+  if (saved.word == &Cpu::psvpag) {
+    PointerType* const pointer = byte_->getPointerTo();
+    Value* const words = field(&cpu_.window_words, pointer);
+    Value* const stays = ir_.CreateICmpEQ(ir_.CreateLoad(value->getType(), place), value);
+    ir_.CreateStore(
+        ir_.CreateSelect(stays, ir_.CreateLoad(pointer, words), ConstantPointerNull::get(pointer)), words);
+  }
+  ir_.CreateStore(value, place);
 }
 
 // What leaves RAM leaves the stretch: the instruction is run anew, aside. But where an instruction names its
 // register, or calls something else, that is called from here.
 void Maker::find_effects(const Item& item, BasicBlock* first) {
-  may_leave_ = false;
+  may_leave_ = may_loop_ = false;
   std::vector<CallInst*> beyond;
   bool others = false;
   const auto deadline = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.deadline));
@@ -339,9 +352,10 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
                             : is_of_peripheral(*call) ? Effect::ClockOnly
                                                       : Effect::All});
         may_leave_ = true;
+        may_loop_ |= effects_.back().is_any();
       } else if (isa<StoreInst>(i) && split(i.getOperand(1)) == std::make_pair(cpu_arg_, deadline)) {
         effects_.push_back({&i, &item, Effect::All});
-        may_leave_ = true;
+        may_leave_ = may_loop_ = true;
       }
     }
   if (others || beyond.empty()) return;
@@ -351,7 +365,7 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
     block->getTerminator()->setSuccessor(0, aside(item, first));
   }
   drop_dead(first);
-  may_leave_ = false;
+  may_leave_ = may_loop_ = false;
 }
 
 std::unique_ptr<Module> translate(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& items,

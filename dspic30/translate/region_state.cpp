@@ -2,6 +2,7 @@
 // What of the core's state a stretch keeps to itself, where it is put back and taken again; and the function
 // made good and moved to a module of its own.
 #include <llvm/ADT/MapVector.h>
+#include <llvm/ADT/PostOrderIterator.h>
 #include <llvm/Analysis/ValueTracking.h>
 #include <llvm/IR/InstIterator.h>
 #include <llvm/IR/LegacyPassManager.h>
@@ -15,13 +16,12 @@
 
 namespace dspic::translate {
 
-bool Maker::keep_state() {
-  Hot hot(cpu_);
+// false: something is not understood
+bool Maker::find_accesses(Hot& hot) {
   const auto ram = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.ram));
   std::map<const BasicBlock*, const Item*> begins;
   for (const Item& item : items_) begins[blocks_[index_of(item)]] = &item;
   const Item* current = nullptr;
-  std::vector<std::pair<Instruction*, unsigned>> accesses;  // and which operand is the pointer
   for (Instruction& i : instructions(*function_)) {
     if (&i == &i.getParent()->front())
       if (const auto found = begins.find(i.getParent()); found != begins.end()) current = found->second;
@@ -32,9 +32,11 @@ bool Maker::keep_state() {
     if (base == cpu_arg_) {
       if (!hot.holds(static_cast<std::uint64_t>(offset))) continue;
       Type* const type = isa<StoreInst>(i) ? i.getOperand(0)->getType() : i.getType();
-      hot.touch(static_cast<std::uint64_t>(offset), layout_.getTypeStoreSize(type),
-                isa<StoreInst>(i) ? current : nullptr);
-      accesses.emplace_back(&i, operand);
+      const Hot::Fields touched =
+          hot.touch(static_cast<std::uint64_t>(offset), layout_.getTypeStoreSize(type),
+                    isa<StoreInst>(i) ? current : nullptr);
+      if (isa<StoreInst>(i)) writes_[&i] = touched;
+      accesses_.emplace_back(&i, operand);
       continue;
     }
     // RAM is where a computed place may lie; anything else computed within the Cpu is not understood
@@ -48,6 +50,66 @@ bool Maker::keep_state() {
     const auto [begin, before] = split(const_cast<Value*>(step->getPointerOperand()));
     if (begin != cpu_arg_ || before + constant.getSExtValue() < ram) return false;
   }
+  return true;
+}
+
+// what is called may look at these
+bool Maker::sees(const Hot& hot, const Effect& effect, const Hot::Field& f) const {
+  switch (effect.scope) {
+    case Effect::All:
+      return true;
+    case Effect::HostCall:
+    case Effect::LookAtCall:
+      return hot.is_of_call(f) || hot.is_clock(f);
+    case Effect::Routine:
+      return !hot.is_flag(f) || effect.item->routine->function || effect.item->routine->keeps_flags;
+    default:
+      return hot.is_clock(f);
+  }
+}
+
+// ... and may change these; a routine keeps what C's callees keep, and an action leaves all flags anew
+bool Maker::changes(const Hot& hot, const Effect& effect, const Hot::Field& f) const {
+  if (effect.is_look()) return false;
+  if (effect.scope == Effect::Routine) return hot.is_of_call(f) || hot.is_flag(f) || hot.is_clock(f);
+  return sees(hot, effect, f);
+}
+
+// forward through the function, until nothing is added
+void Maker::find_unsaved() {
+  const ReversePostOrderTraversal<Function*> order(function_);
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (const BasicBlock* block : order) {
+      Hot::Fields fields = unsaved_[block];
+      for (const Instruction& i : *block) {
+        if (const auto written = writes_.find(&i); written != writes_.end()) fields |= written->second;
+        if (const auto settled = settles_.find(&i); settled != settles_.end()) {
+          unsaved_before_[&i] = fields;
+          fields &= ~settled->second;
+        }
+      }
+      for (const BasicBlock* next : successors(block)) {
+        Hot::Fields& there = unsaved_[next];
+        changed |= (fields & ~there) != 0;
+        there |= fields;
+      }
+    }
+  }
+}
+
+bool Maker::keep_state() {
+  Hot hot(cpu_);
+  if (!find_accesses(hot)) return false;
+  std::set<const Item*> callers;
+  for (const Effect& effect : effects_) {
+    const auto* const what = cast_or_null<Instruction>(static_cast<Value*>(effect.what));
+    if (!what || !is_real_call(*what)) continue;
+    callers.insert(effect.item);
+    for (const Hot::Field& f : hot.fields)
+      if (sees(hot, effect, f) || changes(hot, effect, f)) settles_[what] |= hot.bit(f);
+  }
+  find_unsaved();
   BasicBlock& entry = function_->getEntryBlock();
   ir_.SetInsertPoint(&entry, entry.begin());
   AllocaInst* const own = ir_.CreateAlloca(ArrayType::get(byte_, hot.end - hot.begin));
@@ -67,16 +129,9 @@ bool Maker::keep_state() {
   const auto take = [&](const Hot::Field& f) {
     ir_.CreateStore(ir_.CreateLoad(ir_.getIntNTy(8 * f.bytes), outer(f)), inner(f));
   };
-  const auto put_back_all = [&] {
-    for (const Hot::Field& f : hot.fields)
-      if (!f.writers.empty()) put_back(f);
-  };
-  const auto take_all = [&] {
-    for (const Hot::Field& f : hot.fields)
-      if (f.is_used) take(f);
-  };
-  take_all();
-  for (const auto& [access, operand] : accesses) {
+  for (const Hot::Field& f : hot.fields)
+    if (f.is_used) take(f);
+  for (const auto& [access, operand] : accesses_) {
     ir_.SetInsertPoint(access);
     Value* const pointer = access->getOperand(operand);
     const std::int64_t offset = split(pointer).second;
@@ -90,20 +145,13 @@ bool Maker::keep_state() {
     if (!what) continue;
     if (is_real_call(*what)) {
       ir_.SetInsertPoint(what);
-      const Hot::Field& clock = hot.fields.back();
-      const auto sees = [&](const Hot::Field& f) {
-        return effect.scope == Effect::All || &f == &clock ||
-               ((effect.scope == Effect::HostCall || effect.scope == Effect::LookAtCall) &&
-                hot.is_of_call(f)) ||
-               (effect.scope == Effect::Routine && !hot.is_flag(f));
-      };
       for (const Hot::Field& f : hot.fields)
-        if (!f.writers.empty() && sees(f)) put_back(f);
+        if ((unsaved_before_[what] & hot.bit(f)) && sees(hot, effect, f)) put_back(f);
       ir_.CreateStore(place(effect.item->place), field(&cpu_.at, byte_->getPointerTo()));
       if (effect.is_look()) continue;
       ir_.SetInsertPoint(what->getNextNode());
       for (const Hot::Field& f : hot.fields)
-        if (f.is_used && (sees(f) || effect.scope == Effect::Routine)) take(f);
+        if (f.is_used && changes(hot, effect, f)) take(f);
     }
     ir_.SetInsertPoint(what->getNextNode());
     ir_.CreateStore(ir_.getTrue(), left_);
@@ -111,16 +159,15 @@ bool Maker::keep_state() {
   for (BasicBlock* block : exits()) {
     if (!live_.count(block)) continue;
     ir_.SetInsertPoint(block, block->getFirstInsertionPt());
-    put_back_all();
+    for (const Hot::Field& f : hot.fields)
+      if (unsaved_[block] & hot.bit(f)) put_back(f);
   }
+  // as it is where the instruction begins
   for (const Aside& aside : asides_) {
     if (!live_.count(aside.block)) continue;
     for (const Hot::Field& f : hot.fields) {
-      const bool is_old = goes_back_ ? !f.writers.empty()
-                                     : std::any_of(f.writers.begin(), f.writers.end(),
-                                                   [&](const Item* i) { return i < aside.item; });
-      if (!is_old) continue;  // where it was when the stretch began, it still is
       const bool is_own = std::count(f.writers.begin(), f.writers.end(), aside.item) > 0;
+      if (!(unsaved_[aside.first] & hot.bit(f)) && !(is_own && callers.count(aside.item))) continue;
       Type* const type = ir_.getIntNTy(8 * f.bytes);
       ir_.SetInsertPoint(is_own ? &*aside.first->getFirstInsertionPt() : aside.block->getTerminator());
       Value* const value = ir_.CreateLoad(type, inner(f));

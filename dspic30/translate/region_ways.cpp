@@ -129,7 +129,6 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
   const bool is_back = target <= &item;
   const bool begins_section =
       is_back || takes_long_ || sections_[index_of(*target)] != sections_[index_of(item)];
-  goes_back_ |= is_back;
   if (!begins_section && !may_leave_) {
     ir_.CreateBr(first);
     return begin;
@@ -144,8 +143,7 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
   // what comes there again and again may begin there
   const bool is_entry = !is_back && frame == 0;
   Value* const exit_pointer = place(*to);
-  ir_.CreateCondBr(may_leave_ ? fits(*target) : is_in_time(*target), first,
-                   is_entry ? ways_[1].block : exit_);
+  ir_.CreateCondBr(may_loop_ ? fits(*target) : is_in_time(*target), first, is_entry ? ways_[1].block : exit_);
   if (is_entry)
     ways_[1].where->addIncoming(ir_.getInt32(static_cast<std::uint32_t>(*to)), check);
   else
