@@ -43,8 +43,9 @@ void leave_result(Cpu& cpu, std::uint32_t result, const Registers& r, unsigned w
 
 /// m: leading one on top, the lowest eight bits decide the rounding; the exponent is above 0. `flip`: of W3,
 /// before anything else.
-int rounded(Cpu& cpu, std::int64_t limit, unsigned flip, const Registers& r, int exponent, std::uint32_t m,
-            int cycles) {
+__attribute__((always_inline)) inline int rounded(Cpu& cpu, std::int64_t limit, unsigned flip,
+                                                  const Registers& r, int exponent, std::uint32_t m,
+                                                  int cycles) {
   const std::uint32_t sign = (r.w6 & 0x8000u) << 16;
   if (exponent > kLargest) {
     cycles += 8 + kFinish;
