@@ -175,22 +175,6 @@ void check_second_definitions(const std::vector<CompileOutcome>& outcomes, const
   for (const std::string& wrong : second_definitions(functions, choices)) result.errors.push_back(wrong);
 }
 
-/// What an assembler source may do, by its symbols: each of its labels uses all that it names.
-std::string facts_of_assembler(const fs::path& object) {
-  std::string labels, names;
-  const auto symbols = read_elf(object).symbols;
-  for (const ElfSymbol& s : symbols) {
-    if (!s.is_global || s.name.empty()) continue;
-    const bool is_handler =
-        s.name.size() > 9 && s.name[0] == '_' && s.name.compare(s.name.size() - 9, 9, "Interrupt") == 0;
-    if (s.is_defined) labels += "F " + s.name + (is_handler ? " h-\n" : " -\n");
-    for (const ElfSymbol& other : symbols)
-      if (s.is_defined && other.is_global && !other.name.empty() && other.name != s.name)
-        names += "N " + s.name + " " + other.name + "\n";
-  }
-  return labels + names;
-}
-
 /// Chip way: what handlers of any file write is read where it stands in all files. A file that was compiled
 /// without knowing of them all is compiled again. `own`: how many of `all` are the program's C files, which
 /// come first; members of its copy of the library follow, `in_c` in all, then assembler.

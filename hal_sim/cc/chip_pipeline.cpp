@@ -134,9 +134,11 @@ void add_loops(FunctionPassManager& passes) {
   passes.addPass(LCSSAPass());
   LoopPassManager shape, unroll;
   shape.addPass(LoopRotatePass());
+  shape.addPass(KeepEndlessStoresPass());
   shape.addPass(LICMPass());
   shape.addPass(IndVarSimplifyPass());
   passes.addPass(createFunctionToLoopPassAdaptor(std::move(shape), /*UseMemorySSA=*/true));
+  passes.addPass(FreeEndlessStoresPass());
   unroll.addPass(LoopFullUnrollPass(kUnrollCheapest));
   passes.addPass(createFunctionToLoopPassAdaptor(std::move(unroll), /*UseMemorySSA=*/false));
 }

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "build_record.h"
+#include "elf_reader.h"
 #include "object_cache.h"
 #include "program_files.h"
 #include "twinpuck_paths.h"
@@ -65,6 +66,14 @@ bool is_for_host(const fs::path& file) {
   return file.filename() == "image_support.c" || file.filename() == "program_memory.c";
 }
 
+/// What XC16 brings compiled, whose code is the same at every level of a program; the e-puck's library is
+/// compiled with the program.
+bool is_precompiled(const fs::path& source, const BuildOptions& o) {
+  const fs::path folder = source.parent_path();
+  return o.chip_way &&
+         (folder == source_root() / "hal_dspic/runtime" || folder == source_root() / "hal_sim/cc/libc/src");
+}
+
 std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
   const fs::path contract = include_root(o);
@@ -79,17 +88,11 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   const std::string salt =
       names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
   std::vector<CompileJob> jobs;
-  // what XC16 brings compiled takes the same cycles at every level of a program; the e-puck's library is
-  // compiled with it
-  const auto is_precompiled = [&](const fs::path& source) {
-    return o.chip_way && (source.parent_path() == root / "hal_dspic/runtime" ||
-                          source.parent_path() == cc_dir / "libc/src");
-  };
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
     jobs.push_back({source, with, salt, root.string()});
-    if (is_precompiled(source)) jobs.back().flags.front() = "-O1";
+    if (is_precompiled(source, o)) jobs.back().flags.front() = "-O1";
     // what the drivers do with a program's variables and functions, those do not
-    jobs.back().has_facts = o.chip_way && !is_precompiled(source) && source.extension() == ".c";
+    jobs.back().has_facts = o.chip_way && !is_precompiled(source, o) && source.extension() == ".c";
   };
   if (is_webots)
     for (const auto& s : files_below(root / "firmware/webots", ".c")) add(s, flags);
@@ -141,6 +144,21 @@ Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& fold
   return {file, ""};
 }
 
+std::string facts_of_assembler(const fs::path& object) {
+  std::string labels, names;
+  const auto symbols = read_elf(object).symbols;
+  for (const ElfSymbol& s : symbols) {
+    if (!s.is_global || s.name.empty()) continue;
+    const bool is_handler =
+        s.name.size() > 9 && s.name[0] == '_' && s.name.compare(s.name.size() - 9, 9, "Interrupt") == 0;
+    if (s.is_defined) labels += "F " + s.name + (is_handler ? " h-\n" : " -\n");
+    for (const ElfSymbol& other : symbols)
+      if (s.is_defined && other.is_global && !other.name.empty() && other.name != s.name)
+        names += "N " + s.name + " " + other.name + "\n";
+  }
+  return labels + names;
+}
+
 Library provide_library(const BuildOptions& o, bool is_webots) {
   // a library from elsewhere, as tests have, is no part of the product
   const bool is_ours = o.api_dir.empty() && o.include_root.empty() && source_root() == TWINPUCK_SOURCE_DIR;
@@ -151,6 +169,8 @@ Library provide_library(const BuildOptions& o, bool is_webots) {
   for (const CompileOutcome& outcome : outcomes) {
     library.messages += outcome.messages;
     if (!outcome.facts.empty()) library.facts.push_back(outcome.facts);
+    if (o.chip_way && outcome.ok && outcome.source.extension() == ".s" && !is_precompiled(outcome.source, o))
+      library.facts.push_back(facts_of_assembler(outcome.object));
     library.ok = library.ok && outcome.ok;
     ++(outcome.reused ? library.reused : library.compiled);
   }

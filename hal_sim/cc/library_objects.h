@@ -35,6 +35,9 @@ struct Library {
 /// Compiles what is not there yet. Within a build (build_record.h).
 Library provide_library(const BuildOptions& options, bool is_webots);
 
+/// What an assembler source may do, by the symbols of its object: each of its labels uses all that it names.
+std::string facts_of_assembler(const std::filesystem::path& object);
+
 struct Archive {
   std::filesystem::path file;
   std::string error;

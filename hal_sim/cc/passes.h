@@ -6,6 +6,7 @@
 #include "llvm/IR/DebugLoc.h"
 #include "llvm/IR/Instructions.h"
 #include "llvm/IR/PassManager.h"
+#include "llvm/Transforms/Scalar/LoopPassManager.h"
 
 namespace cc {
 
@@ -70,6 +71,15 @@ struct KeepZeroArgumentsPass : llvm::PassInfoMixin<KeepZeroArgumentsPass> {
 };
 /// Chip: a loop that a long counts does so down to 0.
 struct CountDownPass : llvm::PassInfoMixin<CountDownPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
+/// Chip: within the pass of loops, a loop that never ends keeps its stores to variables; behind it, they are
+/// plain again.
+struct KeepEndlessStoresPass : llvm::PassInfoMixin<KeepEndlessStoresPass> {
+  llvm::PreservedAnalyses run(llvm::Loop& loop, llvm::LoopAnalysisManager& analyses,
+                              llvm::LoopStandardAnalysisResults& results, llvm::LPMUpdater& updater);
+};
+struct FreeEndlessStoresPass : llvm::PassInfoMixin<FreeEndlessStoresPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
 /// Chip, -O1: a loop that only counts takes as many cycles a round as XC16's.

@@ -75,8 +75,9 @@ class SharedSolver {
   // --- names
 
   std::string full_name(const std::string& token, std::size_t file) const {
-    const char first = token[token[0] == '&' ? 1 : 0];
-    const bool is_own = first == '%' || first == '.';
+    const std::size_t name_at = token[0] == '&' ? 1 : 0;
+    const char first = token[name_at];
+    const bool is_own = first == '%' || first == '.' || second_handlers_.count({file, token.substr(name_at)});
     return is_own ? token + "@" + std::to_string(file) : token;
   }
   int object(const std::string& name, std::size_t file) {  // without "&"
@@ -126,11 +127,15 @@ class SharedSolver {
       std::istringstream words(line.substr(2));
       std::string name, flags;
       words >> name >> flags;
+      const bool is_handler = flags.find('h') != std::string::npos;
+      // drivers of the library have handlers of one name: which of them is linked is not known here
+      const MemoryObject& first = objects_[std::size_t(object(name, file))];
+      if (is_handler && first.has_body && !first.is_program) second_handlers_.emplace(file, name);
       MemoryObject& f = objects_[std::size_t(object(name, file))];
       if (f.has_body) continue;
       f.has_body = true;
       f.is_program = facts.is_program;
-      f.is_handler = flags.find('h') != std::string::npos;
+      f.is_handler = is_handler;
       f.is_variadic = flags.find('v') != std::string::npos;
       home_[object(name, file)] = file;
     }
@@ -162,9 +167,7 @@ class SharedSolver {
         const int from = node_or_part(b, file);
         reads_.push_back({f, from, once == "1", file, a + ">" + b, where});
       } else if (kind == "N") {
-        const int named = node("&" + b, file);
-        objects_[std::size_t(f)].written.push_back(named);
-        call(f, named, {f, -1, {}});
+        name_in_assembler(f, node("&" + b, file));
       } else {
         CallSite site{f, -1, {}};
         std::string word;
@@ -175,6 +178,19 @@ class SharedSolver {
         call(f, callee, site);
       }
     }
+  }
+  /// Assembler text may read, write and call what it names, and follow the addresses that lie there: it may
+  /// leave any of them in any variable that it reaches.
+  void name_in_assembler(int f, int named) {
+    int& reached = reached_by_assembler_.try_emplace(f, -1).first->second;
+    if (reached < 0) {
+      reached = new_node();
+      nodes_[std::size_t(reached)].loaded_to.push_back(reached);
+      nodes_[std::size_t(reached)].stored_from.push_back(reached);
+      objects_[std::size_t(f)].written.push_back(reached);
+      call(f, reached, {f, -1, {}});
+    }
+    copy(reached, named);
   }
   void call(int, int callee, CallSite site) {
     calls_.push_back(std::move(site));
@@ -310,8 +326,10 @@ class SharedSolver {
   std::map<std::string, int> object_numbers_, node_numbers_;
   std::map<std::pair<int, std::string>, int> parts_;
   std::map<int, std::size_t> home_;
+  std::set<std::pair<std::size_t, std::string>> second_handlers_;  // file and name
   std::set<std::pair<int, int>> copies_;
   std::vector<std::pair<int, int>> work_;
+  std::map<int, int> reached_by_assembler_;  // function: node of all that its text reaches
   std::set<int> handed_out_;
   std::map<int, std::set<int>> contexts_;  // function: from where it is reached
   std::map<int, std::set<int>> writers_;   // variable: handlers and the like that write it

@@ -17,7 +17,7 @@
 //   W f pointer       f writes what lies at pointer
 //   R f pointer p where   f reads it by a plain load; p: 1 where a compiler may read it once before a loop
 //   K f callee result arguments...   a call; "-" stands for what is no pointer
-//   N f name          assembler text of f names a function or a variable
+//   N f name          assembler text of f names a function or a variable, and may follow addresses from there
 //   M f>node...       loads of f through these were made volatile
 #pragma once
 #include <set>
@@ -44,7 +44,8 @@ struct SharedVariables {
   std::vector<SharedRead> reads;  ///< each variable once: the first plain read that a compiler may do once
 };
 
-/// Of two files that define a function the first counts.
+/// Of two files that define a function the first counts; of handlers of the library each does, unless the
+/// program has one of that name.
 SharedVariables shared_variables(const std::vector<FileFacts>& files);
 
 /// What C calls a variable that is "flag", "main.flag" or "main.flag.3" (the fourth of that name) in the

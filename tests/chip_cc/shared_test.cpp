@@ -110,6 +110,21 @@ const Polled kPolled[] = {
      "flag"},
     {"by assembler text",
      "int flag; void work(void) { asm(\"inc _flag\"); } void poll(void) { while (!flag); }", "flag"},
+    {"by assembler text through a pointer",
+     "int flag, *at = &flag; void work(void) { asm volatile(\"mov _at, w0\\n mov #1, w1\\n mov w1, [w0]\" "
+     "::: "
+     "\"w0\", \"w1\"); }"
+     "void poll(void) { while (!flag); }",
+     "flag"},
+    {"by assembler text through a member's pointer that it moved",
+     "char line[4]; struct { int k; char *to; } s = {0, line}; char *next;"
+     "void work(void) { asm volatile(\"mov _s+2, w0\\n mov w0, _next\"); if (next) *next = 1; }"
+     "void poll(void) { while (!line[0]); }",
+     "line"},
+    {"by a handler that is one by its name alone",
+     "int flag; void work(void) { } void _T5Interrupt(void) { flag = 1; IFS1bits.T5IF = 0; }"
+     "void poll(void) { PR5 = 900; IEC1bits.T5IE = 1; T5CON = 0x8000; while (!flag); }",
+     "flag"},
     {"by the address in an int",
      "int flag; unsigned where; void work(void) { if (where) *(int *)where = 1; }"
      "void poll(void) { where = (unsigned)&flag; while (!flag); }",
@@ -176,6 +191,40 @@ TEST(ChipShared, what_a_handler_writes_is_read_where_it_stands_at_every_level) {
           << told[0];
       EXPECT_NE(told[0].find(".c:"), std::string::npos);
     }
+  }
+}
+
+// a handler, a test and a debugger see what main()'s loop counts, though it never comes to an end
+TEST(ChipShared, what_an_endless_loop_writes_is_seen_at_every_level) {
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
+    SCOPED_TRACE(level);
+    ChipProgram program("endless", kTimer + R"(
+      volatile int flag;
+      int seen, sum, by_pointer, *at = &by_pointer, inner, told;
+      static struct { int a, b[2]; } s;
+      void work(void) { flag = 1; if (s.b[1] > 2) told = s.b[1]; }
+      long bench_run(void) {
+        start();
+        while (1) {
+          int i;
+          while (!flag);
+          flag = 0;
+          seen++;
+          s.b[1]++;
+          *at = seen;
+          for (i = 0; i < 3; i++) { inner += 2; sum += inner; }
+        }
+      })",
+                        level);
+    ASSERT_TRUE(program.is_whole()) << program.error();
+    // the timer comes each 2,001 cycles: 24 times
+    program.run_for(50'000);
+    const auto value = [&](const char* name) { return program.peek(program.address_of(name), 2); };
+    EXPECT_EQ(value("seen"), 24u);
+    EXPECT_EQ(value("by_pointer"), 24u);
+    EXPECT_EQ(value("inner"), 144u);
+    EXPECT_EQ(value("sum"), 72u * 73u);  // 2 + 4 + ... + 144
+    EXPECT_GE(value("told"), 22u);
   }
 }
 

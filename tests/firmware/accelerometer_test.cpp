@@ -274,7 +274,6 @@ int main(void) {
 // --- the driver's public variables, read by the program itself
 
 TEST_F(Accelerometer, programs_read_the_driver_s_arrays_themselves) {
-  is_native();
   ramp();
   Robot& r = quiet(add_robot_with_source(R"(
 #include <a_d/advance_ad_scan/e_ad_conv.h>

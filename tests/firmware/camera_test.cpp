@@ -284,7 +284,6 @@ TEST_F(CameraApi, frame_rates_are_the_authors) {
 }
 
 TEST_F(CameraApi, rows_arrive_one_by_one_and_a_new_launch_starts_over) {
-  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <camera/fast_2_timer/e_poxxxx.h>
 char buffer[3200], other[3200];
@@ -315,7 +314,6 @@ int main(void) {
 }
 
 TEST_F(CameraApi, a_reset_robot_starts_over_and_a_robot_without_camera_gets_nothing) {
-  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <p30F6014A.h>
 #include <camera/fast_2_timer/e_poxxxx.h>

@@ -153,7 +153,6 @@ int main(void) {
 }
 
 TEST_F(Promise, a_polled_flag_without_volatile_is_seen) {
-  is_native();
   Robot& r = add_robot_with_source(R"(
 #include <motor_led/advance_one_timer/e_agenda.h>
 int flag, seen;
