@@ -29,7 +29,9 @@ Cycle ScanRhythm::round(Cycle tick_cycles) {
 Cycle ScanRhythm::found(Cycle tick_cycles) const {
   // in 65ths of a cycle, so that a frame is a whole number
   constexpr Cycle kUnit = drivers::kScanPeriod;
-  constexpr int kSettle = 20 * drivers::kScanPeriod, kRounds = 20;
+  // so many that a frame more or less at either end is nothing, and whole threes of them
+  constexpr int kSettle = 20 * drivers::kScanPeriod, kRounds = 300;
+  static_assert(kRounds * drivers::kScanPeriod % 3 == 0);
   const Cycle frame = cycles_.scan_round, handler = cycles_.share_scan_round,
               tick_handler = tick_cycles * kUnit;
   Cycle sequence_end = frame, tick = 0, free = 0, began = 0;
@@ -44,7 +46,8 @@ Cycle ScanRhythm::found(Cycle tick_cycles) const {
     sequence_end = start + frame;
     if (++frames == kSettle) began = sequence_end;
   }
-  return (sequence_end - began) / (kRounds * kUnit);
+  // to the nearest: what is cut off would be several frames a minute
+  return (sequence_end - began + kRounds * kUnit / 2) / (kRounds * kUnit);
 }
 
 }  // namespace api
