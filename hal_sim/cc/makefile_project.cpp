@@ -273,11 +273,18 @@ class Makefile {
     return out;
   }
 
-  /// Files of patterns with * and ? in any part: "camera/*/*.c".
+  /// Files of patterns with * and ? in any part: "camera/*/*.c". Of objects those that would be there once
+  /// their sources were compiled.
   std::string wildcard(const std::string& patterns) const {
     std::string out;
     for (const std::string& pattern : words_of(patterns)) {
       if (pattern.size() > kLongestName) continue;
+      if (ends_with(pattern, ".o")) {
+        const std::string stem = pattern.substr(0, pattern.size() - 2);
+        for (const char* kind : {".c", ".s"})
+          for (const std::string& source : words_of(wildcard(stem + kind)))
+            out += source.substr(0, source.size() - 2) + ".o ";
+      }
       std::vector<fs::path> found = {""};
       for (const fs::path& part : fs::path(pattern)) {
         std::vector<fs::path> next;

@@ -52,6 +52,7 @@ TEST(makefile_project, objects_named_by_functions_of_make_are_found) {
            "DIRS = . parts/one\nSRCS = $(foreach d,$(DIRS),$(wildcard $(d)/*.c))\n",
            "SRCS = $(filter-out tries/%,$(wildcard *.c */*.c */*/*.c))\n",
            "OBJS = $(addprefix build/,$(notdir $(patsubst %.c,%.o,$(wildcard *.c) parts/one/part.c)))\n",
+           "OBJS = main.o\nEXTERNAL_OBJS = $(wildcard parts/*/*.o)\n",  // compiled by a Makefile over there
            // lists of any name, which a target is linked of
            "MINE := $(patsubst %.c,%.o,$(wildcard *.c))\nTHEIRS := $(patsubst %.c,%.o,$(wildcard "
            "parts/*/*.c))\n"
