@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "dspic30/core/waits.h"
 #include "dspic30/memory/hex.h"
 #include "dspic30/memory/host_places.h"
 
@@ -208,6 +209,7 @@ bool Cpu::stops_at(const Decoded* head) {
   if (passes || watching) return false;
   const OwnHead* const own = own_head(head);
   if (!own || true_now() < std::max(heads_from, own->from)) return false;
+  if (waits->passes(*this, head)) return false;
   head_met = true;
   kept_deadline = deadline;
   deadline = 0;

@@ -87,6 +87,21 @@ bool Waits::is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now) {
   return true;
 }
 
+bool Waits::passes(Cpu& cpu, const Decoded* head) {
+  const KnownWaits::Wait* const wait = cpu.known_waits.at(head);
+  if (!wait || wait->memory.are_as_read(cpu.ram.data()) || cpu.known_counts.at(head)) return false;
+  at_head_ = true;
+  look_began_ = cpu.true_now();
+  round_began_ = cpu.clocks.own_cycles(cpu.now);
+  if (!is_passed(cpu, *wait, look_began_)) return false;
+  cpu.passes_head = false;
+  if (const Cycle at = schedule(cpu).at; at < cpu.pause_at) {
+    cpu.pause_at = at;
+    cpu.deadline = std::min(cpu.deadline, cpu.clocks.program_at(at));
+  }
+  return true;
+}
+
 // At a known head the program will stop by itself. Now and then it looks elsewhere all the same: soon behind
 // a wait, where another may come that is not known yet, and by look_by_.
 Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {

@@ -33,6 +33,9 @@ class Waits {
   void go_on(Cpu& cpu);
   /// When the next look is due.
   Cycle look_at(const Cpu& cpu) const { return schedule(cpu).at; }
+  /// At a head where the program would stop: what it waited for has come, so that it goes on. `head`: the
+  /// instruction that begins now.
+  bool passes(Cpu& cpu, const Decoded* head);
   /// An interrupt is about to be entered.
   void cut(Cpu& cpu);
   /// A handler has returned.
@@ -93,7 +96,7 @@ class Waits {
   // behind the first ends of a wait with a known head it looks soon, each time after another while
   static constexpr unsigned kStepsBehind = 17;
   static constexpr Cycle kFirstBehind = 40, kStepBehind = 29;
-  static constexpr Cycle kMostGap = 1 << 25;     // between two looks beside known heads
+  static constexpr Cycle kMostGap = 1 << 27;     // between two looks beside known heads
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
