@@ -43,6 +43,7 @@ void Processor::restart() {
   cpu_->still_since = kNever;
   cpu_->clocks.reset(cpu_->now);
   by_heart_.fill({});
+  held_ = 3;
   seen_ = kUnseen;
   cpu_->host_due = kNever;
 }
@@ -121,7 +122,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       if (outlook.horizon <= cpu.now || cpu.now >= until || cpu.host_stale || cpu.is_code_stale()) continue;
       outlook.vector = kNoVector;
     }
-    if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1] && !by_heart_[1].held) {
+    if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1] && !is_held(1)) {
       serve_pending(outlook.vector);
       continue;
     }
@@ -164,66 +165,78 @@ void Processor::sleep(Cycle until) {
 
 // --- whoever plays the library --------------------------------------------------------------------------
 
-/// By its level, DISI, its IEC bit, or by what goes before it; asleep all are, and beside the vectors of the
-/// other table, which lead elsewhere.
-bool Processor::is_held_off(std::size_t h, int next_vector) const {
+/// Of the handlers known by heart, a bit each: which ones the program holds off, by its level, DISI, their
+/// IEC bits, or by what goes before them; asleep all are, and beside the vectors of the other table, which
+/// lead elsewhere. And, from kFlagsAt on, whose flags are set.
+inline unsigned Processor::handlers(int next_vector) const {
   const Cpu& cpu = *cpu_;
   const Interrupts& interrupts = cpu.parts.interrupts;
-  const int irq = irqs_[h];
-  if (irq < 0) return by_heart_[h].held;
-  const int priority = interrupts.priority(irq);
-  return is_asleep() || interrupts.uses_alternate_table() || !interrupts.enabled(irq) ||
-         priority <= interrupts.level() || (priority < 7 && interrupts.disi_active(cpu.now)) ||
-         (interrupts.flag(irq) && next_vector != kFirstIrqVector + irq);
-}
-
-/// All that is_held_off() looks at, as one word; priorities by the count of writes to registers. While DISI
-/// runs, another one each time.
-std::uint64_t Processor::hold_state(int next_vector) const {
-  const Cpu& cpu = *cpu_;
-  const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.disi_active(cpu.now)) return kUnseen;
-  const auto bits_of = [&](int irq) {  // bit 63 is nobody's
-    return (interrupts.enabled_mask() >> (irq & 63) & 1) << 1 | (interrupts.flags() >> (irq & 63) & 1);
-  };
-  return static_cast<std::uint64_t>(cpu.parts.interrupts.writes()) << 16 |
-         (static_cast<std::uint64_t>(next_vector) & 63) << 10 | bits_of(irqs_[1]) << 8 |
-         bits_of(irqs_[0]) << 6 | static_cast<std::uint64_t>(interrupts.level()) << 1 | (is_asleep() ? 1 : 0);
+  constexpr int kMostHeldByDisi = 6;
+  const bool all = cpu.power != Cpu::Power::On || interrupts.uses_alternate_table();
+  const int floor =
+      interrupts.disi_active(cpu.now) ? std::max(interrupts.level(), kMostHeldByDisi) : interrupts.level();
+  unsigned state = 0;
+#pragma GCC unroll 2
+  for (unsigned h = 0; h < HostCalls::kHandlers; ++h) {
+    const int irq = irqs_[h];
+    if (irq < 0) {
+      state |= held_ & 1u << h;
+      continue;
+    }
+    const bool flag = interrupts.flag(irq);
+    const bool held = all || !interrupts.enabled(irq) || interrupts.priority(irq) <= floor ||
+                      (flag && next_vector != kFirstIrqVector + irq);
+    state |= static_cast<unsigned>(held) << h | static_cast<unsigned>(flag) << (kFlagsAt + h);
+  }
+  return state;
 }
 
 // which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was
 // set, and all is to be looked at again
 bool Processor::follow_host(int next_vector) {
   Cpu& cpu = *cpu_;
-  Interrupts& interrupts = cpu.parts.interrupts;
-  // nothing that it depends on has changed since the last time
-  const std::uint64_t seen = hold_state(next_vector);
-  if (!cpu.host_stale && seen == seen_ && seen != kUnseen &&
-      cpu.now < std::min(by_heart_[0].source, by_heart_[1].source))
+  // nothing has changed since the last time
+  const unsigned state = handlers(next_vector);
+  if (!cpu.host_stale && state == seen_ && cpu.now < std::min(by_heart_[0].source, by_heart_[1].source))
     return false;
-  seen_ = seen;
-  bool raised = false;
+  return follow_changed_handlers(state, next_vector);
+}
+
+bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
+  Cpu& cpu = *cpu_;
+  Interrupts& interrupts = cpu.parts.interrupts;
+  bool raised = false, raised_own = false;
   for (std::size_t h = 0; h < irqs_.size(); ++h) {
     const int irq = irqs_[h], number = static_cast<int>(h);
     if (irq < 0) continue;
+    const unsigned bit = 1u << h;
     ByHeart& handler = by_heart_[h];
-    if (handler.held) raised |= raise_held(h);
-    const bool pending = interrupts.flag(irq), held = is_held_off(h, next_vector);
-    // a flag that the program has set brings it once more
-    if (!held && !handler.held && pending) {
-      cpu.host->hold_handler(number, true, false, cpu.now);
-      handler.held = true;
+    if ((held_ & bit) && raise_held(h)) {
+      raised = true;
+      state = handlers(next_vector);
     }
-    if (held == handler.held) continue;
-    handler.held = held;
-    if (!held && handler.missed_at > 0) count_missed(h);
+    const bool pending = (state >> (kFlagsAt + h) & 1) != 0;
+    // a flag that the program has set brings it once more
+    if (!((state | held_) & bit) && pending) {
+      cpu.host->hold_handler(number, true, false, cpu.now);
+      held_ |= bit;
+    }
+    if (!((state ^ held_) & bit)) continue;
+    held_ ^= bit;
+    if (!is_held(h) && handler.missed_at > 0) count_missed(h);
     // it was due just now
-    if (held && h == 0 && cpu.host_due <= cpu.now) interrupts.raise(irq, cpu.host_due);
+    if (is_held(h) && h == 0 && cpu.host_due <= cpu.now) {
+      interrupts.raise(irq, cpu.host_due);
+      raised_own = true;
+    }
     cpu.parts.events.tell_change(cpu.now);
-    cpu.host->hold_handler(number, held, pending, cpu.now);
+    cpu.host->hold_handler(number, is_held(h), pending, cpu.now);
     cpu.host_stale = true;
     if (waits_->is_waiting()) waits_->stir(cpu);  // what it looks at stands, or moves again
   }
+  // a flag of one that is let in is looked at each time
+  const bool is_let_in = (state >> kFlagsAt & ~held_) != 0;
+  seen_ = raised || raised_own || is_let_in ? kUnseen : state;
   if (raised) return true;
   if (!cpu.host_stale) return false;
   cpu.host_stale = false;
@@ -231,9 +244,9 @@ bool Processor::follow_host(int next_vector) {
   for (std::size_t h = 0; h < irqs_.size(); ++h) {
     if (irqs_[h] < 0) continue;
     ByHeart& handler = by_heart_[h];
-    cpu.host_is_held |= handler.held;
+    cpu.host_is_held |= is_held(h);
     if (handler.missed_at == 0)
-      handler.source = handler.held ? cpu.host->source_event(static_cast<int>(h), cpu.now) : kNever;
+      handler.source = is_held(h) ? cpu.host->source_event(static_cast<int>(h), cpu.now) : kNever;
   }
   cpu.clocks.set_share(cpu.host->share_q32());
   // held off by its level alone it wakes the processor all the same
@@ -304,7 +317,7 @@ void Processor::serve_pending(int vector) {
 /// Does the handler known by heart begin now, rather than that of `vector`?
 bool Processor::is_host_first(int vector) const {
   const Cpu& cpu = *cpu_;
-  if (by_heart_[0].held) return false;
+  if (is_held(0)) return false;
   if (vector != kNoVector && vector == kFirstIrqVector + irqs_[0]) return true;
   if (cpu.host_due > cpu.now) return false;
   if (vector == kNoVector) return true;
@@ -318,7 +331,7 @@ bool Processor::is_host_first(int vector) const {
 Cycle Processor::host_horizon() const {
   const Cpu& cpu = *cpu_;
   if (!cpu.host) return kNever;
-  const Cycle due = by_heart_[0].held && cpu.host_due <= cpu.now ? kNever : cpu.host_due;
+  const Cycle due = is_held(0) && cpu.host_due <= cpu.now ? kNever : cpu.host_due;
   return std::min({disi_horizon(), due, by_heart_[0].source, by_heart_[1].source});
 }
 
@@ -333,8 +346,8 @@ Cycle Processor::idle_until() const {
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
   // what handlers take may be another from now on
-  if (cpu.host && (cpu.host_stale || seen_ == kUnseen || hold_state(outlook.vector) != seen_)) return 0;
-  if (outlook.reset_due || (cpu.host_due <= cpu.now && !by_heart_[0].held)) return 0;
+  if (cpu.host && (cpu.host_stale || handlers(outlook.vector) != seen_)) return 0;
+  if (outlook.reset_due || (cpu.host_due <= cpu.now && !is_held(0))) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
   if (is_asleep()) return std::min(until, cpu.parts.interrupts.wakes_at());
   if (outlook.vector != kNoVector) return 0;

@@ -115,8 +115,9 @@ class Processor {
   void execute();
   void sleep(Cycle until);
   bool follow_host(int vector);
-  std::uint64_t hold_state(int next_vector) const;
-  bool is_held_off(std::size_t handler, int next_vector) const;
+  unsigned handlers(int next_vector) const;
+  bool follow_changed_handlers(unsigned state, int next_vector);
+  bool is_held(std::size_t handler) const { return (held_ >> handler & 1) != 0; }
   bool raise_held(std::size_t handler);
   void count_missed(std::size_t handler);
   bool is_host_first(int vector) const;
@@ -131,14 +132,14 @@ class Processor {
   Cycle slept_ = 0, asleep_since_ = kNever;
   /// A handler known by heart.
   struct ByHeart {
-    bool held = true;       // the program holds it off, or it is asleep
     Cycle source = kNever;  // when the source of a held one sets the flag next
     Cycle missed_at = 0;  // ... found it set; what comes later is counted when the flag falls. 0: it did not
   };
   std::array<ByHeart, 2> by_heart_;
   std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none
-  static constexpr std::uint64_t kUnseen = ~std::uint64_t{0};
-  std::uint64_t seen_ = kUnseen;  // hold_state() when follow_host() looked last
+  static constexpr unsigned kFlagsAt = 2, kUnseen = ~0u;
+  unsigned held_ = 3;        // handlers that the program holds off, or it is asleep, a bit each
+  unsigned seen_ = kUnseen;  // handlers() when follow_host() looked last
 };
 
 }  // namespace dspic
