@@ -436,6 +436,7 @@ class Cpu final : public SfrOwner {
   bool host_is_held = true;    ///< one of the handlers is held off
   Cycle host_due = kNever;     ///< when the next one comes that calls the program
   Cycle stop_at = kNever;      ///< true time: `deadline` but for that handler and for looks
+  Cycle soonest = kNever;      ///< ... and whatever the end of run()
   Cycle pause_at = kNever;     ///< ... when a look for a wait comes
   std::int64_t writes_seen = 0;  ///< to interrupt registers, when Processor::run() looked last
   bool host_again = false;       ///< the function of the host that stands there has been called already
@@ -585,6 +586,7 @@ class Cpu final : public SfrOwner {
   void hurry_to(Cycle at) {
     deadline = std::min(deadline, clocks.program_at(at));
     stop_at = std::min(stop_at, at);
+    soonest = std::min(soonest, at);
   }
   unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);

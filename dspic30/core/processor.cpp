@@ -36,6 +36,7 @@ Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_pt
 Processor::~Processor() = default;
 
 void Processor::restart() {
+  rest_until_ = 0;
   waits_->forget(*cpu_);
   asleep_since_ = kNever;
   cpu_->reset();
@@ -97,13 +98,37 @@ void Processor::execute() {
   }
 }
 
+// It waits, and nobody has done anything since: the wait goes on. False: more is to be looked at.
+bool Processor::rests(Cycle until) {
+  Cpu& cpu = *cpu_;
+  const Cycle rest = std::exchange(rest_until_, 0);
+  if (rest <= cpu.now || !waits_->is_waiting() || cpu.host_stale) return false;
+  cpu.settle();
+  const Outlook outlook = cpu.parts.look(cpu.now);
+  if (outlook.vector != kNoVector || outlook.reset_due || outlook.horizon < rest || cpu.is_code_stale())
+    return false;
+  const Cycle end = cpu.deadline = cpu.clocks.program_at(std::min(until, rest));
+  waits_->go_on(cpu);
+  if (cpu.deadline != end || !waits_->is_waiting()) return false;
+  cpu.settle();
+  if (cpu.now < until) return false;
+  rest_until_ = rest;
+  return true;
+}
+
 std::optional<ResetKind> Processor::run(Cycle until) {
   Cpu& cpu = *cpu_;
+  if (rest_until_ > 0 && cpu.now < until && rests(until)) return std::nullopt;
+  Cycle rest = 0;
   while (true) {
     if (cpu.reset_due) return cpu.reset_due;
     cpu.settle();
     if (cpu.returned) waits_->resume(cpu);
-    if (cpu.now >= until) return std::nullopt;
+    if (cpu.now >= until) {
+      rest_until_ = rest;
+      return std::nullopt;
+    }
+    rest = 0;
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
     if (cpu.is_code_stale()) {
@@ -140,7 +165,11 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
     }
     if (cpu.repeating && waits_->is_away()) cpu.next = cpu.run_repeated(cpu.next);
+    cpu.soonest = outlook.horizon;
     execute();
+    if (waits_->is_waiting() && cpu.deadline > 0 && !cpu.host_stale && !cpu.returned &&
+        cpu.parts.interrupts.writes() == cpu.writes_seen)
+      rest = std::min(cpu.soonest, host_horizon());
   }
 }
 
@@ -342,6 +371,8 @@ Cycle Processor::disi_horizon() const {
 
 Cycle Processor::idle_until() const {
   const Cpu& cpu = *cpu_;
+  if (rest_until_ > cpu.now && waits_->is_waiting() && !cpu.host_stale)
+    return std::min(rest_until_, waits_->until(cpu));
   const bool stands = cpu.stands_in_host();
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
@@ -356,7 +387,10 @@ Cycle Processor::idle_until() const {
   return until;
 }
 
-void Processor::stir() { waits_->stir(*cpu_); }
+void Processor::stir() {
+  rest_until_ = 0;
+  waits_->stir(*cpu_);
+}
 
 void Processor::enter_interrupt(int vector) {
   Cpu& cpu = *cpu_;
@@ -406,6 +440,7 @@ int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
 Cycle Processor::own_cycles() const { return cpu_->clocks.own_cycles(cpu_->now); }
 void Processor::wait_until(Cycle at) {
+  rest_until_ = 0;
   cpu_->now = std::max(cpu_->now, at);
   cpu_->clocks.reset(cpu_->now);
 }

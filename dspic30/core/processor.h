@@ -113,6 +113,7 @@ class Processor {
  private:
   void enter_interrupt(int vector);
   void execute();
+  bool rests(Cycle until);
   void sleep(Cycle until);
   bool follow_host(int vector);
   unsigned handlers(int next_vector) const;
@@ -129,6 +130,7 @@ class Processor {
   std::unique_ptr<Cpu> cpu_;
   std::unique_ptr<Waits> waits_;
   Dspic30f6014a& chip_;
+  Cycle rest_until_ = 0;  // it waits, and up to then nothing else will happen; 0: who knows
   Cycle slept_ = 0, asleep_since_ = kNever;
   /// A handler known by heart.
   struct ByHeart {
