@@ -572,8 +572,10 @@ unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
   return read_other(ea, bits, t);
 }
 
-unsigned Cpu::read_served(unsigned ea, unsigned bits) {
-  const unsigned word = host->read(ea & ~1u, true_now() + at->lead);
+unsigned Cpu::read_served(unsigned ea, unsigned bits) { return read_served(ea, bits, true_now() + at->lead); }
+
+unsigned Cpu::read_served(unsigned ea, unsigned bits, Cycle t) {
+  const unsigned word = host->read(ea & ~1u, t);
   return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
 }
 
@@ -585,7 +587,7 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
   }
   if (is_served(ea)) {
     if (watching) note_look(host->horizon(ea & ~1u, t));
-    return read_served(ea, bits);
+    return read_served(ea, bits, t);
   }
   if (ea - kRamStart < kRamBytes) {
     round_memory->note_read(ram.data(), ea - kRamStart);

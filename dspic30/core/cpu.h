@@ -566,6 +566,7 @@ class Cpu final : public SfrOwner {
   bool is_served(unsigned ea) const { return ea - kRamStart < plain_start - kRamStart; }
   /// What it holds there by now: nothing else comes of the look, so translated code goes on behind it.
   unsigned read_served(unsigned ea, unsigned bits);
+  unsigned read_served(unsigned ea, unsigned bits, Cycle t);
   unsigned read_elsewhere(unsigned ea, unsigned bits);
   __attribute__((noinline)) unsigned read_other(unsigned ea, unsigned bits, Cycle t);
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);

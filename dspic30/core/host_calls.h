@@ -53,7 +53,7 @@ class HostCalls {
   /// read() without side effects, for debuggers.
   virtual std::uint16_t peek(unsigned address, Cycle at) const = 0;
 
-  // --- handlers known by heart; all have the same vector's priority
+  // --- handlers known by heart
   /// When the next one comes that calls the program; kNever: none. Read after host_changed() and after each
   /// handler.
   virtual Cycle due() const = 0;
@@ -70,7 +70,6 @@ class HostCalls {
   /// not; kNoVector: there is none. Their IEC bits and priorities say whether they can come. Stay as they
   /// are.
   virtual int vector(int handler) const = 0;
-  virtual int priority() const = 0;
   /// From `at` on the program holds this handler off (its level, DISI, its IEC bit), or does no longer. A
   /// held one takes no share, and its flag is the chip's: set at each source_event(), cleared and set by the
   /// program as it likes. `pending`: the flag is set as it is let go, so it comes now.

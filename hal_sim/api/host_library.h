@@ -65,7 +65,6 @@ class HostLibrary final : public dspic::HostCalls {
   HandlerStep next_in_handler(Cycle at) override;
   void end_handler(Cycle at) override;
   int vector(int handler) const override;
-  int priority() const override { return drivers::kHandlerPriority; }
   void hold_handler(int handler, bool held, bool pending, Cycle at) override;
   Cycle source_event(int handler, Cycle after) const override;
   Cycle pending_cycles() const override;

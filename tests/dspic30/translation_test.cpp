@@ -200,7 +200,6 @@ struct Host final : dspic::HostCalls {
   dspic::HandlerStep next_in_handler(Cycle) override { return {}; }
   void end_handler(Cycle) override {}
   int vector(int) const override { return dspic::kNoVector; }
-  int priority() const override { return 4; }
   void hold_handler(int, bool, bool, Cycle) override {}
   Cycle source_event(int, Cycle) const override { return dspic::kNever; }
   Cycle pending_cycles() const override { return 1; }

@@ -77,7 +77,6 @@ class Library final : public dspic::HostCalls {
   int vector(int handler) const override {
     return dspic::kFirstIrqVector + (handler == 0 ? 6 : 11);
   }  // T2, ADC
-  int priority() const override { return 4; }
   void hold_handler(int handler, bool held, bool pending, Cycle at) override {
     note(-10 - 4 * handler - 2 * pending - (held ? 1 : 0), at);
     if (handler == 1) held_ = held;
