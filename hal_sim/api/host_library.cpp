@@ -53,7 +53,7 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
     : board_(board),
       served_(served),
       cycles_(call_cycles(served.level)),
-      drivers_(std::make_unique<drivers::Drivers>(board)),
+      drivers_(std::make_unique<drivers::Drivers>(board, drivers::Drivers::Which::Busy)),
       variables_(drivers_->scan(), cycles_),
       rhythm_(cycles_) {
   drivers_->leave_telling_to_others();

@@ -129,8 +129,9 @@ void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
 void BoardOutside::follow_emitters(Port port, Cycle at) {
   const auto p = static_cast<std::size_t>(port);
   const int first = port == Port::F ? 0 : 2;
+  if (!emitters_) emitters_ = std::make_unique<std::array<Emitter, 4>>();
   for (int i = first; i < first + 2; ++i) {
-    Emitter& e = emitters_[static_cast<std::size_t>(i)];
+    Emitter& e = (*emitters_)[static_cast<std::size_t>(i)];
     if (((levels_[p] & ~tris_[p] & board::kEmitterPins[i].mask()) != 0) != e.is_on()) e.change(at);
   }
 }
@@ -146,7 +147,8 @@ Cycle BoardOutside::Emitter::when(int n) const {
 }
 
 Cycle BoardOutside::lit_for(int sensor, Cycle at) const {
-  const Emitter& e = emitters_[static_cast<std::size_t>(sensor & 3)];
+  if (!emitters_) return -1;
+  const Emitter& e = (*emitters_)[static_cast<std::size_t>(sensor & 3)];
   const int changes = e.changes_by(at);
   return changes % 2 != 0 ? at - std::max<Cycle>(0, e.when(changes - 1)) : -1;
 }

@@ -12,6 +12,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 
 #include "dspic30/device/dspic30f6014a.h"
 #include "dspic30/periph/outside.h"
@@ -100,7 +101,7 @@ class BoardOutside final : public dspic::Outside {
   std::int64_t followed_writes_ = -1;  // to the chip's registers, when its UARTs were looked at last
   EventDigest digest_;
   CameraPins camera_;
-  std::array<Emitter, 4> emitters_;
+  std::unique_ptr<std::array<Emitter, 4>> emitters_;  // null: pins have switched none
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not

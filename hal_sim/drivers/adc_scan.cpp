@@ -125,7 +125,7 @@ void AdcScan::reset(Cycle at) {
   runs_.clear();
   acc_kept_ = 0;
   acc_used_ = false;
-  acc_ = AccRing{};
+  acc_.reset();
   on_ = false;
   held_since_ = -1;
   lost_ = 0;
@@ -289,10 +289,11 @@ int AdcScan::evaluate_acc(int axis, std::int64_t sample) const {
 }
 
 void AdcScan::fill_acc(std::int64_t count) {
+  if (!acc_ && count > acc_kept_) acc_ = std::make_unique<AccRing>();
   // what the ring has lost again need not be known
   for (std::int64_t k = std::max(acc_kept_, count - kAccSamples); k < count; ++k)
     for (int axis = 0; axis < 3; ++axis)
-      acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
+      (*acc_)[static_cast<std::size_t>(axis)][static_cast<std::size_t>((k + 1) % kAccSamples)] =
           static_cast<std::int16_t>(evaluate_acc(axis, k));
   acc_kept_ = count;
 }
@@ -303,14 +304,15 @@ int AdcScan::peek_acc(int axis, int index, Cycle at) const {
   const std::int64_t ago = ((newest + 1 - index) % kAccSamples + kAccSamples) % kAccSamples;
   const std::int64_t sample = newest - ago;
   if (sample < 0) return 0;
-  if (sample < acc_kept_) return acc_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index)];
+  if (sample < acc_kept_) return (*acc_)[static_cast<std::size_t>(axis)][static_cast<std::size_t>(index)];
   return evaluate_acc(axis, sample);
 }
 
 const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
   acc_used_ = true;
   fill_acc(acc_samples(at));
-  return acc_;
+  if (!acc_) acc_ = std::make_unique<AccRing>();
+  return *acc_;
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {

@@ -20,6 +20,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "hal_sim/drivers/driver_params.h"
@@ -208,8 +209,8 @@ class AdcScan {
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here
   std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
-  AccRing acc_{};
-  std::int64_t acc_kept_ = 0;  // samples in acc_
+  std::unique_ptr<AccRing> acc_;  // null: all are 0
+  std::int64_t acc_kept_ = 0;     // samples in acc_
 };
 
 }  // namespace drivers

@@ -8,15 +8,18 @@
 
 namespace drivers {
 
-Drivers::Drivers(board::Board& board)
+Drivers::Others::Others(board::Board& board)
+    : basic_prox(board),
+      i2c_master(board.i2c()),
+      sound(board.codec()),
+      camera(board.camera()),
+      uart_rings{UartRing(board.uart(1)), UartRing(board.uart(2))} {}
+
+Drivers::Drivers(board::Board& board, Which which)
     : board_(board),
+      others_(which == Which::All ? std::make_unique<Others>(board) : nullptr),
       agendas_(board.own_motor(Wheel::Left), board.own_motor(Wheel::Right)),
-      scan_(board),
-      basic_prox_(board),
-      i2c_master_(board.i2c()),
-      sound_(board.codec()),
-      camera_(board.camera()),
-      uart_rings_{UartRing(board.uart(1)), UartRing(board.uart(2))} {
+      scan_(board) {
   board_.attach(this);
 }
 
@@ -34,39 +37,41 @@ void Drivers::mask_handlers(bool masked, Cycle at) {
 
 void Drivers::init_ports(Cycle at) {
   board_.init_ports(at);
-  i2c_master_.switch_on(kI2cLibraryBrg, at);
+  i2c_master().switch_on(kI2cLibraryBrg, at);
 }
 
 void Drivers::bring_motor(Wheel wheel, Cycle at) {
   Stepper& motor = agendas_.stepper(wheel, at);
-  if (timer_motors_.drives(wheel)) timer_motors_.move(wheel, at, motor);
+  if (is_on_timer(wheel)) others_->timer_motors.move(wheel, at, motor);
 }
 
 const Stepper& Drivers::motor_at(Wheel wheel, Cycle at) const {
   const Stepper& motor = agendas_.stepper_at(wheel, at);
-  if (!timer_motors_.drives(wheel)) return motor;
-  seen_ = motor;
-  timer_motors_.peek(wheel, at, seen_);
-  return seen_;
+  if (!is_on_timer(wheel)) return motor;
+  others_->seen = motor;
+  others_->timer_motors.peek(wheel, at, others_->seen);
+  return others_->seen;
 }
 
 board::RotorCourse Drivers::motor_course(Wheel wheel, Cycle at) const {
-  if (!timer_motors_.drives(wheel)) return agendas_.course(wheel, at);
+  if (!is_on_timer(wheel)) return agendas_.course(wheel, at);
   board::RotorCourse course = motor_at(wheel, at).course(at);
   course.until = std::min(course.until, steps_horizon(wheel, at));
   return course;
 }
 
 Cycle Drivers::steps_horizon(Wheel wheel, Cycle at) const {
-  return std::min(agendas_.steps_horizon(wheel, at), timer_motors_.steps_horizon(wheel, at));
+  const Cycle own = agendas_.steps_horizon(wheel, at);
+  return others_ ? std::min(own, others_->timer_motors.steps_horizon(wheel, at)) : own;
 }
 
 Cycle Drivers::coils_horizon(Wheel wheel, Cycle at) const {
-  return std::min(agendas_.coils_horizon(wheel, at), timer_motors_.coils_horizon(wheel, at));
+  const Cycle own = agendas_.coils_horizon(wheel, at);
+  return others_ ? std::min(own, others_->timer_motors.coils_horizon(wheel, at)) : own;
 }
 
 std::optional<double> Drivers::coil_duty(Wheel wheel) const {
-  if (timer_motors_.drives(wheel)) return 1;  // these drivers leave the coils on from step to step
+  if (is_on_timer(wheel)) return 1;  // these drivers leave the coils on from step to step
   if (!agendas_.runs(wheel)) return std::nullopt;
   const int magnitude = std::abs(agendas_.speed(wheel));
   if (magnitude >= kPowerSaveBelow) return 1;
@@ -75,13 +80,14 @@ std::optional<double> Drivers::coil_duty(Wheel wheel) const {
 }
 
 Cycle Drivers::pulses_horizon(Cycle at) const {
-  return std::min(scan_.pulses_horizon(at), basic_prox_.horizon(at));
+  const Cycle own = scan_.pulses_horizon(at);
+  return others_ ? std::min(own, others_->basic_prox.horizon(at)) : own;
 }
 
 double Drivers::mean_pulses() const {
   double lines = 0;
   if (scan_.is_on() && !scan_.micro_only()) lines += static_cast<double>(kScanLitInterrupts) / kScanPeriod;
-  if (basic_prox_.is_on())
+  if (others_ && others_->basic_prox.is_on())
     lines +=
         static_cast<double>(kBasicPulseCycles) / static_cast<double>(kBasicPulseCycles + kBasicRestCycles);
   return lines;
@@ -89,21 +95,22 @@ double Drivers::mean_pulses() const {
 
 std::optional<int> Drivers::proximity_counts(int sensor, Cycle at) const {
   if (scan_.is_on() && !scan_.micro_only()) return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
-  if (basic_prox_.is_on()) return basic_prox_.peek_reflected(sensor, at);
+  if (others_ && others_->basic_prox.is_on()) return others_->basic_prox.peek_reflected(sensor, at);
   return std::nullopt;
 }
 
 void Drivers::processor_reset(Cycle at) {
   // whatever another driver did to the wheels by now, before its train is forgotten
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) bring_motor(wheel, at);
-  timer_motors_.reset();
+  if (others_) others_->timer_motors.reset();
   agendas_.reset(at);
   scan_.reset(at);
-  basic_prox_.reset(at);
-  i2c_master_.processor_reset(at);
-  camera_.reset();
-  for (UartRing& ring : uart_rings_) ring.reset();
-  requests = Requests{};
+  if (!others_) return;
+  others_->basic_prox.reset(at);
+  others_->i2c_master.processor_reset(at);
+  others_->camera.reset();
+  for (UartRing& ring : others_->uart_rings) ring.reset();
+  others_->requests = Requests{};
 }
 
 void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const {
@@ -131,7 +138,7 @@ void Drivers::add_diagnoses(std::vector<board::Diagnosis>& all, Cycle at) const 
 }
 
 std::uint64_t Drivers::state_sum(Cycle at) const {
-  return agendas_.state_sum(at) + timer_motors_.state_sum() * 0xD6E8FEB86659FD93u +
+  return agendas_.state_sum(at) + (others_ ? others_->timer_motors.state_sum() : 0) * 0xD6E8FEB86659FD93u +
          static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
 }
 

@@ -41,11 +41,11 @@ Wheel wheel_of(tp_i64 wheel) { return wheel == 0 ? Wheel::Left : Wheel::Right; }
 void request_background(Context& context, Board& robot, int slot, Cycle period, Cycle cost) {
   const std::size_t i = static_cast<std::size_t>(slot);
   if (cost == 0 || period <= 0) period = cost = 0;
-  if (context.drivers().requests.background_period[i] == period &&
-      context.drivers().requests.background_cost[i] == cost)
+  if (context.drivers().requests().background_period[i] == period &&
+      context.drivers().requests().background_cost[i] == cost)
     return;
-  context.drivers().requests.background_period[i] = period;
-  context.drivers().requests.background_cost[i] = cost;
+  context.drivers().requests().background_period[i] = period;
+  context.drivers().requests().background_cost[i] = cost;
   context.set_background(slot, period, cost);
 }
 
@@ -93,8 +93,8 @@ void request_agenda_interrupt(Context& context) {
   if (agendas.is_walking()) return;  // tp_agenda_end() follows
   const Cycle next = agendas.next_interrupt();
   const Cycle wanted = next >= kNever ? -1 : next;
-  if (wanted == context.drivers().requests.agenda_interrupt) return;
-  context.drivers().requests.agenda_interrupt = wanted;
+  if (wanted == context.drivers().requests().agenda_interrupt) return;
+  context.drivers().requests().agenda_interrupt = wanted;
   context.irq_at(TP_V_T2, wanted);
 }
 
@@ -237,7 +237,7 @@ void tp_agenda_end(void) {
   Context& context = Context::current();
   context.spend(kReturnCycles);
   context.drivers().agendas().finish(context.now());
-  context.drivers().requests.agenda_interrupt = Drivers::Requests::kUnknown;  // the request was used up
+  context.drivers().requests().agenda_interrupt = Drivers::Requests::kUnknown;  // the request was used up
   context.note_write();
   host::request_agenda_interrupt(context);
 }
