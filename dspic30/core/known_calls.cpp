@@ -24,11 +24,18 @@ std::uint32_t return_address(const Cpu& cpu, unsigned top) {
   return address & 0x7FFFFE;
 }
 
-// nobody looks on, no loop of the chip can end in it, and pointers and stack are as everywhere
+// no loop of the chip can end in it, and pointers and stack are as everywhere
 bool can_be_answered(const Cpu& cpu) {
-  const unsigned top = cpu.w[15], full = top + KnownCalls::kStack;
-  return !(cpu.watching | cpu.repeating | cpu.rcount | cpu.modcon) && !cpu.loop_end &&
-         top >= Cpu::kRamStart + kReturnAddress && full <= Cpu::kRamEnd && full <= cpu.stack_most;
+  const unsigned full = cpu.w[15] + KnownCalls::kStack;
+  return !(cpu.rcount | cpu.modcon) && !cpu.loop_end && full <= Cpu::kRamEnd && full <= cpu.stack_most;
+}
+
+// of registers alone
+__attribute__((noinline)) Cycle answered_by_function(Cpu& cpu, const KnownRoutine& routine, Cycle limit) {
+  const KnownAnswer answer = routine.function(first_registers(cpu));
+  if (answer.cycles > limit || answer.cycles == 0) return 0;
+  std::memcpy(cpu.w.data(), &answer.w0_to_w3, sizeof answer.w0_to_w3);
+  return answer.cycles;
 }
 
 }  // namespace
@@ -52,28 +59,22 @@ void KnownCalls::add(unsigned address, const KnownRoutine& routine) {
 
 Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle begin) {
   cpu.note_written(KnownCalls::kWrites);
-  if (!can_be_answered(cpu)) return 0;
-  const unsigned top = cpu.w[15];
   // what comes at its very end may come before its RETURN is over, which is shorter then
   const Cycle limit = cpu.deadline - begin - 1;
+  if (limit <= 0 || !can_be_answered(cpu)) return 0;
   cpu.at = d;
-  Cycle cycles = 0;
-  if (routine.action) {
-    if (limit > 0) cycles = routine.action(cpu, limit);
-  } else {
-    const KnownAnswer answer = routine.function(first_registers(cpu));
-    if (answer.cycles > limit) return 0;
-    cycles = answer.cycles;
-    if (cycles != 0) std::memcpy(cpu.w.data(), &answer.w0_to_w3, sizeof answer.w0_to_w3);
-  }
-  if (cycles != 0) cpu.w[15] = static_cast<std::uint16_t>(top - kReturnAddress);
+  const Cycle cycles =
+      routine.action ? routine.action(cpu, limit) : answered_by_function(cpu, routine, limit);
+  if (cycles != 0) cpu.w[15] = static_cast<std::uint16_t>(cpu.w[15] - kReturnAddress);
   return cycles;
 }
 
+// nobody looks on
 const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine) {
   cpu.note_written(KnownCalls::kWrites);
   const unsigned top = cpu.w[15];
-  if (top < Cpu::kRamStart + kReturnAddress || top > Cpu::kRamEnd) return nullptr;
+  if (cpu.watching || cpu.repeating || top < Cpu::kRamStart + kReturnAddress || top > Cpu::kRamEnd)
+    return nullptr;
   const std::uint32_t address = return_address(cpu, top);
   if (address == 0 || address >= kFlashEnd) return nullptr;
   const Cycle begin = cpu.now + d->lead, cycles = answered(cpu, d, routine, begin);

@@ -57,10 +57,10 @@ class KnownCalls {
 /// instruction's own function, Decoded::cycles of `d` are not counted yet. Null: nothing was done.
 const Decoded* recall(Cpu& cpu, const Decoded* d, const KnownRoutine& routine);
 
-/// What recall() does, for whoever knows where it returns to, as translated code does: the routine's cycles,
-/// with its return address taken off the stack. `begin` is when its first instruction would; the clock is not
-/// moved. All W registers are in their places, the flags need not be, and all may be changed. 0: nothing was
-/// done, and the routine has to run.
+/// What recall() does, for translated code, which has just pushed the return address: the routine's cycles,
+/// with that address taken off the stack. `begin` is when its first instruction would; the clock is not
+/// moved. All W registers are in their places, and so are flags that it may keep (KnownRoutine); W0 to W7,
+/// W15 and the flags may be changed. 0: nothing was done, and the routine has to run.
 Cycle answered(Cpu& cpu, const Decoded* d, const KnownRoutine& routine, Cycle begin);
 
 }  // namespace dspic

@@ -13,10 +13,15 @@
 
 namespace dspic::forms {
 
-/// Wn+1:Wn.
-inline std::uint32_t pair(const Cpu& cpu, unsigned n) {
-  return cpu.w[n] | static_cast<std::uint32_t>(cpu.w[n + 1]) << 16;
+/// Wn, by a load of its own: translated code stores registers one by one, and a load wider than the stores
+/// before it has to wait for them.
+inline std::uint32_t one(const Cpu& cpu, unsigned n) {
+  std::uint32_t word = cpu.w[n];
+  __asm__("" : "+r"(word));
+  return word;
 }
+/// Wn+1:Wn.
+inline std::uint32_t pair(const Cpu& cpu, unsigned n) { return one(cpu, n) | one(cpu, n + 1) << 16; }
 inline void set_pair(Cpu& cpu, unsigned n, std::uint32_t value) {
   cpu.w[n] = static_cast<std::uint16_t>(value);
   cpu.w[n + 1] = static_cast<std::uint16_t>(value >> 16);
@@ -38,7 +43,7 @@ inline void leave(Cpu& cpu, unsigned place, unsigned value) {
 }
 /// Wn, Wn+1 ... from there on.
 inline void leave_registers(Cpu& cpu, unsigned place, unsigned n, unsigned count) {
-  std::memcpy(&cpu.ram[cpu.w[15] - Cpu::kRamStart + 2 * place], &cpu.w[n], 2 * count);
+  for (unsigned i = 0; i < count; ++i) leave(cpu, place + i, one(cpu, n + i));
 }
 inline void leave_return(Cpu& cpu, unsigned place, unsigned address) {
   leave(cpu, place, address & 0xFFFF);

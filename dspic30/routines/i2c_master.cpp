@@ -85,6 +85,7 @@ class Primitive {
     if (!cpu_.waits->is_free_until(cpu_, flag + kMost)) return false;
     for (known_ = 0; known_ < kPlaces; ++known_) {
       wait_.head = first() + known_;
+      if (!cpu_.is_wait_head(wait_.head)) continue;
       wait_.came = cpu_.clocks.own_cycles(head + known_);
       wait_.came_true = cpu_.clocks.true_at(head + known_);
       if (cpu_.waits->knows(cpu_, wait_)) return true;
@@ -120,9 +121,11 @@ class Primitive {
     const unsigned at = flash[vector / 2] & 0x7FFFFE;
     if (at >= kFlashEnd - 2 * kHandler.size()) return false;
     const std::uint32_t* const words = flash + at / 2;
-    bool is_same = words[5] == (kClearMode | mode_);
-    for (std::size_t i = 0; i < kHandler.size(); ++i) is_same &= i == 5 || words[i] == kHandler[i];
-    return is_same;
+    constexpr std::size_t kClear = 5;
+    return words[kClear] == (kClearMode | mode_) &&
+           std::memcmp(words, kHandler.data(), kClear * sizeof *words) == 0 &&
+           std::memcmp(words + kClear + 1, &kHandler[kClear + 1],
+                       (kHandler.size() - kClear - 1) * sizeof *words) == 0;
   }
 
   // does a handler known by heart, which this one's interrupt holds off, become pending meanwhile?
