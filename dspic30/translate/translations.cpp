@@ -83,7 +83,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
 bool Translations::has_compiler() {
   if (!is_loaded_) {
     is_loaded_ = true;
-    void* const library = dlopen(library_.c_str(), RTLD_NOW | RTLD_LOCAL);
+    void* const library = dlopen(library_.c_str(), RTLD_LAZY | RTLD_LOCAL);
     const auto* const cpu_bytes =
         library ? static_cast<const std::size_t*>(dlsym(library, "dspic_translate_cpu_bytes")) : nullptr;
     if (cpu_bytes && *cpu_bytes == sizeof(Cpu))  // else it is of another build
