@@ -388,15 +388,43 @@ struct NamedFiles {
   std::set<std::string> known_words;
 };
 
+/// Empty: none.
+fs::path makefile_in(const fs::path& folder) {
+  std::error_code ec;
+  for (const char* name : {"Makefile", "makefile", "GNUmakefile"})
+    if (fs::is_regular_file(folder / name, ec)) return folder / name;
+  return {};
+}
+
+/// What it gives to the compiler.
+CompilerOptions options_in(const Makefile& makefile) {
+  static const sim::Pattern kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
+  static const sim::Pattern kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
+  std::string options;
+  for (const auto& [name, raw] : makefile.variables()) {
+    if (std::regex_match(name, kFolders))
+      for (const std::string& word : words_of(makefile.value(name)))
+        if (word[0] != '-') options += "-I" + word + " ";
+    if (std::regex_match(name, kOptions)) options += makefile.value(name) + " ";
+  }
+  return compiler_options(options);
+}
+
+/// Folders of headers, as a Makefile in `home` names them, behind those that are known.
+void add_folders(const fs::path& home, const CompilerOptions& options, std::vector<fs::path>& folders) {
+  std::error_code ec;
+  for (const std::string& name : options.include_dirs)
+    if (const fs::path at = resolve_path(home, name).lexically_normal(); fs::is_directory(at, ec))
+      if (std::find(folders.begin(), folders.end(), at) == folders.end()) folders.push_back(at);
+}
+
 }  // namespace
 
 std::optional<MplabProject> read_makefile(const fs::path& folder) {
   const fs::path home = fs::absolute(folder).lexically_normal();
   std::error_code ec;
   look_at(home);
-  fs::path file;
-  for (const char* name : {"Makefile", "makefile", "GNUmakefile"})
-    if (file.empty() && fs::is_regular_file(home / name, ec)) file = home / name;
+  const fs::path file = makefile_in(home);
   if (file.empty()) return std::nullopt;
   const Makefile makefile(file);
   MplabProject project;
@@ -409,18 +437,10 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
       places.push_back(found);
   static const sim::Pattern kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS|_?FILES)?)",
                                      std::regex::icase);
-  static const sim::Pattern kOptions(R"(\w*(C(PP)?FLAGS|INCLUDES?|INC|DEFS|DEFINES)\w*)", std::regex::icase);
-  static const sim::Pattern kFolders("INC_?DIRS?|INCLUDE_?DIRS?", std::regex::icase);  // without -I
-  std::string options;
   std::vector<std::string> words;  // of all lists of sources
-  for (const auto& [name, raw] : makefile.variables()) {
-    if (std::regex_match(name, kFolders))
-      for (const std::string& word : words_of(makefile.value(name)))
-        if (word[0] != '-') options += "-I" + word + " ";
-    if (std::regex_match(name, kOptions)) options += makefile.value(name) + " ";
-    if (!std::regex_match(name, kSources)) continue;
-    for (const std::string& word : words_of(makefile.value(name))) words.push_back(word);
-  }
+  for (const auto& [name, raw] : makefile.variables())
+    if (std::regex_match(name, kSources))
+      for (const std::string& word : words_of(makefile.value(name))) words.push_back(word);
   NamedFiles listed(home, places);
   listed.add(words);
   // lists of any name that a target is linked of; of several programs the first one
@@ -434,15 +454,17 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   project.sources = listed.sources;
   project.assembler = listed.assembler;
   project.library_places = listed.library_places;
-  const CompilerOptions found = compiler_options(options);
+  const CompilerOptions found = options_in(makefile);
   project.defines = found.defines;
   project.standard = found.standard;
   project.level = found.level;
-  for (const std::string& name : found.include_dirs)
-    if (const fs::path at = resolve_path(home, name).lexically_normal(); fs::is_directory(at, ec))
-      if (std::find(project.include_dirs.begin(), project.include_dirs.end(), at) ==
-          project.include_dirs.end())
-        project.include_dirs.push_back(at);
+  add_folders(home, found, project.include_dirs);
+  // files of other folders are compiled by the Makefiles there
+  std::set<fs::path> others;
+  for (const fs::path& source : project.sources)
+    if (const fs::path other = source.parent_path(); other != home && others.insert(other).second)
+      if (const fs::path theirs = makefile_in(other); !theirs.empty())
+        add_folders(other, options_in(Makefile(theirs)), project.include_dirs);
   return project;
 }
 

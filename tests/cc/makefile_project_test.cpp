@@ -74,6 +74,20 @@ TEST(makefile_project, objects_named_by_functions_of_make_are_found) {
   }
 }
 
+// a part of the program in a folder with a Makefile of its own, which alone says where its headers lie
+TEST(makefile_project, other_folders_are_compiled_as_their_makefiles_say) {
+  Folder folder;
+  folder.file("controllers/prog/main.c",
+              "#include <stdio.h>\nint part(void);\nint main(void) { printf(\"%d\", part()); return 0; }");
+  folder.file("controllers/src/part/part.c", "#include <value.h>\nint part(void) { return VALUE; }");
+  folder.file("controllers/src/values/value.h", "#define VALUE 77\n");
+  folder.file("controllers/src/part/Makefile", "CPPFLAGS = -I../values\n");
+  folder.file("controllers/prog/Makefile", "OBJS = main.o\nEXTERNAL_OBJS = $(wildcard ../src/part/*.o)\n");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), "77");
+}
+
 TEST(makefile_project, settings_count_without_a_list_of_sources) {
   Folder folder;
   folder.file("controllers/prog/main.c", kMain);
