@@ -43,6 +43,17 @@ class Space {
     }
     return false;
   }
+  /// The highest one.
+  bool take_last(std::uint32_t size, std::uint32_t align, std::uint32_t least, std::uint32_t most,
+                 std::uint32_t& at) {
+    for (auto it = free_.rbegin(); it != free_.rend(); ++it) {
+      const std::uint32_t end = std::min(it->second, most), begin = std::max(it->first, least);
+      if (end < begin + size) continue;
+      const std::uint32_t last = (end - size) / align * align;
+      if (last >= begin) return take(size, 1, last, last + size, at);
+    }
+    return false;
+  }
   std::pair<std::uint32_t, std::uint32_t> largest() const {
     return *std::max_element(free_.begin(), free_.end(),
                              [](auto& a, auto& b) { return a.second - a.first < b.second - b.first; });
@@ -126,10 +137,12 @@ std::set<const Section*> place_registers(Program& program, Space& ram) {
   return placed;
 }
 
-void place_ram(Program& program, const Options& options) {
+/// `y_last`: what must lie in Y memory is at its end, not its beginning.
+void place_ram(Program& program, const Options& options, bool y_last) {
   Space ram(kRamBegin, kRamEnd);
   const auto place = [&](Section& s, Range r, std::uint32_t align) {
-    if (ram.take(s.size, align, r.least, r.most, s.address)) return;
+    const auto take = y_last && (s.flags & kYSpace) ? &Space::take_last : &Space::take;
+    if ((ram.*take)(s.size, align, r.least, r.most, s.address)) return;
     program.errors.push_back("RAM: no room for " + readable(s) + ", " + std::to_string(s.size) +
                              " bytes in " + hex(r.least) + " to " + hex(r.most - 1) +
                              "; largest: " + largest_of(program, Kind::Ram));
@@ -163,6 +176,21 @@ void place_ram(Program& program, const Options& options) {
   }
   std::tie(program.stack_begin, program.stack_end) = ram.largest();
   program.stack_begin = (program.stack_begin + 1) & ~1u;
+}
+
+/// A large array may need the room on both sides of where Y memory begins.
+void place_ram(Program& program, const Options& options) {
+  const std::size_t errors = program.errors.size();
+  const auto bytes = program.ram_bytes;
+  place_ram(program, options, false);
+  if (program.errors.size() == errors) return;
+  std::vector<std::string> first(program.errors.begin() + std::ptrdiff_t(errors), program.errors.end());
+  program.errors.resize(errors);
+  program.ram_bytes = bytes;
+  place_ram(program, options, true);
+  if (program.errors.size() == errors) return;
+  program.errors.resize(errors);
+  program.errors.insert(program.errors.end(), first.begin(), first.end());
 }
 
 /// Data that must be set before main(): a table entry each (fill_dinit() in link_fill.cpp).

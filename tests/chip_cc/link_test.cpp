@@ -222,6 +222,18 @@ TEST_F(Built, sections_with_attributes_and_alignment_place_variables) {
 
 // the original's fast agenda, in short: its e_motors.c calls its own e_agenda_fast.c, and main includes our
 // header, which labels the functions
+// 2,896 bytes lie before Y memory's array and 3,072 behind it, were it at Y memory's beginning
+TEST_F(Built, a_large_array_lies_over_the_beginning_of_y_memory) {
+  file("main.c",
+       "int table[512] __attribute__((space(ymemory)));\nchar a_small[1200], big[3300];\n"
+       "int main(void) { a_small[table[1]] = 1; big[table[2]] = 2; while (1); }\n");
+  build();
+  const unsigned long table = place_of("_table"), small = place_of("_a_small"), big = place_of("_big");
+  EXPECT_EQ(table, 0x2400u);
+  EXPECT_EQ(small, 0x0800u);
+  EXPECT_EQ(big, 0x0800u + 1200);
+}
+
 TEST_F(Built, drivers_of_a_project_are_never_mixed_with_ours) {
   const std::string place = "library/motor_led/advance_one_timer/fast_agenda/";
   file("main.c",
