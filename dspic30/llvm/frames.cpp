@@ -180,7 +180,8 @@ bool DSPICFrameLowering::spillCalleeSavedRegisters(MachineBasicBlock& mbb, Machi
 bool DSPICFrameLowering::restoreCalleeSavedRegisters(MachineBasicBlock& mbb, MachineBasicBlock::iterator it,
                                                      MutableArrayRef<CalleeSavedInfo> saved,
                                                      const TargetRegisterInfo* registers) const {
-  for (Register r : reverse(in_pairs(saved, *registers)))
+  const SmallVector<Register, 8> kept = in_pairs(saved, *registers);
+  for (Register r : reverse(kept))
     BuildMI(mbb, it, DebugLoc(),
             instructions_of(*mbb.getParent()).get(DSPIC::WPRegClass.contains(r) ? DSPIC::POPD : DSPIC::POP),
             r);
