@@ -171,20 +171,35 @@ class Primitive {
     leave(cpu_, shape_.stacked + 2, cpu_.psvpag);
     leave(cpu_, shape_.stacked + 3, shape_.pushed);
     cpu_.now = interrupts.enter(static_cast<int>(kVector), cpu_.now).first_instruction;
-    follow();
+    const bool stills = stills_host();
+    follow(stills, 0);
     // its flag, and RETFIE
     lower_flag(cpu_.true_now() + 4);
     cpu_.now += 8;
     cpu_.settle();
     cpu_.parts.events.run_to(cpu_.now);
     cpu_.now = interrupts.leave_to(static_cast<int>(level), cpu_.now);
-    follow();
+    follow(stills, stills ? cpu_.host->share_q32() : 0);
     wait_.went_on = cpu_.clocks.own_cycles(cpu_.now);
   }
-  void follow() {
+  // Does this one hold off all handlers known by heart, which nothing else does? As none of them comes
+  // meanwhile (is_host_disturbed()), all that comes of it is that they take nothing
+  bool stills_host() const {
+    if (!cpu_.host || cpu_.host_is_held || cpu_.host_stale) return false;
+    const Interrupts& interrupts = cpu_.parts.interrupts;
+    for (int h = 0; h < HostCalls::kHandlers; ++h)
+      if (const int vector = cpu_.host->vector(h);
+          vector != kNoVector && interrupts.priority(vector - kFirstIrqVector) > interrupts.level())
+        return false;
+    return true;
+  }
+  void follow(bool stills, std::uint64_t share_q32) {
     cpu_.settle();
     cpu_.parts.events.run_to(cpu_.now);
-    if (cpu_.host) cpu_.follow_host();
+    if (stills)
+      cpu_.clocks.set_share(share_q32);
+    else if (cpu_.host)
+      cpu_.follow_host();
   }
   void lower_flag(Cycle at) {
     ChipParts& parts = cpu_.parts;
