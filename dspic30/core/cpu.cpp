@@ -46,6 +46,7 @@ void set_high(unsigned& address, unsigned value) { address = (address & 0xFFFF) 
 Cpu::Cpu(ChipParts& chip, ProgramMemory& memory, std::shared_ptr<CodeStore> store)
     : parts(chip), program(memory), store_(std::move(store)), code_version_(memory.version()) {
   parts.bus.attach(*this, 0, kLast);
+  parts.bus.share();
   if (!store_) forget_code();
   reset();
 }

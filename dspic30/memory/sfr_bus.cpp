@@ -3,11 +3,34 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <list>
+#include <mutex>
 #include <string>
 
 #include "dspic30/memory/hex.h"
 
 namespace dspic {
+
+SfrBus::Slots& SfrBus::own_slots() {
+  if (!own_) {
+    own_ = std::make_unique<Slots>();
+    std::copy_n(slots_, own_->size(), own_->begin());
+    slots_ = own_->data();
+  }
+  return *own_;
+}
+
+void SfrBus::share() {
+  if (!own_) return;
+  static std::mutex mutex;
+  // few: they depend on what is attached and warned of. Never freed, for a chip may outlive all else
+  static auto& known = *new std::list<Slots>;
+  const std::lock_guard lock(mutex);
+  auto same = std::find(known.begin(), known.end(), *own_);
+  if (same == known.end()) same = known.insert(same, *own_);
+  slots_ = same->data();
+  own_.reset();
+}
 
 void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   // nobody has number 0
@@ -16,13 +39,14 @@ void SfrBus::attach(SfrOwner& owner, unsigned first, unsigned last) {
   if (own == owners_.end()) std::abort();
   *own = &owner;
   const auto number = static_cast<unsigned>(own - owners_.begin());
+  Slots& slots = own_slots();
   for (unsigned a = first; a <= last; a += 2)
-    if (sfr_info(a)) slots_[a / 2] = static_cast<Slot>(number | (warn_uninitialised_ ? kSlow : 0));
+    if (sfr_info(a)) slots[a / 2] = static_cast<Slot>(number | (warn_uninitialised_ ? kSlow : 0));
 }
 
 void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) {
-  Slot& slot = slots_[address / 2];
   if (bits == 0) return;
+  Slot& slot = own_slots()[address / 2];
   if (slot >> kUnmodelledShift == 0) {
     unmodelled_.push_back(0);
     if (unmodelled_.size() > kMostUnmodelled) std::abort();
@@ -33,17 +57,18 @@ void SfrBus::mark_unmodelled(unsigned address, std::uint16_t bits) {
 
 void SfrBus::set_disabled(unsigned first, unsigned last, bool disabled) {
   const unsigned slow = kDisabled | (warn_uninitialised_ ? 0 : kSlow);
+  const auto changed = [&](Slot slot) { return static_cast<Slot>(disabled ? slot | slow : slot & ~slow); };
   for (unsigned a = first; a <= last; a += 2)
-    slots_[a / 2] = static_cast<Slot>(disabled ? slots_[a / 2] | slow : slots_[a / 2] & ~slow);
+    if (changed(slots_[a / 2]) != slots_[a / 2]) own_slots()[a / 2] = changed(slots_[a / 2]);
 }
 
 void SfrBus::note_written(unsigned address) {
-  slots_[address / 2] |= kWritten;
+  is_written_[address / 128] |= std::uint64_t{1} << (address / 2 & 63);
   written_.push_back(static_cast<std::uint16_t>(address & ~1u));
 }
 
 void SfrBus::forget_writes() {
-  for (Slot& slot : slots_) slot &= static_cast<Slot>(~kWritten);
+  is_written_.fill(0);
   written_.clear();
 }
 
@@ -53,7 +78,7 @@ std::uint16_t SfrBus::read_slowly(unsigned address, unsigned bits, Cycle now) {
   SfrOwner* const owner = owner_of(slot);
   if (!owner || (slot & kDisabled)) return 0;
   const SfrInfo& info = *sfr_info(address);
-  if (warn_uninitialised_ && !(slot & kWritten) && !info.defined) {
+  if (warn_uninitialised_ && !was_written(address) && !info.defined) {
     note_written(address);
     diagnostics_.report(
         Cause::UninitialisedRead, info.name,

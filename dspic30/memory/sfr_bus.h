@@ -4,10 +4,11 @@
 // Modelled: unimplemented bits and addresses read 0 and ignore writes; byte accesses touch one lane;
 // registers of a module switched off by its PMD bit read 0 and ignore writes. A bit that exists and that no
 // model follows is kept and reported once by name when it is set. Not modelled: the address error of an odd
-// word access (the core's). What all chips have alike is in the table; a chip has two bytes a register.
+// word access (the core's). What all chips have alike is in tables; a chip has a bit a register.
 #pragma once
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "dspic30/memory/cycle.h"
@@ -39,7 +40,10 @@ class SfrBus {
   /// These bits exist but no model follows them.
   void mark_unmodelled(unsigned address, std::uint16_t bits);
   /// Writes reach the owner with all their bits: keys of an unlock sequence.
-  void take_all_bits(unsigned address) { slots_[address / 2] |= kAllBits; }
+  void take_all_bits(unsigned address) { own_slots()[address / 2] |= kAllBits; }
+  /// All owners are attached: what is known of the registers is shared by all chips of which the same is
+  /// known. Safe from any thread.
+  void share();
   /// PMD: the registers of [first, last] are switched off or on.
   void set_disabled(unsigned first, unsigned last, bool disabled);
   /// Power-on: nothing has been written.
@@ -73,12 +77,13 @@ class SfrBus {
   /// modelled: the bits that exist.
   std::uint16_t accept_plain(unsigned address, std::uint16_t value) {
     ++writes_;
-    const unsigned slot = slots_[address / 2];
-    if (!(slot & kWritten)) note_written(address);
-    return value & implemented(slot, address);
+    if (!was_written(address)) note_written(address);
+    return value & implemented(slots_[address / 2], address);
   }
-  /// accept_plain() of a word that was written before, and whose bits are in order already.
-  bool was_written(unsigned address) const { return (slots_[address / 2] & kWritten) != 0; }
+  /// Since power-on; or it was told that it is read before.
+  bool was_written(unsigned address) const {
+    return (is_written_[address / 128] >> (address / 2 & 63) & 1) != 0;
+  }
   void count_write() { ++writes_; }
   Store accept(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     ++writes_;
@@ -95,7 +100,7 @@ class SfrBus {
       lanes = (address & 1) ? 0xFF00 : 0x00FF;
       value = static_cast<std::uint16_t>((address & 1) ? value << 8 : value & 0xFF);
     }
-    if (!(slot & kWritten)) note_written(address);
+    if (!was_written(address)) note_written(address);
     value &= implemented(slot, address);
     if (const unsigned u = slot >> kUnmodelledShift; u > 0 && (value & unmodelled_[u - 1]))
       warn(address, value, now);
@@ -120,8 +125,7 @@ class SfrBus {
   using Slot = std::uint16_t;
   static constexpr std::size_t kMostOwners = 32, kMostUnmodelled = 63;
   static constexpr unsigned kOwner = 0x1F, kDisabled = 0x20,
-                            kWritten = 0x40,  // since power-on; or it was told that it is read before
-      kAllBits = 0x80,                        // take_all_bits()
+                            kAllBits = 0x80,  // take_all_bits()
       kSlow = 0x100;                          // a read is more than its owner's answer
   static constexpr int kUnmodelledShift = 10;
   SfrOwner* owner_of(unsigned slot) const { return owners_[slot & kOwner]; }
@@ -133,9 +137,15 @@ class SfrBus {
   __attribute__((noinline)) void note_written(unsigned address);
   void warn_of_hole(unsigned address, Cycle now);
 
+  using Slots = std::array<Slot, kSfrBytes / 2>;
+  /// To be changed: no other chip's.
+  Slots& own_slots();
+
   Diagnostics& diagnostics_;
   bool warn_uninitialised_;
-  std::array<Slot, kSfrBytes / 2> slots_{};
+  std::unique_ptr<Slots> own_ = std::make_unique<Slots>();  // null: shared
+  const Slot* slots_ = own_->data();
+  std::array<std::uint64_t, kSfrBytes / 128> is_written_{};  // a bit a register
   std::array<SfrOwner*, kMostOwners> owners_{};
   std::vector<std::uint16_t> unmodelled_;  // and not reported yet
   std::vector<std::uint16_t> written_;
