@@ -2,9 +2,13 @@
 // What is translated when changes no result, so neither does what earlier runs left.
 #include "dspic30/translate/translations.h"
 
+#include <dirent.h>
 #include <dlfcn.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <charconv>
+#include <cstring>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -20,7 +24,24 @@ namespace {
 
 constexpr std::size_t kMostKept = 4000;  // about 40 MB
 
-std::string name_of(const std::string& text) { return hex(std::hash<std::string>{}(text), 16).substr(2); }
+std::string name_of(std::uint64_t hash) { return hex(hash, 16).substr(2); }
+std::uint64_t hash_of(const std::string& text) { return std::hash<std::string>{}(text); }
+
+/// What the files of a folder are named by, in order. There may be thousands, and each run looks.
+std::vector<std::uint64_t> hashes_in(const fs::path& folder) {
+  std::vector<std::uint64_t> hashes;
+  DIR* const open = opendir(folder.c_str());
+  if (!open) return hashes;
+  while (const dirent* entry = readdir(open)) {
+    const char* const end = entry->d_name + std::strlen(entry->d_name);
+    std::uint64_t hash = 0;
+    const auto [read, error] = std::from_chars(entry->d_name, end, hash, 16);
+    if (error == std::errc() && read == end) hashes.push_back(hash);
+  }
+  closedir(open);
+  std::sort(hashes.begin(), hashes.end());
+  return hashes;
+}
 
 /// False: the file is not what it should be.
 bool load(const fs::path& file, const std::string& key, MachineCode& code) {
@@ -38,13 +59,13 @@ void Translations::open() {
   std::error_code failed;
   const auto time = fs::last_write_time(library_, failed).time_since_epoch().count();
   if (failed || all.empty()) return;
-  folder_ = all / name_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed)));
+  folder_ =
+      all / name_of(hash_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed))));
   for (fs::directory_iterator it(all, failed), end; !failed && it != end; it.increment(failed)) {
     std::error_code none;
     if (it->path() != folder_) fs::remove_all(it->path(), none);
   }
-  for (fs::directory_iterator it(folder_, failed), end; !failed && it != end; it.increment(failed))
-    kept_.insert(it->path().filename().string());
+  kept_ = hashes_in(folder_);
   if (kept_.size() > kMostKept) {
     kept_.clear();
     fs::remove_all(folder_, failed);
@@ -61,8 +82,9 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   if (items.empty()) return {};
   const std::string key = key_of(cpu, items);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  const std::string name = name_of(key);
-  const bool is_kept = kept_.count(name) > 0;
+  const std::uint64_t hash = hash_of(key);
+  const std::string name = name_of(hash);
+  const bool is_kept = std::binary_search(kept_.begin(), kept_.end(), hash);
   if (only_ready && !is_kept) return {};
   MachineCode code;
   if (!is_kept || !load(folder_ / name, key, code)) {

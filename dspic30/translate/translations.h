@@ -2,11 +2,12 @@
 // The translator's front door: one for all robots of a process. Robots that run the same program share its
 // code, and what was translated once is kept in files for later runs.
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <mutex>
-#include <set>
 #include <string>
+#include <vector>
 
 #include "dspic30/translate/machine_code.h"
 #include "dspic30/translate/stretch.h"
@@ -34,7 +35,7 @@ class Translations final : public Translator {
   bool is_open_ = false, is_loaded_ = false;
   Compile compile_ = nullptr;
   std::map<std::string, Translation> known_;
-  std::set<std::string> kept_;  // names of files
+  std::vector<std::uint64_t> kept_;  // what the files are named by, in order
   int compiled_ = 0;
 };
 
