@@ -453,6 +453,7 @@ std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<
 std::uint8_t Processor::ram(unsigned address) const { return cpu_->ram[address - Cpu::kRamStart]; }
 const std::uint8_t* Processor::ram() const { return cpu_->ram.data(); }
 void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[address - Cpu::kRamStart] = value; }
+void Processor::fill_ram(const std::array<std::uint8_t, kRamBytes>& bytes) { cpu_->ram = bytes; }
 
 void Processor::set_w(int n, std::uint16_t value) {
   cpu_->w[static_cast<std::size_t>(n)] = value;

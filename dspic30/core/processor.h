@@ -107,6 +107,7 @@ class Processor {
   static constexpr std::size_t kRamBytes = kRamEnd - kRamStart;
   const std::uint8_t* ram() const;  ///< all of it
   void set_ram(unsigned address, std::uint8_t value);
+  void fill_ram(const std::array<std::uint8_t, kRamBytes>& bytes);  ///< set_ram() of all of it
   void set_w(int n, std::uint16_t value);
   std::uint64_t state_hash() const;
 

@@ -10,6 +10,11 @@ namespace {
 constexpr int kMostTicks = 65535, kMostRefresh = 64;  // where tickAdcIsr and updateAccI2CCounter stop
 constexpr Cycle kLongestFiling = 200;                 // more than any of them takes
 
+constexpr bool is_array(HostVariable which) {
+  return which == HostVariable::e_ambient_ir || which == HostVariable::e_ambient_and_reflected_ir ||
+         which == HostVariable::e_mic_scan || which == HostVariable::e_acc_scan;
+}
+
 std::uint16_t word_of(int value) { return static_cast<std::uint16_t>(value); }
 
 }  // namespace
@@ -164,6 +169,8 @@ std::uint16_t ScanVariables::peek(unsigned address, Cycle at) const { return val
 
 void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) {
   const Place place = place_of(address);
+  // start-up code clears arrays that are empty, byte by byte
+  if (!(value & lanes) && !overlay_ && !scan_.is_on() && scan_.starts() == 0 && is_array(place.which)) return;
   const std::uint16_t old = read(address, at);
   value = static_cast<std::uint16_t>((old & ~lanes) | (value & lanes));
   const std::int64_t interrupts = scan_.interrupts(at - cycles_.scan_counts);

@@ -163,16 +163,18 @@ void ChipRunner::begin_again() {
 void ChipRunner::fill_ram() {
   std::uint64_t chance = sim::mix64(seed_);
   for (const char c : name()) chance = sim::mix64(chance ^ static_cast<unsigned char>(c));
-  for (unsigned at = kRamStart; at < kRamEnd; ++at) {
-    if (at % 8 == 0) chance = sim::mix64(chance + at);
-    processor_->set_ram(at, static_cast<std::uint8_t>(chance >> 8 * (at % 8)));
+  std::array<std::uint8_t, dspic::Processor::kRamBytes> bytes;
+  for (unsigned at = kRamStart; at < kRamEnd; at += 8) {
+    chance = sim::mix64(chance + at);
+    for (unsigned i = 0; i < 8; ++i) bytes[at - kRamStart + i] = static_cast<std::uint8_t>(chance >> 8 * i);
   }
   for (const auto& [variable, address] : file_.objects) {
     const auto size = file_.object_bytes.find(variable);
     const unsigned end = address + (size == file_.object_bytes.end() ? 2 : size->second);
     for (unsigned at = std::max(address, kRamStart); at < std::min(end, kRamEnd); ++at)
-      processor_->set_ram(at, 0);
+      bytes[at - kRamStart] = 0;
   }
+  processor_->fill_ram(bytes);
 }
 
 void ChipRunner::tell_reset(Cycle at) {
