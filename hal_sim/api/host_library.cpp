@@ -134,6 +134,10 @@ void HostLibrary::begin_anew(Cycle at) {
 std::uint16_t HostLibrary::read(unsigned address, Cycle at) { return variables_.read(address, at); }
 
 void HostLibrary::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) {
+  for (const auto& [index, size] : {std::pair{HostVariable::e_last_mic_scan_id, drivers::kMicSamples},
+                                    std::pair{HostVariable::e_last_acc_scan_id, drivers::kAccSamples}})
+    if (watch_ && address == served_address(index) && lanes == 0xFFFF && value >= size)
+      watch_->index_written(index, value, size);
   variables_.write(address, value, lanes, at);
 }
 

@@ -39,6 +39,8 @@ class CallWatch {
   virtual void calls_back(unsigned function, Cycle at) = 0;
   /// The library gives up, as it does by exit(1): the processor is about to be reset.
   virtual void gives_up() = 0;
+  /// The program has written an index that leads out of its array of `size`.
+  virtual void index_written(HostVariable index, unsigned value, int size) = 0;
 };
 
 class HostLibrary final : public dspic::HostCalls {

@@ -2,6 +2,7 @@
 #include "hal_sim/chip/chip_runner.h"
 
 #include <algorithm>
+#include <bitset>
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/epuck_params.h"
@@ -120,7 +121,21 @@ void ChipRunner::run_until(Cycle end) {
   tell_asked(end_);
   chip_.end_window(std::max(end_, processor_->now()));
   if (end_ >= calls_->next_look()) calls_->look(end_);
+  constexpr std::uint64_t kTurnsToLook = 16;
+  if (library_ && !passes && turns_ % kTurnsToLook == 0) look_at_stack();
   if (!passes) idle_until_ = std::min(processor_->idle_until(), calls_->next_look());
+}
+
+/// Handlers known by heart push nothing, so a stack that has no room for what they would push is told.
+void ChipRunner::look_at_stack() {
+  if (library_->share_q32() == 0) return;  // none would come
+  constexpr unsigned kEntryBytes = 4, kLimit = dspic::sfr("SPLIM"), kStackPointer = 15;
+  const auto limit = device().peek(kLimit, chip_.at(processor_->now()));
+  const auto pushed = kEntryBytes + 2 * static_cast<unsigned>(library_->saved_words()) +
+                      2 * static_cast<unsigned>(std::bitset<16>(library_->saved_registers()).count());
+  const unsigned stack = processor_->w(kStackPointer);
+  if (limit != 0 && (stack < plain_from_ || stack + pushed > limit + 2u))
+    calls_->stack_out_of_range(stack, plain_from_, limit, pushed);
 }
 
 void ChipRunner::pass_to(Cycle end) {

@@ -130,6 +130,10 @@ class ChipRunner final : public host::Runner,
   void entered(unsigned address) override { calls_->entered(address); }
   void called(api::HostFunction function) override { calls_->called(function); }
   void gives_up() override { gives_up_ = true; }
+  void index_written(api::HostVariable index, unsigned value, int size) override {
+    calls_->index_written(index, value, size);
+  }
+  void look_at_stack();
   void calls_back(unsigned function, Cycle at) override {
     if (observer_) observer_->callback(function, at);
   }

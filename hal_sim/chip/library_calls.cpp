@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "dspic30/memory/hex.h"
 #include "hal_sim/board/epuck_params.h"
 
 namespace chip {
@@ -259,6 +260,28 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
   return all;
 }
 
+// --- what the library's handlers would stumble over ------------------------------------------------------
+
+void LibraryCalls::index_written(api::HostVariable index, unsigned value, int size) {
+  const std::string name =
+      index == api::HostVariable::e_last_mic_scan_id ? "e_last_mic_scan_id" : "e_last_acc_scan_id";
+  note_at("index out of range", name,
+          "got " + std::to_string(value) + ", expected 0 to " + std::to_string(size - 1) +
+              "; on the robot the next sample is written outside the array; written at " +
+              places_.text_of(places_.own(processor_.pc_of_access())),
+          "leave the driver's variables to the driver");
+}
+
+void LibraryCalls::stack_out_of_range(unsigned stack, unsigned least, unsigned limit, unsigned pushed) {
+  note_at("stack out of range", "W15",
+          "got W15 " + dspic::hex(stack, 4) + ", expected " + dspic::hex(least, 4) + " to " +
+              dspic::hex(limit + 2 - pushed, 4) + ", SPLIM less the " + std::to_string(pushed) +
+              " bytes that the library's interrupts push; on the robot the next one traps, or writes over "
+              "variables; at " +
+              places_.text_of(places_.own(processor_.pc())),
+          "see that nothing writes to W15 or SPLIM, and how deep calls and local arrays reach");
+}
+
 // --- telling ---------------------------------------------------------------------------------------------
 
 /// The call that led here; one of the host's functions need not have left a return address.
@@ -281,12 +304,17 @@ void LibraryCalls::note_range(const Site& site, const std::string& what, int got
 
 void LibraryCalls::note(const std::string& cause, const std::string& place, const std::string& message,
                         const std::string& hint) {
+  note_at(cause, place, message + where(), hint);
+}
+
+void LibraryCalls::note_at(const std::string& cause, const std::string& place, const std::string& message,
+                           const std::string& hint) {
   for (board::Diagnosis& known : diagnoses_)
     if (known.cause == cause && known.place == place) {
       ++known.count;
       return;
     }
-  diagnoses_.push_back({cause, place, message + where(), hint, processor_.now(), 0, 1});
+  diagnoses_.push_back({cause, place, message, hint, processor_.now(), 0, 1});
 }
 
 }  // namespace chip

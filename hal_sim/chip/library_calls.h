@@ -31,6 +31,10 @@ class LibraryCalls final {
   void entered(unsigned address);
   /// A function of the host is called.
   void called(api::HostFunction function);
+  /// The program has written an index of the library's that leads out of its array of `size`.
+  void index_written(api::HostVariable index, unsigned value, int size);
+  /// W15 leaves no room between `least` and `limit` for the `pushed` bytes of an interrupt.
+  void stack_out_of_range(unsigned stack, unsigned least, unsigned limit, unsigned pushed);
   /// A reset, or a jump to address 0: everything is to be started again.
   void forget_starts();
   /// To be called from time to time, at least each second: does the robot stand?
@@ -56,6 +60,9 @@ class LibraryCalls final {
 
   void note(const std::string& cause, const std::string& place, const std::string& message,
             const std::string& hint);
+  /// The same of any place in the program.
+  void note_at(const std::string& cause, const std::string& place, const std::string& message,
+               const std::string& hint);
   void note_range(const Site& site, const std::string& what, int got, int least, int most,
                   const std::string& then);
   static bool starts(Function f);

@@ -65,12 +65,12 @@ const HostileProgram kHostile[] = {
      "0; } int main(void) { start(); e_activate_agenda(tick, 1); seen[0] = deep(130); seen[1]++; while (1); "
      "}",
      false},
-    {"alloca_loop", MAIN("start(); for (;;) nowhere = __builtin_alloca(100);"), false},
+    {"alloca_loop", MAIN("start(); for (;;) nowhere = __builtin_alloca(100);")},
     {"w15_low", MAIN("start(); __asm__ volatile(\"mov #0x100, w15\"); func = tick; func();")},
     {"w15_high", MAIN("start(); __asm__ volatile(\"mov #0x7000, w15\"); func = tick; func();")},
-    {"w15_served", MAIN("scan(); __asm__ volatile(\"mov #0x810, w15\"); tick(); tick();"), false},
+    {"w15_served", MAIN("scan(); __asm__ volatile(\"mov #0x810, w15\"); tick(); tick();")},
     {"w15_odd", MAIN("start(); __asm__ volatile(\"mov #0x1235, w15\"); tick();"), false},
-    {"splim_zero", MAIN("start(); SPLIM = 0x0800; tick();"), false},
+    {"splim_zero", MAIN("start(); SPLIM = 0x0800; tick();")},
     {"splim_near", MAIN("start(); SPLIM = WREG15 + 8; e_activate_agenda(tick, 1); e_set_speed(500, 3);")},
     {"stack_pop",
      "void f(void) { __asm__ volatile(\"sub w15, #8, w15\"); } int main(void) { start(); f(); while (1); }",
@@ -91,8 +91,7 @@ const HostileProgram kHostile[] = {
     {"psv_write", MAIN("start(); *(int *)(0x8000u + zero) = 1;")},
     {"ram_end", MAIN("start(); { char *p = (char *)0x2700; for (;;) *p++ = 7; }")},
     {"all_ram",
-     MAIN("start(); { unsigned *p = (unsigned *)0x800; while (p < (unsigned *)0x2800) *p++ = 0xDEAD; }"),
-     false},
+     MAIN("start(); { unsigned *p = (unsigned *)0x800; while (p < (unsigned *)0x2800) *p++ = 0xDEAD; }")},
     {"all_ram_scan",
      MAIN("scan(); e_activate_agenda(tick, 10); { unsigned *p = (unsigned *)0x800; while (p "
           "< (unsigned *)0x2800) *p++ = 0; }"),
@@ -257,8 +256,7 @@ const HostileProgram kHostile[] = {
      MAIN("scan(); for (;;) memset((void *)e_mic_scan, one++, sizeof(int) * 3 * MIC_SAMP_NB);"), false},
     {"served_indices",
      MAIN("scan(); for (;;) { e_last_mic_scan_id = 60000u; e_last_acc_scan_id = 30000; tickAdcIsr = 65535u; "
-          "e_ambient_ir[seen[0]++ & 7] = -1; seen[1] = e_get_acc(0); }"),
-     false},
+          "e_ambient_ir[seen[0]++ & 7] = -1; seen[1] = e_get_acc(0); }")},
     {"served_as_code", MAIN("scan(); func = (void (*)(void))e_mic_scan; func();"), false},
     {"served_byte_odd", MAIN("scan(); { volatile char *p = (volatile char *)e_acc_scan; int i; for (i = 0; i "
                              "< 300; i++) p[i] ^= p[299 - i]; } *(int *)((char *)e_acc_scan + one) = 3;")},
