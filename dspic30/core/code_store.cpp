@@ -10,6 +10,7 @@ namespace dspic {
 
 namespace {
 
+constexpr int kWarm = 16;         // jumps, in 256s, of a place that a later run had better translate
 constexpr int kMostRefusals = 4;  // then a place is not asked for again: threads share the line it lies in
 
 // no flash at that address
@@ -119,7 +120,7 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
 // the state is stored before `run`: who sees the translation also sees that it is one
 void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot) {
   const std::uint8_t again = hot == 0 ? 1 : 0xFF;
-  bool only_ready;
+  bool only_ready, is_warm = false;
   {
     const std::lock_guard lock(mutex_);
     d->heat.store(0, std::memory_order_relaxed);
@@ -130,6 +131,7 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
     if (warmth.is_busy) return;
     const int times = ++warmth.times;
     only_ready = times < hot;
+    is_warm = only_ready && times == kWarm;
     if (only_ready && (times & (times - 1)) != 0) {  // asked 1, 2, 4, ... times on the way
       d->heat.store(again, std::memory_order_relaxed);
       return;
@@ -138,6 +140,7 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
     warmth.is_busy = true;
   }
   const Translation translation = translator.translate(cpu, d, only_ready);
+  if (is_warm && !translation.run) translator.note_warm(cpu, d);
   const std::lock_guard lock(mutex_);
   Warmth& warmth = warmth_[d];
   warmth.is_busy = false;

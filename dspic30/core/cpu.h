@@ -54,8 +54,11 @@ struct Translation {
 class Translator {
  public:
   virtual ~Translator() = default;
-  /// `only_ready`: what costs hardly anything, because an earlier run left it.
+  /// `only_ready`: what costs hardly anything, because an earlier run left it; or is worth it, because one
+  /// noted it as warm.
   virtual Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) = 0;
+  /// It runs often, though not so often that this run would gain by a translation: the next one would.
+  virtual void note_warm(const Cpu& cpu, const Decoded* head) {}
 };
 
 // jumps within translated code are the translator's affair

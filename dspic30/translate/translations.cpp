@@ -43,6 +43,16 @@ std::vector<std::uint64_t> hashes_in(const fs::path& folder) {
   return hashes;
 }
 
+/// A line each, appended by any number of runs at once.
+constexpr const char* kWarmFile = "warm";
+std::vector<std::uint64_t> warm_in(const fs::path& folder) {
+  std::vector<std::uint64_t> hashes;
+  std::ifstream in(folder / kWarmFile);
+  for (std::uint64_t hash; in >> std::hex >> hash;) hashes.push_back(hash);
+  std::sort(hashes.begin(), hashes.end());
+  return hashes;
+}
+
 /// False: the file is not what it should be.
 bool load(const fs::path& file, const std::string& key, MachineCode& code) {
   std::ifstream in(file, std::ios::binary);
@@ -66,8 +76,10 @@ void Translations::open() {
     if (it->path() != folder_) fs::remove_all(it->path(), none);
   }
   kept_ = hashes_in(folder_);
-  if (kept_.size() > kMostKept) {
+  warm_ = warm_in(folder_);
+  if (std::max(kept_.size(), warm_.size()) > kMostKept) {
     kept_.clear();
+    warm_.clear();
     fs::remove_all(folder_, failed);
   }
   fs::create_directories(folder_, failed);
@@ -77,7 +89,7 @@ void Translations::open() {
 Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool only_ready) {
   const std::lock_guard lock(mutex_);
   if (!is_open_) open();
-  if (only_ready && kept_.empty() && known_.empty()) return {};
+  if (only_ready && kept_.empty() && known_.empty() && warm_.empty()) return {};
   const std::vector<Item> items = stretch(cpu, head);
   if (items.empty()) return {};
   const std::string key = key_of(cpu, items);
@@ -85,7 +97,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   const std::uint64_t hash = hash_of(key);
   const std::string name = name_of(hash);
   const bool is_kept = std::binary_search(kept_.begin(), kept_.end(), hash);
-  if (only_ready && !is_kept) return {};
+  if (only_ready && !is_kept && !std::binary_search(warm_.begin(), warm_.end(), hash)) return {};
   MachineCode code;
   if (!is_kept || !load(folder_ / name, key, code)) {
     if (!has_compiler()) return {};
@@ -100,6 +112,15 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
     made.last = std::max(made.last, item.place);
   }
   return known_[key] = made;
+}
+
+void Translations::note_warm(const Cpu& cpu, const Decoded* head) {
+  const std::lock_guard lock(mutex_);
+  if (!is_open_) open();
+  const std::vector<Item> items = stretch(cpu, head);
+  if (items.empty() || folder_.empty()) return;
+  std::ofstream(folder_ / kWarmFile, std::ios::app) << name_of(hash_of(key_of(cpu, items))) + "\n"
+                                                    << std::flush;
 }
 
 bool Translations::has_compiler() {

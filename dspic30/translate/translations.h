@@ -22,6 +22,7 @@ class Translations final : public Translator {
   Translations(std::filesystem::path library, std::filesystem::path folder)
       : library_(std::move(library)), folder_(std::move(folder)) {}
   Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) override;
+  void note_warm(const Cpu& cpu, const Decoded* head) override;
   int compiled() const { return compiled_; }  ///< not taken from a file
 
  private:
@@ -36,6 +37,7 @@ class Translations final : public Translator {
   Compile compile_ = nullptr;
   std::map<std::string, Translation> known_;
   std::vector<std::uint64_t> kept_;  // what the files are named by, in order
+  std::vector<std::uint64_t> warm_;  // noted by earlier runs, in order
   int compiled_ = 0;
 };
 

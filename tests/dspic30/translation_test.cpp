@@ -620,10 +620,12 @@ namespace fs = std::filesystem;
 struct KeptTranslations : testing::Test {
   const fs::path folder = fs::temp_directory_path() / ("twinpuck_kept_" + std::to_string(getpid()));
   ~KeptTranslations() override { fs::remove_all(folder); }
-  /// A run of its own; returns how much it compiled.
-  int run(const fs::path& where) {
+  /// A run of its own; returns how much it compiled. `rounds`: below 0, 300 with all translated at once.
+  int run(const fs::path& where, int rounds = -1) {
     dspic::translate::Translations translations(chip::translator_library(), where);
-    CoreBench b(R"(__reset: mov #300, w10
+    const bool at_once = rounds < 0;
+    if (at_once) rounds = 300;
+    CoreBench b("__reset: mov #" + std::to_string(rounds) + R"(, w10
 1:  rcall routine
     dec w10, w10
     bra nz, 1b
@@ -636,14 +638,16 @@ routine: mov #0x0A00, w1
     return)",
                 {}, false);
     b.cpu->set_translator(&translations);
-    b.cpu->translate_all();
+    if (at_once) b.cpu->translate_all();
     EXPECT_TRUE(b.run_to("end"));
-    EXPECT_GE(b.cpu->translated(), 1);
-    EXPECT_EQ(b.word(0x0A00), 300u);
-    EXPECT_EQ(b.w(4), 900u);
-    EXPECT_EQ(b.w(5), 150u);
+    translated = b.cpu->translated();
+    const auto n = static_cast<unsigned>(rounds);
+    EXPECT_EQ(b.word(0x0A00), n);
+    EXPECT_EQ(b.w(4), 3 * n);
+    EXPECT_EQ(b.w(5), n / 2);
     return translations.compiled();
   }
+  int translated = 0;  // of the latest run
   std::vector<fs::path> files() const {
     std::vector<fs::path> all;
     for (const auto& entry : fs::recursive_directory_iterator(folder))
@@ -655,8 +659,35 @@ routine: mov #0x0A00, w1
 TEST_F(KeptTranslations, serve_the_next_run) {
   const int compiled = run(folder);
   EXPECT_GE(compiled, 1);
+  EXPECT_GE(translated, 1);
   EXPECT_EQ(files().size(), static_cast<std::size_t>(compiled));
   EXPECT_EQ(run(folder), 0);
+}
+
+// 4,096 jumps to a place are too few for the run itself; that they came again is worth a translation
+TEST_F(KeptTranslations, are_of_what_the_run_before_was_warm_with) {
+  EXPECT_EQ(run(folder, 20000), 0);
+  EXPECT_EQ(translated, 0);
+  EXPECT_GE(run(folder, 20000), 1);
+  EXPECT_GE(translated, 1);
+  EXPECT_EQ(run(folder, 20000), 0);
+  EXPECT_GE(translated, 1);
+}
+
+TEST_F(KeptTranslations, are_not_of_what_is_soon_over) {
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(run(folder, 1000), 0);
+    EXPECT_EQ(translated, 0);
+  }
+}
+
+// notes that are none, or of other programs
+TEST_F(KeptTranslations, go_on_where_the_notes_are_spoilt) {
+  run(folder, 20000);
+  ASSERT_EQ(files().size(), 1u);
+  std::ofstream(files().front(), std::ios::app) << "no number\n0123456789abcdef\n";
+  EXPECT_GE(run(folder, 20000), 1);
+  EXPECT_EQ(run(folder, 20000), 0);
 }
 
 TEST_F(KeptTranslations, are_made_anew_when_spoilt) {
