@@ -26,6 +26,7 @@ using Operation = I2c::Operation;
 constexpr unsigned kTrn = sfr("I2CTRN"), kCon = sfr("I2CCON"), kRcv = sfr("I2CRCV"), kFlags = sfr("IFS0") + 1;
 constexpr unsigned kVector = kFirstIrqVector + irq::MasterI2c;
 constexpr unsigned kFlagBit = 1u << (irq::MasterI2c - 8);  // of the flags' high byte
+constexpr Cycle kHandlerCycles = 8;                        // of its instructions before RETFIE
 constexpr int kRound = 6, kPlaces = 5, kBranch = 2;  // cycles, instructions of a round; cycles of its last
 
 // the handler, whose sixth word is CLR.B of the mode
@@ -81,6 +82,7 @@ class Primitive {
     // with what the host's handlers take in between
     constexpr Cycle kMost = 100;
     if (rounds_ + 2 >= shape_.from || flag + kMost >= cpu_.clocks.true_at(begin_ + limit_)) return false;
+    is_short_ = holds_all();
     if (cpu_.host && is_host_disturbed(cpu_.clocks.true_at(cut_))) return false;
     if (!cpu_.waits->is_free_until(cpu_, flag + kMost)) return false;
     for (known_ = 0; known_ < kPlaces; ++known_) {
@@ -130,10 +132,12 @@ class Primitive {
 
   // does a handler known by heart, which this one's interrupt holds off, become pending meanwhile?
   bool is_host_disturbed(Cycle entered) const {
-    constexpr Cycle kBefore = 4, kLongest = 60;  // from its entry to behind its RETFIE, and some more
+    // from its entry to behind its RETFIE, and some more: what handlers that it does not hold off may take
+    constexpr Cycle kBefore = 4, kAlone = kInterruptEntryCycles + kHandlerCycles + kInterruptReturnCycles + 4;
+    const Cycle longest = is_short_ ? kAlone : 60;
     for (int h = 0; h < HostCalls::kHandlers; ++h)
       if (cpu_.host->vector(h) != kNoVector &&
-          cpu_.host->source_event(h, entered - kBefore) <= entered + kLongest)
+          cpu_.host->source_event(h, entered - kBefore) <= entered + longest)
         return true;
     return false;
   }
@@ -171,33 +175,34 @@ class Primitive {
     leave(cpu_, shape_.stacked + 2, cpu_.psvpag);
     leave(cpu_, shape_.stacked + 3, shape_.pushed);
     cpu_.now = interrupts.enter(static_cast<int>(kVector), cpu_.now).first_instruction;
-    const bool stills = stills_host();
-    follow(stills, 0);
+    const std::uint64_t share = is_short_ ? cpu_.host->share_q32() : 0;
+    follow(0);
     // its flag, and RETFIE
     lower_flag(cpu_.true_now() + 4);
-    cpu_.now += 8;
+    cpu_.now += kHandlerCycles;
     cpu_.settle();
     cpu_.parts.events.run_to(cpu_.now);
     cpu_.now = interrupts.leave_to(static_cast<int>(level), cpu_.now);
-    follow(stills, stills ? cpu_.host->share_q32() : 0);
+    follow(share);
     wait_.went_on = cpu_.clocks.own_cycles(cpu_.now);
   }
-  // Does this one hold off all handlers known by heart, which nothing else does? As none of them comes
-  // meanwhile (is_host_disturbed()), all that comes of it is that they take nothing
-  bool stills_host() const {
+  // Does it hold off all handlers known by heart? None of them comes meanwhile (is_host_disturbed()), so all
+  // that comes of it is that they take no share.
+  bool holds_all() const {
     if (!cpu_.host || cpu_.host_is_held || cpu_.host_stale) return false;
     const Interrupts& interrupts = cpu_.parts.interrupts;
+    const int own = interrupts.priority(irq::MasterI2c);
     for (int h = 0; h < HostCalls::kHandlers; ++h)
       if (const int vector = cpu_.host->vector(h);
-          vector != kNoVector && interrupts.priority(vector - kFirstIrqVector) > interrupts.level())
+          vector != kNoVector && interrupts.priority(vector - kFirstIrqVector) > own)
         return false;
     return true;
   }
-  void follow(bool stills, std::uint64_t share_q32) {
+  void follow(std::uint64_t share) {
     cpu_.settle();
     cpu_.parts.events.run_to(cpu_.now);
-    if (stills)
-      cpu_.clocks.set_share(share_q32);
+    if (is_short_)
+      cpu_.clocks.set_share(share);
     else if (cpu_.host)
       cpu_.follow_host();
   }
@@ -238,8 +243,9 @@ class Primitive {
   const Cycle begin_;  // of the program's clock, as cut_ and epilogue_
   const std::int64_t limit_;
   Cycle begins_ = 0, rounds_ = 0, cut_ = 0, cycles_ = 0, epilogue_ = 0;
-  int place_ = 0;  // of the interrupt, in a round
-  int known_ = 0;  // at which the wait is known
+  int place_ = 0;          // of the interrupt, in a round
+  int known_ = 0;          // at which the wait is known
+  bool is_short_ = false;  // the interrupt holds off all handlers known by heart: holds_all()
   Waits::ByHeart wait_;
 };
 
