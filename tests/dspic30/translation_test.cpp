@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Translated code against the interpreter: constants, calls, pointers, programs that write themselves, and
-// what earlier runs left.
+// Translated code against the interpreter: constants, calls, pointers, programs that write themselves.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
