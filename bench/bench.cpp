@@ -89,7 +89,7 @@ double peer_cost_us(const sim::WorldDesc& world) {
 
 /// At least so many times as fast as Enki.
 double promised(int robots) {
-  return robots >= 1000 ? 100 : robots >= 100 ? 15 : robots >= 10 ? 3 : robots >= 5 ? 2.5 : 1.5;
+  return robots >= 1000 ? 125 : robots >= 100 ? 14 : robots >= 10 ? 3.2 : robots >= 5 ? 2.5 : 1.8;
 }
 
 }  // namespace
