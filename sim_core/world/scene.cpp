@@ -40,15 +40,19 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
 }
 
 const Leg& Scene::leg_at(int body, Clicks at, const Leg** next) const {
-  // count back: usually none or one
   const Leg* ring = legs_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
-  int slot = newest_[static_cast<std::size_t>(body)];
-  if (next) *next = nullptr;
-  for (int back = 1; back < slots_ && ring[slot].from > at; ++back) {
-    if (next) *next = ring + slot;
-    slot = slot == 0 ? slots_ - 1 : slot - 1;
+  const int newest = newest_[static_cast<std::size_t>(body)];
+  const auto slot_of = [&](int back) { return newest >= back ? newest - back : newest - back + slots_; };
+  // usually none or one ago; otherwise no more than ticks, for legs do not begin more often
+  int back = 0;
+  while (back < std::min(2, slots_ - 1) && ring[slot_of(back)].from > at) ++back;
+  if (back == 2 && ring[slot_of(2)].from > at) {
+    const Clicks ticks = (ring[slot_of(2)].from - at + tick_clicks_ - 1) / tick_clicks_;
+    back = static_cast<int>(std::min<Clicks>(slots_ - 1, 2 + ticks));
+    while (ring[slot_of(back - 1)].from <= at) --back;
   }
-  return ring[slot];
+  if (next) *next = back > 0 ? ring + slot_of(back - 1) : nullptr;
+  return ring[slot_of(back)];
 }
 
 Pose2 Scene::pose(int body, Clicks at) const {
