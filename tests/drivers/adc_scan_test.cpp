@@ -96,13 +96,15 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
   make_telling(scene);
   board::Setup setup;
   setup.ir_noise_scale = 0;
-  DrivenBoard robot(setup), reader(setup);
+  DrivenBoard robot(setup), reader(setup), program(setup);
   robot.look_at(&scene);
   reader.look_at(&scene);
+  program.look_at(&scene);
   TickedScan want(robot, five);
   const Cycle start = 12345;
   robot.scan().start(false, five, start);
   reader.scan().start(false, five, start);
+  program.scan().start(false, five, start);
   std::mt19937 random(7);
   for (const Cycle at : scan_times::calls(start, 3000)) {
     // just before the interrupt nothing has changed yet
@@ -118,6 +120,7 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
       const int sensor = static_cast<int>(random() % 8);
       ASSERT_EQ(reader.scan().dark(sensor, seen), want.dark[sensor]);
       ASSERT_EQ(reader.scan().lit(sensor, seen), want.lit[sensor]);
+      ASSERT_EQ(program.scan().dark_less_lit(sensor, seen, seen + 5), want.dark[sensor] - want.lit[sensor]);
       // and the horizon never lies beyond the next change
       const Cycle horizon = reader.scan().horizon(sensor, seen);
       ASSERT_GT(horizon, seen);

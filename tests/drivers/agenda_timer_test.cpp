@@ -43,6 +43,17 @@ struct Driven {
   }
 };
 
+// called as a function at speed 0 it gives its node 15 ticks: it counts, and the tick takes as much more
+TEST(AgendaMotors, a_step_by_hand_makes_its_node_count) {
+  Driven d;
+  const Cycle before = d.timer.tick_cycles();
+  const std::uint64_t share = d.timer.share_q32();
+  EXPECT_TRUE(d.timer.run_motor(Wheel::Left, 10));
+  const drivers::AgendaCosts costs;
+  EXPECT_EQ(d.timer.tick_cycles() - before, costs.counts - costs.resting);
+  EXPECT_GT(d.timer.share_q32(), share);
+}
+
 // one second holds 9997 ticks (14745600 / 1475 = 9997.0); a wheel steps every 10000/|v| ticks
 TEST(AgendaMotors, speeds_are_quantised_as_by_the_library) {
   struct Row {

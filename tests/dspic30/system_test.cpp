@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Resets, watchdog, oscillator, low-voltage detector, EEPROM, module disable, CAN's mode.
 // 2 ms are 29491.2 cycles of FCY = 14.7456 MHz.
+#include "dspic30/device/chip_parts.h"
 #include "tests/dspic30/bench.h"
 
 namespace {
@@ -208,6 +209,25 @@ TEST(ModuleDisable, registers_fall_silent) {
   EXPECT_EQ(b.read("PR2", 5002), 0xFFFFu);
   b.write("T2CON", 0x8000, 5003);
   EXPECT_EQ(b.read("TMR2", 5014), 10u);
+}
+
+// chips of which the same is known share it, until one switches a module off
+TEST(ModuleDisable, is_each_chips_own) {
+  Bench a, b;
+  for (Bench* one : {&a, &b}) one->chip.parts().bus.share();
+  for (Bench* one : {&a, &b}) one->write("PR2", 100, 0);
+  a.write("PMD1", 1 << 12, 50);
+  EXPECT_EQ(a.read("PR2", 51), 0u);
+  EXPECT_EQ(b.read("PR2", 51), 100u);
+  b.write("PR3", 7, 60);
+  const auto wrote = [](Bench& one, const char* name) {
+    return one.chip.parts().bus.was_written(
+        static_cast<unsigned>(dspic::Dspic30f6014a::register_address(name)));
+  };
+  EXPECT_TRUE(wrote(b, "PR3"));
+  EXPECT_FALSE(wrote(a, "PR3"));
+  a.write("PMD1", 0, 70);
+  EXPECT_EQ(a.read("PR2", 71), 0xFFFFu);
 }
 
 TEST(Can, operating_mode_follows_the_request) {
