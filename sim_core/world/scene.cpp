@@ -39,19 +39,26 @@ Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
   regather(0);
 }
 
-const Leg& Scene::leg_at(int body, Clicks at, const Leg** next) const {
+inline const Leg& Scene::leg_at(int body, Clicks at, const Leg** next) const {
+  const Leg* ring = legs_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
+  const Leg& newest = ring[newest_[static_cast<std::size_t>(body)]];
+  if (newest.from > at) return older_leg(body, at, next);
+  if (next) *next = nullptr;
+  return newest;
+}
+
+// usually the one before; otherwise no more than ticks ago, for legs do not begin more often
+const Leg& Scene::older_leg(int body, Clicks at, const Leg** next) const {
   const Leg* ring = legs_.data() + static_cast<std::size_t>(body) * static_cast<std::size_t>(slots_);
   const int newest = newest_[static_cast<std::size_t>(body)];
   const auto slot_of = [&](int back) { return newest >= back ? newest - back : newest - back + slots_; };
-  // usually none or one ago; otherwise no more than ticks, for legs do not begin more often
-  int back = 0;
-  while (back < std::min(2, slots_ - 1) && ring[slot_of(back)].from > at) ++back;
-  if (back == 2 && ring[slot_of(2)].from > at) {
-    const Clicks ticks = (ring[slot_of(2)].from - at + tick_clicks_ - 1) / tick_clicks_;
-    back = static_cast<int>(std::min<Clicks>(slots_ - 1, 2 + ticks));
+  int back = 1;
+  if (ring[slot_of(1)].from > at) {
+    const Clicks ticks = (ring[slot_of(1)].from - at + tick_clicks_ - 1) / tick_clicks_;
+    back = static_cast<int>(std::min<Clicks>(slots_ - 1, 1 + ticks));
     while (ring[slot_of(back - 1)].from <= at) --back;
   }
-  if (next) *next = back > 0 ? ring + slot_of(back - 1) : nullptr;
+  if (next) *next = ring + slot_of(back - 1);
   return ring[slot_of(back)];
 }
 

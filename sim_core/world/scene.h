@@ -121,6 +121,7 @@ class Scene {
   /// Newest leg of a body that had begun at an instant, or its oldest kept one; `next`, if given, gets the
   /// one after it, or null.
   const Leg& leg_at(int body, Clicks at, const Leg** next = nullptr) const;
+  __attribute__((noinline)) const Leg& older_leg(int body, Clicks at, const Leg** next) const;
 
   WorldDesc world_;
   Layout layout_;
