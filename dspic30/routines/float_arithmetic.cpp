@@ -30,7 +30,8 @@ void leave_operands(Cpu& cpu) {
   leave_registers(cpu, 4, 8, 2);
 }
 
-void leave_result(Cpu& cpu, std::uint32_t result, const Registers& r, unsigned w4, unsigned w7) {
+__attribute__((always_inline)) inline void leave_result(Cpu& cpu, std::uint32_t result, const Registers& r,
+                                                        unsigned w4, unsigned w7) {
   leave_operands(cpu);
   set_pair(cpu, 0, result);
   set_pair(cpu, 2, r.w3_w2);

@@ -43,7 +43,11 @@ inline void leave(Cpu& cpu, unsigned place, unsigned value) {
 }
 /// Wn, Wn+1 ... from there on.
 inline void leave_registers(Cpu& cpu, unsigned place, unsigned n, unsigned count) {
-  for (unsigned i = 0; i < count; ++i) leave(cpu, place + i, one(cpu, n + i));
+  std::uint8_t* const to = &cpu.ram[cpu.w[15] - Cpu::kRamStart + 2 * place];
+  for (unsigned i = 0; i < count; ++i) {
+    const auto word = static_cast<std::uint16_t>(one(cpu, n + i));
+    std::memcpy(to + 2 * i, &word, sizeof word);
+  }
 }
 inline void leave_return(Cpu& cpu, unsigned place, unsigned address) {
   leave(cpu, place, address & 0xFFFF);
