@@ -121,8 +121,8 @@ std::optional<ResetKind> Processor::run(Cycle until) {
   if (rest_until_ > 0 && cpu.now < until && rests(until)) return std::nullopt;
   Cycle rest = 0;
   while (true) {
-    if (cpu.reset_due) return cpu.reset_due;
     cpu.settle();
+    if (cpu.reset_due) return cpu.reset_due;
     if (cpu.returned) waits_->resume(cpu);
     if (cpu.now >= until) {
       rest_until_ = rest;
