@@ -254,7 +254,7 @@ void Waits::fail(Cpu& cpu) {
   Schedule& next = schedule(cpu);
   if (next.at > now) return;
   next.at = now + next.between;
-  next.between = std::min(2 * next.between, kRarestLooks);
+  next.between = std::min(2 * next.between, kRarestInVain);
 }
 
 // --- waiting

@@ -89,6 +89,7 @@ class Waits {
     Cycle between = kFirstLooks;
   };
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;       // cycles between two looks
+  static constexpr Cycle kRarestInVain = 1 << 18;                       // ... where none ever found a wait
   static constexpr Cycle kFirstInHandler = 4096, kSoonInHandler = 600;  // ... since it began
   static constexpr int kLongestRound = 256;                             // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
