@@ -67,6 +67,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
   s.simulated_s = sim::to_seconds(simulation.now());
   s.wall_s = wall_s;
   if (twin.radio()) s.radio = twin.radio()->counters();
+  s.robots.reserve(static_cast<std::size_t>(twin.robots()));
   for (int i = 0; i < twin.robots(); ++i) {
     const auto& mind = twin.mind(i);
     RobotSummary r;

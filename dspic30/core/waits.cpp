@@ -248,6 +248,7 @@ void Waits::fail(Cpu& cpu) {
   constexpr unsigned kRarestHints = 64;
   if (std::exchange(is_hinted_, false)) hint_gap_ = std::min(2 * hint_gap_, kRarestHints);
   state_ = State::Away;
+  forget_trace();
   cpu.still_since = kNever;
   const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
   if (at_head_) cpu.pause_head(look_head_, false);
@@ -261,6 +262,7 @@ void Waits::fail(Cpu& cpu) {
 
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
+  forget_trace();
   if (std::exchange(is_hinted_, false)) hint_gap_ = 1;
   is_by_head_ = at_head_ || cpu.is_own_head(wait->first);
   wait_ = wait;

@@ -124,6 +124,10 @@ class Waits {
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
   void begin_handler(const Cpu& cpu, Cycle at);
+  /// Looks are rare, and each robot has one of these.
+  void forget_trace() {
+    if (trace_.capacity() > 0) std::vector<CountStep>().swap(trace_);
+  }
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
 
