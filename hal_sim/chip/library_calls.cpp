@@ -273,11 +273,17 @@ void LibraryCalls::index_written(api::HostVariable index, unsigned value, int si
 }
 
 void LibraryCalls::stack_out_of_range(unsigned stack, unsigned least, unsigned limit, unsigned pushed) {
-  note_at("stack out of range", "W15",
-          "got W15 " + dspic::hex(stack, 4) + ", expected " + dspic::hex(least, 4) + " to " +
-              dspic::hex(limit + 2 - pushed, 4) + ", SPLIM less the " + std::to_string(pushed) +
-              " bytes that the library's interrupts push; on the robot the next one traps, or writes over "
-              "variables; at " +
+  // a limit that nothing fits below is what is wrong
+  const bool has_room = limit + 2 >= least + pushed;
+  const std::string what = has_room
+                               ? "got W15 " + dspic::hex(stack, 4) + ", expected " + dspic::hex(least, 4) +
+                                     " to " + dspic::hex(limit + 2 - pushed, 4) + ", SPLIM less the " +
+                                     std::to_string(pushed) + " bytes that the library's interrupts push"
+                               : "got SPLIM " + dspic::hex(limit, 4) + ", expected " +
+                                     dspic::hex(least + pushed - 2, 4) + " or more, for the " +
+                                     std::to_string(pushed) + " bytes that the library's interrupts push";
+  note_at("stack out of range", has_room ? "W15" : "SPLIM",
+          what + "; on the robot the next one traps, or writes over variables; at " +
               places_.text_of(places_.own(processor_.pc())),
           "see that nothing writes to W15 or SPLIM, and how deep calls and local arrays reach");
 }
