@@ -91,10 +91,10 @@ class Cpu final : public SfrOwner {
   Translator* translator = nullptr;  ///< null: everything is interpreted
   ProgramWatch* onlooker = nullptr;  ///< null: nobody
   CourseWatch* course = nullptr;     ///< null: nobody
-  /// Jumps, in 256s, that make the place they lead to worth translating: interpreting it has taken about what
-  /// translating takes by then. A quarter of them finds most of it in half the time, and costs most programs,
-  /// which never come so far, several times their run. 0: at once, for tests.
-  int hot = 256;
+  /// Jumps, in 256s, that make the place they lead to worth translating. Interpreting it has taken an eighth
+  /// of what translating takes by then; but a translation is kept for later runs, and programs that run so
+  /// long are mostly run again. 0: at once, for tests.
+  int hot = 32;
 
   void reset();
   /// All words are decoded again, for this robot alone.

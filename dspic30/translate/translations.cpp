@@ -97,7 +97,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
   const std::uint64_t hash = hash_of(key);
   const std::string name = name_of(hash);
   const bool is_kept = std::binary_search(kept_.begin(), kept_.end(), hash);
-  if (only_ready && !is_kept && !was_warm(hash)) return {};
+  if (only_ready && !is_kept && !std::binary_search(warm_.begin(), warm_.end(), hash)) return {};
   MachineCode code;
   if (!is_kept || !load(folder_ / name, key, code)) {
     if (!has_compiler()) return {};
@@ -112,14 +112,6 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
     made.last = std::max(made.last, item.place);
   }
   return known_[key] = made;
-}
-
-/// In so many runs that a translation is worth it: it costs what a place is interpreted for some 65,000
-/// jumps.
-bool Translations::was_warm(std::uint64_t hash) const {
-  constexpr std::ptrdiff_t kRuns = 4;
-  const auto [begin, end] = std::equal_range(warm_.begin(), warm_.end(), hash);
-  return end - begin >= kRuns;
 }
 
 void Translations::note_warm(const Cpu& cpu, const Decoded* head) {

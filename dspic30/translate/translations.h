@@ -28,7 +28,6 @@ class Translations final : public Translator {
  private:
   void open();
   bool has_compiler();
-  bool was_warm(std::uint64_t hash) const;
   void keep(const std::filesystem::path& file, const std::string& text) const;
 
   using Compile = void (*)(const Cpu& cpu, const std::vector<Item>& items, MachineCode& code);
