@@ -18,6 +18,15 @@ using dspic::Cycle;
 using dspic::kNever;
 using dspic::Port;
 
+/// Numbers by chance, the same ones for a seed.
+struct Draw {
+  std::uint32_t state;
+  unsigned operator()(unsigned below) {
+    state = state * 1664525u + 1013904223u;
+    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
+  }
+};
+
 struct FakeOutside : dspic::Outside {
   // levels of a port from given cycles on
   std::map<Port, std::map<Cycle, std::uint16_t>> waves;

@@ -8,15 +8,8 @@ namespace {
 
 using bench::Bench;
 using bench::Cycle;
+using bench::Draw;
 using dspic::Port;
-
-struct Draw {
-  std::uint32_t state;
-  unsigned operator()(unsigned below) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
-  }
-};
 
 // `peeks`: look at everything after every so many steps
 std::uint64_t wander(std::uint32_t seed, int peeks) {

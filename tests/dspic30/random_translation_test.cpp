@@ -12,16 +12,9 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
+using bench::Draw;
 using dspic::Insn;
 using dspic::Operand;
-
-struct Draw {
-  std::uint32_t state;
-  unsigned operator()(unsigned below) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
-  }
-};
 
 // W registers point into RAM, a timer interrupts, then comes the body. After a trap all that is set up anew,
 // and the body is entered somewhere

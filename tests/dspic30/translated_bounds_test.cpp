@@ -10,14 +10,7 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
-
-struct Draw {
-  std::uint32_t state;
-  unsigned operator()(unsigned below) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
-  }
-};
+using bench::Draw;
 
 // it runs as interpreted, wherever it is cut
 void expect_alike(const std::string& text, CoreBench& translated) {

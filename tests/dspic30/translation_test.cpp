@@ -17,15 +17,8 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
+using bench::Draw;
 using bench::kFlashMacro;
-
-struct Draw {
-  std::uint32_t state;
-  unsigned operator()(unsigned below) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
-  }
-};
 
 // one more cycle for a MOV, two for what computes; words of a page that is not the first, bytes of both
 // halves

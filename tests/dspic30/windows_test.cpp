@@ -9,18 +9,11 @@ namespace {
 
 using bench::CoreBench;
 using bench::Cycle;
+using bench::Draw;
 using bench::kNever;
 using dspic::Cpu;
 using dspic::HandlerStep;
 using dspic::HostResult;
-
-struct Draw {
-  std::uint32_t state;
-  unsigned operator()(unsigned below) {
-    state = state * 1664525u + 1013904223u;
-    return static_cast<unsigned>((std::uint64_t{state} * below) >> 32);
-  }
-};
 
 /// Plays a library: function 0 works, 1 and 2 wait, 3 tells the time and how long that stays, 4 changes the
 /// handlers' share, 5 stops and starts the handler that calls the program; 0x800 counts time.
