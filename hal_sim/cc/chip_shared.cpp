@@ -112,10 +112,8 @@ class FactWriter {
   // --- instructions
 
   void write(Function& f) {
-    // the linker puts a function of that name into the vector, whatever its attributes
-    const StringRef name = f.getName();
-    const bool is_handler = f.hasFnAttribute("interrupt") ||
-                            (!f.hasLocalLinkage() && name.startswith("_") && name.endswith("Interrupt"));
+    const bool is_handler =
+        f.hasFnAttribute("interrupt") || (!f.hasLocalLinkage() && is_handler_name(f.getName()));
     out_ << "F " << name_of(f) << " " << (is_handler ? "h" : "") << (f.isVarArg() ? "v" : "") << "-\n";
     dominators_.recalculate(f);
     loops_.releaseMemory();

@@ -16,6 +16,7 @@
 #include "llvm/IR/IntrinsicInst.h"
 #include "llvm/IR/Operator.h"
 #include "passes.h"
+#include "shared_variables.h"
 
 namespace cc {
 
@@ -28,9 +29,7 @@ double Segment::own() const {
 }
 double Segment::cycles() const { return own() + library; }
 
-bool is_handler(const Function& f) {
-  return f.getName().startswith("_") && f.getName().endswith("Interrupt");
-}
+bool is_handler(const Function& f) { return is_handler_name(f.getName()); }
 
 namespace {
 

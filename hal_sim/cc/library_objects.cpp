@@ -11,6 +11,7 @@
 #include "elf_reader.h"
 #include "object_cache.h"
 #include "program_files.h"
+#include "shared_variables.h"
 #include "twinpuck_paths.h"
 
 namespace cc {
@@ -149,9 +150,7 @@ std::string facts_of_assembler(const fs::path& object) {
   const auto symbols = read_elf(object).symbols;
   for (const ElfSymbol& s : symbols) {
     if (!s.is_global || s.name.empty()) continue;
-    const bool is_handler =
-        s.name.size() > 9 && s.name[0] == '_' && s.name.compare(s.name.size() - 9, 9, "Interrupt") == 0;
-    if (s.is_defined) labels += "F " + s.name + (is_handler ? " h-\n" : " -\n");
+    if (s.is_defined) labels += "F " + s.name + (is_handler_name(s.name) ? " h-\n" : " -\n");
     for (const ElfSymbol& other : symbols)
       if (s.is_defined && other.is_global && !other.name.empty() && other.name != s.name)
         names += "N " + s.name + " " + other.name + "\n";

@@ -22,9 +22,16 @@
 #pragma once
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cc {
+
+/// The linker puts a function of such a name into its vector, whatever its attributes: "_T1Interrupt".
+inline bool is_handler_name(std::string_view name) {
+  constexpr std::string_view kEnd = "Interrupt";
+  return name.size() > kEnd.size() && name[0] == '_' && name.substr(name.size() - kEnd.size()) == kEnd;
+}
 
 struct FileFacts {
   std::string text;
