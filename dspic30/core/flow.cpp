@@ -39,23 +39,22 @@ const Decoded* go_to_register(Cpu& cpu, const Decoded* d) {
   return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
 
-void push_return(Cpu& cpu, unsigned address) { cpu.push_address(address); }
 const Decoded* call(Cpu& cpu, const Decoded* d) {
   const unsigned back = cpu.address_of(d) + 4;
-  push_return(cpu, back);
+  cpu.push_address(back);
   return cpu.call_to(static_cast<unsigned>(d->imm), d, back);
 }
 const Decoded* call_register(Cpu& cpu, const Decoded* d) {
-  push_return(cpu, cpu.address_of(d) + 2);
+  cpu.push_address(cpu.address_of(d) + 2);
   return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
 const Decoded* call_relative(Cpu& cpu, const Decoded* d) {
   const unsigned here = cpu.address_of(d), back = here + 2;
-  push_return(cpu, back);
+  cpu.push_address(back);
   return cpu.call_to((here + 2 * static_cast<unsigned>(d->imm)) & 0x7FFFFE, d, back);
 }
 const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
-  push_return(cpu, cpu.address_of(d) + 2);
+  cpu.push_address(cpu.address_of(d) + 2);
   return branch_register(cpu, d);
 }
 

@@ -255,8 +255,7 @@ std::uint16_t Adc::read(unsigned address, Cycle now) {
 std::uint16_t Adc::peek(unsigned address, Cycle now) const {
   switch (address) {
     case kCon1: {
-      if (!cruising_) return con1_;
-      if (is_fresh(now)) return con1_;
+      if (!cruising_ || is_fresh(now)) return con1_;
       const bool samples = (2 * now - cruise_.start) % cruise_.cycle < cruise_.sample;
       return static_cast<std::uint16_t>((con1_ & ~(kSamp | kDone)) | (samples ? kSamp | kDone : 0));
     }
@@ -294,8 +293,8 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   if (cruising_) {
     // what switches it off needs no stages any more
     const bool goes_off = address == kCon1 && !(merge_lanes(con1_, value, lanes) & kAdon);
-    const std::uint16_t status = peek(kCon1, now);
     if (goes_off) {
+      const std::uint16_t status = peek(kCon1, now);
       keep_results(now);
       cruising_ = false;
       con1_ = status;

@@ -72,7 +72,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   void advance_by_stages(Cycle now);
   __attribute__((noinline)) void irregular_event(Cycle at);
   void stop_cruising(Cycle now);
-  /// Results of a cruise that has ended, to the buffer.
+  /// Results of the cruise, to the buffer; it is to end.
   void keep_results(Cycle now);
   /// Nothing of a cruise has been held yet.
   bool is_fresh(Cycle now) const { return 2 * now < cruise_.first + cruise_.sample; }
