@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 // make bench: processor time per robot-second in the common workload (docs/performance.md), ours with
 // compiled firmware inside, libenki beside it, and the floor under both (floor.h), turn and turn about. Then
-// the register way, the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was
+// the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was
 // missed.
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]         only these sizes, and nothing but the workload
 //   bench --engines [--rounds 5] [--worlds DIR]      the three motion engines instead (engines.cpp)
-//   bench --register [--rounds 5]                     one robot of the register way alone (register_load.cpp)
 //   bench --core [--rounds 5]                         the chip's core beside simavr (core_speed.cpp)
 //   bench --waits [--rounds 5]                        what a user waits for alone (latency.cpp)
 #include <algorithm>
@@ -24,7 +23,6 @@
 #include "bench/median.h"
 #include "bench/playback.h"
 #include "bench/processor_time.h"
-#include "bench/register_load.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 
@@ -98,7 +96,7 @@ int main(int argc, char** argv) {
   int rounds = 5;
   std::string worlds = twin::project_root() + "/bench/worlds";
   std::vector<int> sizes;
-  bool engines = false, registers = false, core = false, waits = false;
+  bool engines = false, core = false, waits = false;
   for (int i = 1; i < argc; ++i) {
     if (!std::strcmp(argv[i], "--rounds") && i + 1 < argc)
       rounds = std::max(1, std::atoi(argv[++i]));
@@ -106,8 +104,6 @@ int main(int argc, char** argv) {
       worlds = argv[++i];
     else if (!std::strcmp(argv[i], "--engines"))
       engines = true;
-    else if (!std::strcmp(argv[i], "--register"))
-      registers = true;
     else if (!std::strcmp(argv[i], "--core"))
       core = true;
     else if (!std::strcmp(argv[i], "--waits"))
@@ -115,7 +111,6 @@ int main(int argc, char** argv) {
     else
       sizes.push_back(std::atoi(argv[i]));
   }
-  if (registers) return bench::measure_register_way(rounds) >= bench::kPromisedRegisterWay ? 0 : 1;
   if (core) return bench::measure_core(rounds) ? 0 : 1;
   if (waits) return bench::measure_waits(rounds) ? 0 : 1;
   if (engines) return bench::compare_engines(worlds, rounds);
@@ -154,7 +149,6 @@ int main(int argc, char** argv) {
   }
   if (all) {
     std::printf("\n");
-    kept = bench::measure_register_way(rounds) >= bench::kPromisedRegisterWay && kept;
     kept = bench::measure_core(rounds) && kept;
     kept = bench::measure_waits(rounds) && kept;
   }

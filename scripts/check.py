@@ -38,8 +38,7 @@ MAY_INCLUDE = {
     # ties board, host and world together
     "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h", "programs/puck/program_runner.h"],
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
-    "hal_sim/register": ["hal_sim/host", "hal_sim/chip", "hal_sim/board", "dspic30"],
-    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "dspic30", "sim_core/base"],
+    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/image_abi.h", "hal_sim/host/endless_wait.h", "hal_sim/host/oscillator.h", "dspic30", "sim_core/base"],
     "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
     "programs/process": ["programs/link"],
     "programs/build": ["hal_sim/cc/child_process.h", "hal_sim/cc/memory_limit.h", "sim_core/base"],
@@ -55,7 +54,7 @@ MAY_INCLUDE = {
 }
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
-                   "chip": "hal_sim/chip", "register_way": "hal_sim/register", "trace": "hal_sim/trace",
+                   "chip": "hal_sim/chip", "trace": "hal_sim/trace",
                    "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {

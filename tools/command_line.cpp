@@ -32,6 +32,16 @@ CLI::Validator between(double least, double most) {
 
 CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }
 
+void add_way(CLI::App& verb, std::string& way, const std::string& text) {
+  const auto check = [](const std::string& got) -> std::string {
+    if (got == "native" || got == "chip") return "";
+    if (got == "register")
+      return "got register, which is gone: --hal dspic runs all drivers on the chip's registers";
+    return "got " + got + ", expected native or chip";
+  };
+  verb.add_option("--way", way, text)->check(CLI::Validator(check, ""));
+}
+
 void add_hal(CLI::App& verb, std::string& hal) {
   verb.add_option(
           "--hal", hal,

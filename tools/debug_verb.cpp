@@ -37,7 +37,7 @@ struct DebugArguments {
 };
 
 constexpr const char* kUsualHal = "sim";
-const std::vector<std::string> kWays{"native", "register", "chip"}, kHals{"sim", "dspic"},
+const std::vector<std::string> kWays{"native", "chip"}, kHals{"sim", "dspic"},
     kLevels{"-O0", "-O1", "-O2", "-Os"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
@@ -45,7 +45,7 @@ bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
 }
 
 /// Programs become code for the PC.
-bool is_of_pc(const DebugArguments& a) { return a.hal.empty() && (a.way == "native" || a.way == "register"); }
+bool is_of_pc(const DebugArguments& a) { return a.hal.empty() && a.way == "native"; }
 
 volatile std::sig_atomic_t pause_asked = 0;
 
@@ -167,8 +167,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   one_each(verb->add_option(
       "--fw", a->firmware, "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
   add_hal(*verb, a->hal);
-  verb->add_option("--way", a->way, "the program as the PC's code: native, register; chip is --hal dspic")
-      ->check(CLI::IsMember(kWays));
+  add_way(*verb, a->way, "native: the program as the PC's code; chip is --hal dspic");
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
@@ -177,13 +176,13 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
-  verb->add_flag("--gdb", a->gdb, "gdb instead, in the native and register ways");
-  verb->add_option("--opt", a->optimisation, "of a native or register way's program that is built")
+  verb->add_flag("--gdb", a->gdb, "gdb instead, in the native way");
+  verb->add_option("--opt", a->optimisation, "of a native program that is built")
       ->check(CLI::IsMember(kLevels))
       ->capture_default_str();
   verb->callback([a, world, &exit_code] {
     if (a->gdb && (a->dap || !a->robot.empty() || !is_of_pc(*a)))
-      throw CLI::ValidationError("--gdb", "with --way native or register, and without --dap and --robot");
+      throw CLI::ValidationError("--gdb", "with --way native, and without --dap and --robot");
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
       exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;

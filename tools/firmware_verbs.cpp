@@ -93,7 +93,6 @@ int build(cc::BuildOptions options, const std::string& way) {
   std::vector<std::string> no_controller;
   const std::string found = twin::find_firmware(given, "", no_controller);
   options.hal = twin::hal_of(of_run, found);
-  options.register_way = way == "register" && options.hal.empty();
   if (options.hal.empty() && !found.empty() && programs::is_pc_program(found))
     return build_program(given, options.output);
   options.source_dir = controller_folder(given, "build");
@@ -190,11 +189,7 @@ void add_build(CLI::App& app, int& exit_code) {
   verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
   add_hal(*verb, o->hal);
   auto way = std::make_shared<std::string>();
-  verb->add_option(
-          "--way", *way,
-          "for the PC, .so: native, by the library's functions, or register, by the chip's registers; "
-          "chip is --hal dspic")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_way(*verb, *way, "native: for the PC, .so; chip is --hal dspic");
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
   verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
   verb->callback([o, way, &exit_code] { exit_code = build(*o, *way); });

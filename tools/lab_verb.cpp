@@ -249,9 +249,8 @@ void add_lab(CLI::App& app, int& exit_code) {
       "--mine", a->mine,
       "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
       "in the place of the lab's solutions");
-  verb->add_option("--way", a->way,
-                   "native, register or chip, for all programs that are built from source; else the worlds'")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_way(*verb, a->way,
+          "native: all programs that are built from source run as code of the PC; else the worlds'");
   add_hal(*verb, a->hal);
   verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));

@@ -269,10 +269,8 @@ void add_run(CLI::App& app, int& exit_code) {
       verb->add_option("--fw", a->firmware,
                        "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
                        "every robot"));
-  verb->add_option(
-          "--way", a->way,
-          "native, register or chip, for all robots whose controller is built from source; else the world's")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_way(*verb, a->way,
+          "native: all robots whose controller is built from source run code of the PC; else the world's");
   add_hal(*verb, a->hal);
   one_each(verb->add_option(
       "--uart", a->uart1,

@@ -76,9 +76,8 @@ void add_view(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--record-inputs", a->record,
                    "file for what the page does, with its ticks; run --replay does it again");
-  verb->add_option("--way", a->way,
-                   "native, register or chip, for all robots whose controller is built from source")
-      ->check(CLI::IsMember({"native", "register", "chip"}));
+  add_way(*verb, a->way,
+          "native: all robots whose controller is built from source run code of the PC; else the world's");
   add_hal(*verb, a->hal);
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")

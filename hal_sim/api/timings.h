@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: MIT
  * What the library's calls and handlers take, in processor cycles. Of a call: what the native way charges
- * beside what the compiler estimates for the function's own code. Written by `twinpuck timings` [measured:
- * register way], which keeps what is within its tolerance; held by `make check`. Read by the run, and through
- * takes.h by `twinpuck cycles`.
+ * beside what the compiler estimates for the function's own code [measured: hal_dspic's drivers on the chip's
+ * peripherals]. Read by the run, and through takes.h by `twinpuck cycles`.
  */
 #ifndef TWINPUCK_API_TIMINGS_H
 #define TWINPUCK_API_TIMINGS_H

@@ -231,10 +231,10 @@ static BuildResult build_here(const BuildOptions& asked) {
   }
   LibraryCopies copies;
   std::size_t own = 0;  // of p.user, what is not a member of a copy of the library
-  if (o.register_way) {
+  if (o.chip_way) {
     // drivers that a project brings along reach the registers they were written for
-    const LibraryCopies split = find_library_members(
-        o.source_dir, sources, program.unlisted, o.chip_way ? program.assembler : std::vector<fs::path>());
+    const LibraryCopies split =
+        find_library_members(o.source_dir, sources, program.unlisted, program.assembler);
     own = split.kept.size();
     copies.replaced_whole = split.replaced_whole;
     copies.kept = split.kept;
@@ -246,7 +246,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   own = program.order(copies, own);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
-  if (!o.register_way && program.has_project)
+  if (!o.chip_way && program.has_project)
     for (const fs::path& source : copies.replaced)
       if (!program.unlisted.count(source)) program.library_places.push_back(library_place(source));
   Plan p = plan(o, copies, program, false);
@@ -315,7 +315,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   }
   if (!result.errors.empty()) return finish();
   std::vector<std::pair<std::string, std::string>> texts;
-  for (const auto& s : o.register_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
+  for (const auto& s : o.chip_way ? find_library_copies(o.source_dir, sources).kept : copies.kept)
     if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
   for (auto& conflict : timer_conflicts(texts, replaced_headers(choices)))
     result.conflicts.push_back(std::move(conflict));
@@ -371,7 +371,7 @@ static BuildResult build_here(const BuildOptions& asked) {
 /// ever on the robot. What is told of a line already is not told twice.
 static void lint_shared_variables(BuildOptions o, const LibraryCopies& copies, const Program& program,
                                   BuildResult& result) {
-  o.chip_way = o.register_way = true;
+  o.chip_way = true;
   o.strict = o.sanitize = o.coverage = false;
   const Plan p = plan(o, copies, program, false);
   std::vector<FileFacts> files;
@@ -409,7 +409,7 @@ static BuildResult lint_here(const BuildOptions& options) {
   // for the robot; then for the PC, whose stages know flags that want to be volatile: nothing else counts
   // there
   BuildOptions for_chip = o;
-  for_chip.register_way = for_chip.chip_way = true;
+  for_chip.chip_way = true;
   const Plan on_chip = plan(for_chip, copies, program, true), on_pc = plan(o, copies, program, true);
   for (const Plan* p : {&on_chip, &on_pc}) {
     if (p == &on_pc && p->is_webots) continue;
@@ -472,7 +472,7 @@ static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const
 static BuildOptions with_cache(BuildOptions o) {
   if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
   o.cache_dir = fs::absolute(o.cache_dir);
-  if (!o.hal.empty()) o.chip_way = o.register_way = true;
+  if (!o.hal.empty()) o.chip_way = true;
   if (o.chip_way && o.hal.empty()) o.hal = "dspic";
   return o;
 }

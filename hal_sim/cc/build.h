@@ -16,8 +16,7 @@ struct BuildOptions {
   bool sanitize = false;             ///< address and 16-bit overflow checks
   bool coverage = false;             ///< line counters
   bool strict = false;               ///< more warnings
-  bool register_way = false;         ///< for the models of the chip: hal_dspic's drivers, registers for all
-  bool chip_way = false;             ///< an image of the chip, .elf with .hex and .map; with register_way
+  bool chip_way = false;             ///< an image of the chip, .elf with .hex and .map
   /// An image of the chip for this HAL: "sim", whose busy drivers are the simulator's, or "dspic", the image
   /// that is flashed. Implies chip_way, which alone means dspic.
   std::string hal;

@@ -14,16 +14,6 @@ namespace {
 // of include_finder.h, which is the compiler's
 constexpr const char* kVendorHeaders = "-I/twinpuck-vendor";
 
-/// Whether a program takes the address of a register anywhere: then its files may pass it on.
-bool takes_register_addresses(const std::vector<fs::path>& sources, const std::vector<fs::path>& headers) {
-  static const sim::Pattern kAddress(
-      R"([=(,{\[?:)]\s*&\s*(ADC|PORT|LAT|TRIS|TMR|PR\d|T\dCON|IFS|IEC|IPC|INTCON|U[12]|I2C|DCI|TSCON|RSCON|[RT]XBUF|SPI|OC\d|IC\d|RCON|CN)[A-Z0-9]*(bits)?\b)");
-  for (const auto* list : {&sources, &headers})
-    for (const auto& file : *list)
-      if (std::regex_search(read_text(file), kAddress)) return true;
-  return false;
-}
-
 /// Sources of a program for Webots, which compiles the file with the controller's name alone: not those that
 /// another one includes as text, and not further programs that lie beside it.
 std::vector<fs::path> webots_sources(const fs::path& folder, const std::vector<fs::path>& sources) {
@@ -120,7 +110,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
     user_include.push_back("--copy");
     user_include.push_back(r.string());
   }
-  if (o.register_way) user_include.push_back(o.chip_way ? "--target=dspic30f6014a" : "--register");
+  if (o.chip_way) user_include.push_back("--target=dspic30f6014a");
 
   Plan p;
   std::vector<std::string> flags = {o.optimisation};
@@ -133,8 +123,6 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   }
   if (o.strict) flags.push_back("--strict");
   if (lint) flags.push_back("--lint");
-  if (o.register_way && !o.chip_way && takes_register_addresses(copies.kept, headers))
-    flags.push_back("--register-pointers");
   for (const auto& d : program.defines) flags.push_back("-D" + d);
   for (const auto& d : o.defines) flags.push_back("-D" + d);
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
@@ -156,7 +144,6 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
       o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
   std::string image_flags = o.sanitize ? "sanitize" : "";
   if (o.coverage) image_flags += image_flags.empty() ? "coverage" : " coverage";
-  if (o.register_way) image_flags += image_flags.empty() ? "register" : " register";
   p.runtime = {cc_dir / "runtime/image_runtime.c",
                {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(),
                 "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},

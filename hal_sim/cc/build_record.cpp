@@ -144,9 +144,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     o.sanitize ? "sanitize" : "",
                                     o.coverage ? "coverage" : "",
                                     o.strict ? "strict" : "",
-                                    o.chip_way       ? "chip"
-                                    : o.register_way ? "register"
-                                                     : "",
+                                    o.chip_way ? "chip" : "",
                                     o.hal,
                                     o.with_texts ? "texts" : "",
                                     o.name,

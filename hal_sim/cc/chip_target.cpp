@@ -108,6 +108,12 @@ std::string section_of(const Placement& place, bool has_value) {
   return place.address ? std::string(name) + "@" + llvm::utohexstr(place.address) : name;
 }
 
+bool is_in_ram(const Placement& place) {
+  return !llvm::StringSwitch<bool>(place.space)
+              .Cases("psv", "auto_psv", "const", "prog", "eedata", true)
+              .Default(false);
+}
+
 /// __save__(a,b) and __preprologue__("...") inside interrupt(...): calls, as the parser sees them.
 void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context);
 
@@ -195,9 +201,14 @@ void note_accumulators(clang::Decl* decl, clang::ASTContext& context) {
 }
 
 void place_variables(clang::ASTContext& context) {
-  for (auto& [variable, place] : pending())
-    if (!variable->hasAttr<SectionAttr>())
-      variable->addAttr(SectionAttr::CreateImplicit(context, section_of(place, variable->hasInit())));
+  for (auto& [variable, place] : pending()) {
+    if (variable->hasAttr<SectionAttr>()) continue;
+    const std::string section = section_of(place, variable->hasInit());
+    variable->addAttr(SectionAttr::CreateImplicit(context, section));
+    // of a section that clang knows nothing of it thinks that it cannot be written, so stores would go
+    if (is_in_ram(place))
+      context.SectionInfos[section].SectionFlags |= ASTContext::PSF_Read | ASTContext::PSF_Write;
+  }
   pending().clear();
 }
 

@@ -58,7 +58,7 @@ bool is_fresh(const Instruction& access, const std::string& refresher) {
 }  // namespace
 
 void refresh_driver_arrays(Unit& unit) {
-  if (unit.options.library || unit.options.uncounted || unit.options.register_way) return;
+  if (unit.options.library || unit.options.uncounted) return;
   bool any = false;
   for (GlobalVariable& g : unit.module.globals()) any = any || refresher_of(&g);
   if (!any) return;

@@ -30,14 +30,12 @@ struct Options {
   int level = 1;                    // 0, 1, 2
   bool for_size = false;
   bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
-  bool uncounted = false;     // part of the runtime: costs no cycles
-  bool webots = false;        // chip: written for Webots' interfaces, in C of today
-  bool register_way = false;  // the library reaches registers; nothing of it is evaluated by the host
-  bool by_pointer = false;    // the program hands pointers to registers from file to file
-  bool weak = false;          // a file of a copy of the library: of two definitions the first wins
-  bool chip = false;          // code for the dsPIC30F6014A instead of the PC
-  bool emit_text = false;     // chip: assembler text
-  bool library = false;       // part of the API or libc: definitions are weak, the program's own win
+  bool uncounted = false;  // part of the runtime: costs no cycles
+  bool webots = false;     // chip: written for Webots' interfaces, in C of today
+  bool weak = false;       // a file of a copy of the library: of two definitions the first wins
+  bool chip = false;       // code for the dsPIC30F6014A instead of the PC
+  bool emit_text = false;  // chip: assembler text
+  bool library = false;    // part of the API or libc: definitions are weak, the program's own win
 };
 
 /// What the syntax tree says and the module no longer does.

@@ -78,13 +78,13 @@ bool is_precompiled(const fs::path& source, const BuildOptions& o) {
 std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
   const fs::path contract = include_root(o);
-  const fs::path api = o.api_dir.empty() ? root / (o.register_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
+  const fs::path api = o.api_dir.empty() ? root / (o.chip_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
   std::vector<std::string> flags = {o.optimisation, "--library"};
   for (const fs::path& folder : contract_folders(contract)) flags.push_back("-I" + folder.string());
   flags.insert(flags.end(), {"-include", (libc / "xc16_builtins.h").string(), "-I" + libc.string(),
                              "--fallback", contract.string(), "--fallback", libc.string(),
                              "-I" + root.string(), "-I" + api.string()});  // its hal.h, for firmware/library
-  if (o.register_way) flags.push_back(o.chip_way ? kForChip : "--register");
+  if (o.chip_way) flags.push_back(kForChip);
 
   const std::string salt =
       names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
@@ -97,8 +97,6 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   };
   if (is_webots)
     for (const auto& s : files_below(root / "firmware/webots", ".c")) add(s, flags);
-  // what exists in the simulator alone has one form for both ways
-  if (o.register_way && !o.chip_way) add(root / "hal_sim/api/virtual.c", flags);
   const std::initializer_list<const char*> c_sources = {".c"}, chip_sources = {".c", ".s"};
   std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
   // the half of the library that needs no pins, for a HAL that has the other half
@@ -183,18 +181,16 @@ Library provide_library(const BuildOptions& o, bool is_webots) {
 
 std::vector<Library> provide_usual_libraries(int jobs) {
   std::vector<Library> made;
-  const auto make = [&](bool register_way, bool chip_way, bool is_webots) {
+  const auto make = [&](bool chip_way, bool is_webots) {
     BuildOptions o;
-    o.register_way = register_way;
     o.chip_way = chip_way;
     o.jobs = jobs;
     o.optimisation = "-O1";
     made.push_back(provide_library(o, is_webots));
   };
-  make(false, false, false);
-  make(true, false, false);
-  make(true, true, false);
-  make(true, true, true);
+  make(false, false);
+  make(true, false);
+  make(true, true);
   return made;
 }
 

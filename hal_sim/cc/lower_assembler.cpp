@@ -8,9 +8,7 @@
 //
 // which is what the sequences that unlock OSCCON and NVMCON are made of. W0 to W14 are variables of the
 // function; [Wn] reaches registers only. A name is a variable of the program or a register. Anything else is
-// an error with its line; in the register way, when it stands in an interrupt handler, a warning, and the
-// robot stops with that message if the handler ever runs: programs carry drivers of devices that they never
-// switch on.
+// an error with its line.
 
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/ADT/StringSwitch.h"
@@ -25,8 +23,6 @@ namespace cc {
 namespace {
 
 using namespace llvm;
-
-constexpr long long kTrapUnsimulated = 8;  // TP_TRAP_UNSIMULATED of image_abi.h
 
 /// The variable or register that an assembler name means: "_LATA", "_IFS0bits", "_e_stop_flag". Registers are
 /// those of the header; a variable that the file does not know is somebody else's, of 16 bits.
@@ -267,29 +263,13 @@ bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text, Registers& w_re
   return true;
 }
 
-/// Handlers are functions with the names of vectors.
-bool is_handler(const Function& f) {
-  StringRef name = f.getName();
-  return name.startswith("_") &&
-         (name.endswith("Interrupt") || name.endswith("Error") || name.endswith("Fail"));
-}
-
 void refuse(Unit& unit, IRBuilder<>& b, CallBase* call, StringRef line) {
   const std::string got = ("inline assembler: got \"" + line + "\"").str();
   const char* const expected =
       ", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1, disi #n, repeat #n, one of clr, setm, inc, dec, "
       "com, "
       "neg, bset, bclr, btg on a variable, mov, push or pop; ";
-  const Function& f = *call->getFunction();
-  if (!unit.options.register_way || !is_handler(f)) {
-    unit.error(call->getDebugLoc(), got + expected + "write it in C, or run the program the chip way");
-    return;
-  }
-  unit.warning(call->getDebugLoc(), got + expected + "the robot stops when " + f.getName() + " runs");
-  const std::string told = got + " in " + f.getName().str() + ": not modelled; write the handler in C";
-  b.CreateCall(
-      host_function(unit.module, "tp_trap_message", b.getVoidTy(), {b.getInt64Ty(), b.getInt8PtrTy()}),
-      {b.getInt64(kTrapUnsimulated), b.CreateGlobalStringPtr(told)});
+  unit.error(call->getDebugLoc(), got + expected + "write it in C, or run the program with --hal sim");
 }
 
 }  // namespace

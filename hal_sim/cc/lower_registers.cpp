@@ -5,9 +5,7 @@
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InstIterator.h"
-#include "llvm/IR/IntrinsicInst.h"
 #include "llvm/IR/Operator.h"
-#include "llvm/Transforms/Utils/BasicBlockUtils.h"
 #include "llvm/Transforms/Utils/Local.h"
 #include "passes.h"
 
@@ -15,9 +13,6 @@ namespace cc {
 namespace {
 
 using namespace llvm;
-
-// special-function registers as bytes of the data space: what follows the working registers [DS70143 3.2]
-constexpr std::uint64_t kFirstRegister = 0x20, kRegistersEnd = 0x800;
 
 /// Byte address of the register a global stands for, or -1.
 int register_address(const Value* v) {
@@ -138,66 +133,6 @@ void lower_access(Unit& unit, Instruction* i, Value* pointer, DenseMap<Value*, V
   i->eraseFromParent();
 }
 
-/// An access by a pointer that may point to a register: its value decides. Registers lie where they lie on
-/// the chip, and where a PC has no memory; the lowest addresses, the working registers, stay null pointers.
-void lower_either(Unit& unit, Instruction* i, Value* pointer) {
-  IRBuilder<> b(i);
-  auto free = [](Value* v) {
-    if (auto* made = dyn_cast<Instruction>(v)) mark_free(made);
-    return v;
-  };
-  Value* address = free(b.CreatePtrToInt(pointer, b.getInt64Ty()));
-  Value* offset = free(b.CreateSub(address, b.getInt64(kFirstRegister)));
-  Value* inside = free(b.CreateICmpULT(offset, b.getInt64(kRegistersEnd - kFirstRegister)));
-  Instruction *chip = nullptr, *memory = nullptr;
-  SplitBlockAndInsertIfThenElse(inside, i, &chip, &memory);
-  mark_free(chip->getParent()->getSinglePredecessor()->getTerminator());
-  mark_free(chip);
-  mark_free(memory);
-  IRBuilder<> on_chip(chip);
-  on_chip.SetCurrentDebugLocation(i->getDebugLoc());
-  Instruction* plain = i->clone();
-  plain->insertBefore(memory);
-  if (auto* load = dyn_cast<LoadInst>(i)) {
-    Value* value = read_registers(unit, on_chip, address, load->getType());
-    auto* phi = PHINode::Create(load->getType(), 2, "", i);
-    phi->addIncoming(value, chip->getParent());
-    phi->addIncoming(plain, memory->getParent());
-    mark_free(phi);
-    load->replaceAllUsesWith(phi);
-  } else {
-    write_registers(unit, on_chip, address, cast<StoreInst>(i)->getValueOperand());
-  }
-  i->eraseFromParent();
-}
-
-/// memcpy(), memmove() and memset() by pointers that may point to registers: the libc's functions for that.
-void lower_block(Unit& unit, MemIntrinsic* block) {
-  IRBuilder<> b(block);
-  Type *i64 = b.getInt64Ty(), *pointer = b.getInt8PtrTy(), *none = b.getVoidTy();
-  Value* length = b.CreateZExtOrTrunc(block->getLength(), i64);
-  if (auto* copy = dyn_cast<MemTransferInst>(block))
-    b.CreateCall(host_function(unit.module, "tp_image_copy", none, {pointer, pointer, i64}),
-                 {copy->getRawDest(), copy->getRawSource(), length});
-  else
-    b.CreateCall(host_function(unit.module, "tp_image_fill", none, {pointer, i64, i64}),
-                 {block->getRawDest(), b.CreateZExt(cast<MemSetInst>(block)->getValue(), i64), length});
-  block->eraseFromParent();
-}
-
-bool is_own_memory(const Value* pointer) {
-  const Value* object = getUnderlyingObject(pointer);
-  return isa<AllocaInst>(object) || isa<GlobalVariable>(object);
-}
-
-/// A constant that is a register's address written as a number.
-bool is_numeric_register(const Value* pointer) {
-  auto* e = dyn_cast<ConstantExpr>(pointer->stripPointerCasts());
-  if (!e || e->getOpcode() != Instruction::IntToPtr) return false;
-  auto* number = dyn_cast<ConstantInt>(e->getOperand(0));
-  return number && number->getValue().uge(kFirstRegister) && number->getValue().ult(kRegistersEnd);
-}
-
 /// Where the address of a register goes anywhere but into an access.
 const Instruction* escape_of(const Value* v, SmallPtrSetImpl<const Value*>& seen) {
   if (!seen.insert(v).second) return nullptr;
@@ -214,7 +149,7 @@ const Instruction* escape_of(const Value* v, SmallPtrSetImpl<const Value*>& seen
 
 }  // namespace
 
-void lower_register_accesses(Unit& unit) {
+static void lower_register_accesses(Unit& unit) {
   for (Function& f : unit.module) {
     std::vector<std::pair<Instruction*, Value*>> accesses;
     for (Instruction& i : instructions(f)) {
@@ -235,42 +170,6 @@ void lower_register_accesses(Unit& unit) {
         RecursivelyDeleteTriviallyDeadInstructions(static_cast<Value*>(pointer));
     }
   }
-}
-
-void open_register_space(Unit& unit) {
-  bool by_pointer = unit.options.by_pointer;
-  for (GlobalVariable& g : make_early_inc_range(unit.module.globals())) {
-    const int address = register_address(&g);
-    if (address < 0) continue;
-    g.removeDeadConstantUsers();
-    if (g.use_empty()) continue;
-    auto* number = ConstantInt::get(Type::getInt64Ty(g.getContext()), std::uint64_t(address));
-    g.replaceAllUsesWith(ConstantExpr::getIntToPtr(number, g.getType()));
-    by_pointer = true;
-  }
-  std::vector<std::pair<Instruction*, Value*>> accesses;
-  std::vector<MemIntrinsic*> blocks;
-  for (Function& f : unit.module)
-    for (Instruction& i : instructions(f)) {
-      if (auto* block = dyn_cast<MemIntrinsic>(&i)) {
-        auto* copy = dyn_cast<MemTransferInst>(block);
-        if (!is_own_memory(block->getRawDest()) || (copy && !is_own_memory(copy->getRawSource())))
-          blocks.push_back(block);
-      }
-      for (const Value* operand : i.operands())
-        by_pointer |= operand->getType()->isPointerTy() && is_numeric_register(getUnderlyingObject(operand));
-      Value* pointer = nullptr;
-      Type* type = nullptr;
-      if (auto* load = dyn_cast<LoadInst>(&i)) pointer = load->getPointerOperand(), type = load->getType();
-      if (auto* store = dyn_cast<StoreInst>(&i))
-        pointer = store->getPointerOperand(), type = store->getValueOperand()->getType();
-      if (!pointer || !type->isIntegerTy() || type->getIntegerBitWidth() > 64) continue;
-      if (is_own_memory(pointer)) continue;
-      accesses.emplace_back(&i, pointer);
-    }
-  if (!by_pointer) return;
-  for (auto& [i, pointer] : accesses) lower_either(unit, i, pointer);
-  for (MemIntrinsic* block : blocks) lower_block(unit, block);
 }
 
 void lower_registers(Unit& unit) {

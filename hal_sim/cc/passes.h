@@ -39,20 +39,10 @@ void keep_empty_loops(llvm::Module& m, llvm::Function& mark);
 void define_configuration(Unit& unit, llvm::function_ref<void(llvm::GlobalVariable&, llvm::StringRef)> dress);
 /// Refused functions, sections, wide shifts, float to int, division by zero.
 void lower_early(Unit& unit);
-/// The accesses whose register is plain already. Before the optimiser, so that it cannot choose between two
-/// registers by their addresses.
-void lower_register_accesses(Unit& unit);
-/// Register way, after that: addresses of registers become those on the chip, and a file that has any asks at
-/// each access by pointer whether it meets a register.
-void open_register_space(Unit& unit);
 /// Accesses to tp_sfr_XXXX globals become calls to the register host.
 void lower_registers(Unit& unit);
 /// A flag that only an interrupt can change is read afresh in the loop that polls it.
 void keep_polled_flags(Unit& unit, llvm::FunctionAnalysisManager& analyses);
-/// Register way: a load inside a loop of a variable that other code writes happens each round. The drivers'
-/// handlers, which the chip interrupts the loop with, are such code, and programs declare their variables as
-/// plain externs.
-void keep_shared_variables(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Counting loops that do nothing become tp_delay(rounds, cycles).
 void lower_delay_loops(Unit& unit, llvm::FunctionAnalysisManager& analyses);
 /// Control flow made plain without turning branches into selects.

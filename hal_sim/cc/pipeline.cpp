@@ -190,13 +190,6 @@ bool run_pipeline(Unit& unit) {
   if (unit.failed) return false;
   refresh_driver_arrays(unit);
   bool optimise = unit.options.level > 0;
-  keep_shared_variables(unit, fam);
-  fam.clear();
-  if (unit.options.register_way) {
-    lower_register_accesses(unit);
-    open_register_space(unit);
-    fam.clear();
-  }
   if (optimise) {
     ModulePassManager first;
     first.addPass(createModuleToFunctionPassAdaptor(tidy()));

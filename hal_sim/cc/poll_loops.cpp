@@ -97,30 +97,6 @@ void keep_loop(Unit& unit, Loop* loop) {
   }
 }
 
-/// Whether code outside `f` may write the variable: another file's, a handler's, whoever has its address.
-bool is_written_elsewhere(const GlobalVariable& g, const Function& f) {
-  if (!g.hasLocalLinkage()) return true;
-  SmallVector<const Value*, 8> work{&g};
-  SmallPtrSet<const Value*, 8> seen;
-  while (!work.empty()) {
-    const Value* v = work.pop_back_val();
-    if (!seen.insert(v).second) continue;
-    for (const User* user : v->users()) {
-      if (isa<LoadInst>(user)) continue;
-      auto* i = dyn_cast<Instruction>(user);
-      auto* store = dyn_cast<StoreInst>(user);
-      if (store && store->getValueOperand() != v) {
-        if (store->getFunction() != &f) return true;
-      } else if (isa<GEPOperator>(user) || isa<BitCastOperator>(user)) {
-        work.push_back(user);
-      } else if (!i || !isa<ICmpInst>(i)) {
-        return true;  // its address goes somewhere
-      }
-    }
-  }
-  return false;
-}
-
 struct BackEdge {
   Instruction* terminator;  // of the block on the edge back to the header
   Value* same;              // nothing changed in this round
@@ -241,20 +217,6 @@ void keep_polled_flags(Unit& unit, FunctionAnalysisManager& analyses) {
     if (f.isDeclaration()) continue;
     auto& loops = analyses.getResult<LoopAnalysis>(f);
     for (Loop* loop : loops.getLoopsInPreorder()) keep_loop(unit, loop);
-  }
-}
-
-void keep_shared_variables(Unit& unit, FunctionAnalysisManager& analyses) {
-  if (!unit.options.register_way || unit.options.library) return;
-  for (Function& f : unit.module) {
-    if (f.isDeclaration()) continue;
-    auto& loops = analyses.getResult<LoopAnalysis>(f);
-    for (Instruction& i : instructions(f)) {
-      auto* load = dyn_cast<LoadInst>(&i);
-      if (!load || load->isVolatile() || !loops.getLoopFor(load->getParent())) continue;
-      auto* g = dyn_cast<GlobalVariable>(getUnderlyingObject(load->getPointerOperand()));
-      if (g && !g->isConstant() && is_written_elsewhere(*g, f)) load->setVolatile(true);
-    }
   }
 }
 

@@ -51,14 +51,10 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.chip = true;
     else if (a == "-S")
       o.emit_text = true;
-    else if (a == "--register")
-      o.register_way = true;
     else if (a == "--webots")
       o.webots = true;
     else if (a == "--library")
       o.library = true;
-    else if (a == "--register-pointers")
-      o.by_pointer = true;
     else if (a == "--weak")
       o.weak = true;
     else if (a == "--uncounted")

@@ -8,6 +8,8 @@
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/chip/translation.h"
 #include "hal_sim/host/endless_wait.h"
+#include "hal_sim/host/image_abi.h"
+#include "hal_sim/host/oscillator.h"
 #include "sim_core/base/hash.h"
 
 namespace chip {
@@ -72,6 +74,10 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   calls_ = std::make_unique<LibraryCalls>(image_->functions(), *processor_, *places_, chip_, board);
   processor_->tell_calls(this, image_->functions().addresses());
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
+  // a source of clock that the robot has not: no instruction is ever executed
+  const std::string problem = host::clock_problem(configuration.fosc);
+  has_clock_ = problem.empty();
+  if (!has_clock_) report({TP_TRAP_UNSIMULATED, "Reset", problem, 0});
   if (start <= 0) return;
   end_ = start;
   processor_->wait_until(start);
@@ -93,6 +99,7 @@ void ChipRunner::program_eeprom() {
 
 /// Behind windows that it was idle for: there is nothing in them but time.
 void ChipRunner::catch_up(Cycle now) {
+  if (!has_clock_) return;
   while (processor_->now() < now)
     if (const auto kind = processor_->run(now)) reset(*kind);
 }
@@ -107,6 +114,11 @@ void ChipRunner::begin_window(Cycle now) {
 
 // where nothing was to happen, it counts as left out, also for those who look on
 void ChipRunner::run_until(Cycle end) {
+  if (!has_clock_) {
+    end_ = std::max(end_, end);
+    idle_until_ = dspic::kNever;
+    return;
+  }
   const bool passes = idle_until_ > end;
   if (processor_->now() < end) {
     if (!passes) ++turns_;

@@ -67,7 +67,7 @@ class ChipRunner final : public host::Runner,
   Cycle lived_cycles() const override { return end_; }
   Cycle idle_cycles() const override { return processor_->idle(end_); }
   Cycle waiting_since() const override { return processor_->waiting_since(); }
-  bool has_stopped() const override { return false; }
+  bool has_stopped() const override { return !has_clock_; }
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
   std::vector<board::Diagnosis> diagnoses() const override;
   std::uint64_t hash() const override;
@@ -166,6 +166,7 @@ class ChipRunner final : public host::Runner,
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;
   std::uint64_t seed_;     // of RAM at power-up
+  bool has_clock_ = true;  // by its configuration words
   bool gives_up_ = false;  // the reset that comes is the library's
 };
 

@@ -109,7 +109,7 @@ std::optional<Ending> Endings::of_instruction(unsigned at) const {
   if (vector != dspic::kNoVector && is_default_handler(vector, at))
     return vector < dspic::kFirstIrqVector
                ? of_trap(static_cast<Trap>(vector),
-                         "the program has no " + handler_of(vector) + "(), so the processor resets")
+                         "the program has no " + places_.handler_name(vector) + "(), so the processor resets")
                : of_interrupt(vector, resets_at_once(vector, at) ? cut_off() : at);
   if (vector != dspic::kNoVector) return std::nullopt;
   const unsigned main_at = called_main(at);
@@ -219,7 +219,7 @@ std::string Endings::handler_like(const std::string& wanted) const {
 }
 
 Ending Endings::of_interrupt(int vector, unsigned place) const {
-  const std::string name = dspic::vector_name(vector), wanted = handler_of(vector);
+  const std::string name = dspic::vector_name(vector), wanted = places_.handler_name(vector);
   Ending ending{TP_TRAP_INTERRUPT, name, "", place};
   if (vector < dspic::kFirstIrqVector) ending.kind = kind_of(static_cast<Trap>(vector));
   ending.message = (vector < dspic::kFirstIrqVector ? "the trap " + name + " came"

@@ -148,9 +148,19 @@ unsigned ProgramPlaces::caller() const {
   return call_before((stack_word(stack - 2) & 0x7F) << 16 | stack_word(stack - 4));
 }
 
+bool ProgramPlaces::has_alternate_table() const {
+  return (chip_.device().peek(kIntcon2, chip_.latest()) & kAltivt) != 0;
+}
+
 unsigned ProgramPlaces::handler(int vector) const {
-  const bool alternate = (chip_.device().peek(kIntcon2, chip_.latest()) & kAltivt) != 0;
-  return program_.read((alternate ? kAlternateTable : kTable) + 2 * static_cast<unsigned>(vector)) & 0x7FFFFE;
+  return program_.read((has_alternate_table() ? kAlternateTable : kTable) +
+                       2 * static_cast<unsigned>(vector)) &
+         0x7FFFFE;
+}
+
+std::string ProgramPlaces::handler_name(int vector) const {
+  const std::string usual = handler_of(vector);
+  return has_alternate_table() ? "_Alt" + usual.substr(1) : usual;
 }
 
 bool ProgramPlaces::has_handler(int vector) const {

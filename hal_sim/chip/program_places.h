@@ -38,6 +38,8 @@ class ProgramPlaces final {
   static unsigned shared_handler(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program);
   /// Where a vector leads.
   unsigned handler(int vector) const;
+  /// What that handler is called in C: "_T1Interrupt", or "_AltT1Interrupt" while the second table serves.
+  std::string handler_name(int vector) const;
   /// Does the handler of `vector` belong to it alone?
   bool has_handler(int vector) const;
   /// The vector whose handler runs, the innermost; kNoVector: none.
@@ -50,6 +52,7 @@ class ProgramPlaces final {
   unsigned call_before(unsigned address) const;
 
  private:
+  bool has_alternate_table() const;
   unsigned last_jump(unsigned call, unsigned to) const;
   bool is_handler_code(unsigned address) const;
 

@@ -564,7 +564,7 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
     b.data = {static_cast<Address>(value) & machine_->address_mask(), 2};
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
-    if (find_sfr(what)) error += "; the native way has no registers of the chip, --way register has";
+    if (find_sfr(what)) error += "; the native way has no registers of the chip, --hal sim has";
     return nullptr;
   }
   if (!condition.empty() && !evaluate(condition, value, error)) return nullptr;

@@ -61,7 +61,7 @@ struct tp_image {
   tp_i64 magic;      /* TP_IMAGE_MAGIC */
   tp_i64 abi;        /* TP_IMAGE_ABI */
   const char* name;  /* controller's name (its folder) */
-  const char* flags; /* words: "sanitize", "coverage", "register" */
+  const char* flags; /* words: "sanitize", "coverage" */
   struct tp_control* control;
   void (*start)(void); /* runs the controller's main(); returns when main returns */
   /* private data of a robot: everything writable but the control and coverage sections; start-up values are

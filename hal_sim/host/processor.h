@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a CompiledRunner asks of its processor's registers and interrupt controller. Two answers exist:
-// NativeProcessor, which holds the little that programs touch beside the e_* library, and
-// register_way::ChipProcessor, which runs the models of the whole chip.
+// What a CompiledRunner asks of its processor's registers and interrupt controller. The answer is
+// NativeProcessor, which holds the little that programs touch beside the e_* library.
 //
 // Times are cycles of the robot's clock and never go back from one call to the next. Vectors are numbered as
 // the image's (image_abi.h): 0 to TP_VECTORS - 1 in natural order; kTrapVector + n are the core's traps.
@@ -29,7 +28,7 @@ class Processor {
  public:
   virtual ~Processor() = default;
 
-  /// "native" or "register".
+  /// "native".
   virtual const char* way() const = 0;
 
   // --- life

@@ -41,7 +41,7 @@ constexpr PortBlock kPorts[] = {{sfr("TRISA"), 'A'}, {sfr("TRISB"), 'B'}, {sfr("
 
 constexpr const char* kOtherWay =
     "the native way, in which the library's functions drive the hardware, has no model of this register; "
-    "build the program with --way register (docs/register-way.md)";
+    "run the program without --way native";
 
 // registers that hold what was written and do nothing else here
 constexpr unsigned kKept[] = {sfr("TBLPAG"), sfr("PSVPAG"), sfr("CORCON"), sfr("CNEN1"),
@@ -89,7 +89,7 @@ void NativeRegisters::refuse(unsigned address, const char* what) const {
 
 void NativeRegisters::refuse_table() const {
   runner_.trap(TP_TRAP_UNSIMULATED,
-               "table instructions (__builtin_tblrdl ...) need the register way: build with --way register");
+               "table instructions (__builtin_tblrdl ...) need the chip: run without --way native");
 }
 
 // --- timers
@@ -212,11 +212,11 @@ void NativeRegisters::write_word(unsigned address, std::uint16_t value) {
       t->pr = value;
     } else if (address == kTimers[n].con) {
       if (value & 0x0002)
-        refuse(address, "an external timer clock (TCS) needs the register way: build with --way register");
+        refuse(address, "an external timer clock (TCS) needs the chip: run without --way native");
       if (value & 0x0040)
-        refuse(address, "gated timer mode (TGATE) needs the register way: build with --way register");
+        refuse(address, "gated timer mode (TGATE) needs the chip: run without --way native");
       if ((value & 0x0008) && n > 0)
-        refuse(address, "32-bit timer mode (T32) needs the register way: build with --way register");
+        refuse(address, "32-bit timer mode (T32) needs the chip: run without --way native");
       t->con = value;
     } else {
       t->count = value;

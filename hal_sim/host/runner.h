@@ -4,7 +4,7 @@
 //
 //   FirmwareMind --begin_window, run_until--> Runner --e_* calls or registers--> Board
 //
-// Runners: CompiledRunner, code compiled for the PC (native and register way).
+// Runners: CompiledRunner, code compiled for the PC (native way).
 //
 // Time: a Cycle is an instruction cycle of the robot's own clock since power-up. The mind gives windows, one
 // a tick of the world, each from the end of the one before to a later end; a runner never looks beyond its
@@ -59,7 +59,7 @@ class Runner {
 
   /// The robot's, for messages.
   const std::string& name() const { return name_; }
-  /// "native", "register" ...
+  /// "native", "chip" ...
   virtual const char* way() const = 0;
 
   // --- time

@@ -116,10 +116,7 @@ std::string image_file(const std::string& folder, const Options& options) {
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
   const std::string hal = hal_of(options, folder);
-  if (!hal.empty())
-    kind += "-" + hal;
-  else if (options.way == "register")
-    kind += "-register";
+  if (!hal.empty()) kind += "-" + hal;
   // the same program has another image in a world that says something else
   if (!hal.empty() && !options.webots_settings.empty() && programs::is_pc_program(folder)) {
     std::uint64_t of_world = 0;
@@ -213,7 +210,6 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.coverage = options.coverage;
   build.hal = hal_of(options, path.string());
   build.webots_settings = options.webots_settings;
-  build.register_way = options.way == "register";
   const cc::BuildResult result = cc::build_image(build);
   if (program) program->files = result.files;
   if (options.tell)

@@ -15,7 +15,6 @@
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/host/compiled_runner.h"
 #include "hal_sim/host/oscillator.h"
-#include "hal_sim/register/chip_processor.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
@@ -155,10 +154,6 @@ host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board
   settings.name = setup.name;
   settings.seed = setup.seed;
   settings.start = start;
-  if (register_way::wants_chip(image.flags))
-    settings.processor = [](host::CompiledRunner& r) {
-      return std::make_unique<register_way::ChipProcessor>(r);
-    };
   return [=, shared = program.image](board::Board& board) {
     return std::make_unique<host::CompiledRunner>(settings, shared, share, board);
   };
@@ -273,13 +268,6 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
                          " was linked with hal_sim, expected an image of `twinpuck build DIR --hal dspic`");
     } else if (opened.program) {
       programs[key].files = opened.program->files;
-    } else if (of_robot.way == "register" && opened.chip) {
-      problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
-                         " is a program of the chip; leave the way out");
-    } else if (of_robot.way == "register" &&
-               !register_way::wants_chip(opened.image->copy(0).description().flags)) {
-      problems.push_back("robot '" + robot.name + "': way: got register, but " + path +
-                         " was built for the native way, expected an image of twinpuck build --way register");
     }
   }
   if (problems.size() != problems_before) return nullptr;

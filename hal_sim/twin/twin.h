@@ -41,7 +41,7 @@ struct Options {
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
-  /// Of controllers built from source, all robots: native or register, code for the PC; chip is hal dspic;
+  /// Of controllers built from source, all robots: native, code for the PC; chip is hal dspic;
   /// empty: the world's. Programs for Webots' interfaces are programs of the PC but with chip, or with a hal.
   std::string way;
   /// Of controllers built from source, all robots, for the robot's own processor: sim or dspic

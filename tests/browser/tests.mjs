@@ -632,7 +632,7 @@ int main(void) {
   return 0;
 }
 `;
-    for (const way of ["native", "register", "chip"]) {
+    for (const way of ["native", "chip"]) {
       const source = way === "native" ? waits.replace("  TMR3 = 0;\n", "").replace("IFS0bits.T3IF = 0; ", "").replace("#include <p30F6014A.h>\n", "") : waits;
       const [, page] = await start(browser, live, kWorld, { drive: source }, ["--way", way]);
       await page.click("#play");

@@ -2,6 +2,10 @@
 // Which form of a driver is linked: what the program's files, its project file and its headers say together.
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+#include <regex>
+
 #include "fake_host.h"
 #include "hal_sim/cc/elf_reader.h"
 
@@ -9,15 +13,20 @@ using namespace fake;
 
 namespace {
 
-cc::BuildResult build_as(const Folder& folder, bool register_way) {
+cc::BuildResult build_as(const Folder& folder, bool for_chip) {
   cc::BuildOptions options;
   options.source_dir = folder.path / "prog";
-  options.output = folder.path / "out.so";
-  options.register_way = register_way;
+  options.output = folder.path / (for_chip ? "out.elf" : "out.so");
+  options.chip_way = for_chip;
   return cc::build_image(options);
 }
 
-bool has_function(const Folder& folder, const std::string& name) {
+bool has_function(const Folder& folder, const std::string& name, bool for_chip = false) {
+  if (for_chip) {
+    std::ifstream in(folder.path / "out.map");
+    const std::string map{std::istreambuf_iterator<char>(in), {}};
+    return std::regex_search(map, std::regex("\\b_" + name + "\\b"));
+  }
   for (const auto& s : cc::read_elf(folder.path / "out.so").symbols)
     if (s.name == name && s.is_defined && s.is_function) return true;
   return false;
@@ -35,24 +44,24 @@ const std::string kDrive = "int main(void) { e_init_motors(); e_set_speed_left(1
 
 // the library's sources lie in no folder here: their listing is enough
 TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
-  for (const bool register_way : {false, true}) {
+  for (const bool for_chip : {false, true}) {
     Folder folder;
     folder.file("prog/main.c", kBasicHeader + kDrive);
     folder.file(
         "prog/a.mcp",
         mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
-    auto built = build_as(folder, register_way);
+    auto built = build_as(folder, for_chip);
     ASSERT_TRUE(built.ok) << text_of(built);
-    EXPECT_TRUE(has_function(folder, "e_set_speed_left")) << register_way;
-    EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left")) << register_way;
+    EXPECT_TRUE(has_function(folder, "e_set_speed_left", for_chip)) << for_chip;
+    EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left", for_chip)) << for_chip;
 
     Folder other;
     other.file("prog/main.c", kAgendaHeader + kDrive);
     other.file("prog/a.mcp", mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\e_motors.c\r\n"));
-    built = build_as(other, register_way);
+    built = build_as(other, for_chip);
     ASSERT_TRUE(built.ok) << text_of(built);
-    EXPECT_TRUE(has_function(other, "tpbasic_e_set_speed_left")) << register_way;
-    EXPECT_FALSE(has_function(other, "e_set_speed_left")) << register_way;
+    EXPECT_TRUE(has_function(other, "tpbasic_e_set_speed_left", for_chip)) << for_chip;
+    EXPECT_FALSE(has_function(other, "e_set_speed_left", for_chip)) << for_chip;
   }
 }
 
@@ -96,18 +105,18 @@ TEST(driver_variants, a_function_of_the_programs_own_is_called_whatever_header_d
 }
 
 TEST(driver_variants, functions_of_a_form_link_without_a_header) {
-  for (const bool register_way : {false, true})
+  for (const bool for_chip : {false, true})
     for (const std::string calls :
          {"e_init_ad(); e_read_ad(3);", "e_init_prox(); e_get_prox(0); e_stop_prox();", "e_init_acc();",
           "e_init_micro();", "e_start_timer_processing(1); e_configure_timer(1);"}) {
       Folder folder;
       folder.file("prog/main.c", "int main() { " + calls + " return 0; }");
-      auto built = build_as(folder, register_way);
+      auto built = build_as(folder, for_chip);
       EXPECT_TRUE(built.ok) << calls << text_of(built);
       // one driver, not the beginning of one and the rest of another
       if (calls.find("prox") != std::string::npos) {
-        EXPECT_TRUE(has_function(folder, "tpbasic_e_get_prox")) << register_way;
-        EXPECT_FALSE(has_function(folder, "e_get_prox")) << register_way;
+        EXPECT_TRUE(has_function(folder, "tpbasic_e_get_prox", for_chip)) << for_chip;
+        EXPECT_FALSE(has_function(folder, "e_get_prox", for_chip)) << for_chip;
       }
     }
 }

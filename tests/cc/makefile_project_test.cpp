@@ -13,7 +13,7 @@ namespace {
 
 cc::BuildResult build_folder(const Folder& folder, bool for_chip = false) {
   cc::BuildOptions options;
-  options.chip_way = options.register_way = for_chip;
+  options.chip_way = for_chip;
   options.source_dir = folder.path / "controllers/prog";
   options.output = folder.path / "out.so";
   return cc::build_image(options);

@@ -156,7 +156,7 @@ TEST(mplab_project, a_projects_optimisation_level_is_the_chips) {
     options.source_dir = folder.path / "prog";
     options.output = folder.path / "out.elf";
     options.cache_dir = folder.path / "cache";
-    options.chip_way = options.register_way = true;
+    options.chip_way = true;
     const std::string level = row.level;
     const auto says = [&](const cc::BuildResult& built, const std::string& told) {
       ASSERT_TRUE(built.ok) << text_of(built);
@@ -173,7 +173,7 @@ TEST(mplab_project, a_projects_optimisation_level_is_the_chips) {
     options.optimisation = "-O1";
     says(cc::build_image(options), "more than 0");
     options.optimisation = "";
-    options.chip_way = options.register_way = false;
+    options.chip_way = false;
     options.output = folder.path / "out.so";
     says(cc::build_image(options), "more than 0");
   }

@@ -257,10 +257,10 @@ TEST(ChipLinker, archive_beside_a_program_is_linked_the_chip_way) {
   options.source_dir = work / "program";
   options.output = work / "x.elf";
   options.cache_dir = work / "cache";
-  options.register_way = options.chip_way = true;
+  options.chip_way = true;
   const auto chip = cc::build_image(options);
   EXPECT_TRUE(chip.ok) << (chip.errors.empty() ? "" : chip.errors[0]);
-  options.register_way = options.chip_way = false;
+  options.chip_way = false;
   options.output = work / "x.so";
   const auto native = cc::build_image(options);
   ASSERT_FALSE(native.errors.empty());

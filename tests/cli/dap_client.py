@@ -147,7 +147,7 @@ server = Server(TWINPUCK)
 good("initialize", adapterID="twinpuck")
 assert not ask("launch", world="nowhere")["success"]
 event("terminated")
-assert "expected native, register, chip" in ask("launch", way="boat")["message"]
+assert "expected native, chip" in ask("launch", way="boat")["message"]
 event("terminated")
 good("launch", firmware=FIRMWARE, way=WAY, stopOnEntry=True)
 event("initialized")

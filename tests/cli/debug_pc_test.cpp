@@ -8,7 +8,7 @@ namespace {
 using cli_test::twinpuck;
 
 class PcDebug : public cli_test::Debug {};
-INSTANTIATE_TEST_SUITE_P(, PcDebug, ::testing::Values("register", "native"), cli_test::way_name);
+INSTANTIATE_TEST_SUITE_P(, PcDebug, ::testing::Values("native"), cli_test::way_name);
 
 constexpr const char* kWorld = R"(twinpuck = 1
 [[robot]]
@@ -244,14 +244,14 @@ TEST_P(PcDebug, gdb_debugs_it_too) {
     EXPECT_EQ(said.exit_code, 0) << said.text;
     return said.text;
   };
-  expect_in_order(gdb("--fw '" + path("mine") + "' --way register",
+  expect_in_order(gdb("--fw '" + path("mine") + "' --way native",
                       "break weigh\nignore 3 2\ncontinue\nbt\nfinish\nprint ticks\nwatch sum\ncontinue\n"),
                   {"main () at", "weigh (n=3) at", "#1", "work (n=3) at", "#2", "main () at",
                    "Value returned is $1 = 30", "$2 = 3", "Old value = 30", "New value = 60"});
   expect_in_order(
       gdb("--fw obstacle --way native --for 1", "break drive\ncontinue\nnext\nnext\nprint last_left\n"),
       {"main () at", "drive (left=", "last_left = left;", "$1 = "});
-  for (const char* words : {"--way native --robot puck", "--way register --dap", "--way chip", ""})
+  for (const char* words : {"--way native --robot puck", "--way native --dap", "--way chip", ""})
     EXPECT_EQ(twinpuck(std::string("debug maze --gdb ") + words).exit_code, 2) << words;
 }
 

@@ -10,7 +10,7 @@ class Debug : public cli_test::Debug {
  protected:
   void SetUp() override { build(cli_test::kProgram); }
 };
-INSTANTIATE_TEST_SUITE_P(, Debug, ::testing::Values("chip", "register", "native"), cli_test::way_name);
+INSTANTIATE_TEST_SUITE_P(, Debug, ::testing::Values("chip", "native"), cli_test::way_name);
 
 TEST_P(Debug, breakpoints_stop_and_calls_are_traced_back) {
   const std::string text =

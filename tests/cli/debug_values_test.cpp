@@ -7,7 +7,7 @@ namespace {
 using cli_test::twinpuck;
 
 class DebugValues : public cli_test::Debug {};
-INSTANTIATE_TEST_SUITE_P(, DebugValues, ::testing::Values("chip", "register", "native"), cli_test::way_name);
+INSTANTIATE_TEST_SUITE_P(, DebugValues, ::testing::Values("chip", "native"), cli_test::way_name);
 
 constexpr const char* kTypes = R"(#include <p30F6014A.h>
 struct motor { int speed; unsigned char on; unsigned mode : 3; unsigned rest : 5; };

@@ -66,13 +66,10 @@ TEST_F(Lab, every_exercise_of_the_lab_has_a_line_and_passes) {
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 
-// those that need few runs to be sure; `twinpuck lab --way register` is all of them, in a minute
-TEST_F(Lab, exercises_pass_in_the_register_way_too) {
-  const std::string chosen = "lab e-puck I1 I3 S14 S16 --seeds 1 --no-times --jobs 2 --way ";
-  const Said chip = twinpuck(chosen + "register"), native = twinpuck(chosen + "native");
-  EXPECT_EQ(chip.exit_code, 0) << chip.text;
-  EXPECT_EQ(native.exit_code, 0) << native.text;
-  EXPECT_NE(chip.text, native.text) << "drivers of the robot count other microseconds";
+TEST_F(Lab, a_way_that_is_gone_is_said_to_be) {
+  const Said gone = twinpuck("lab I3 --way register");
+  EXPECT_EQ(gone.exit_code, 2);
+  EXPECT_NE(gone.text.find("register, which is gone: --hal dspic"), std::string::npos) << gone.text;
   EXPECT_EQ(twinpuck("lab I3 --way chips").exit_code, 2);
 }
 

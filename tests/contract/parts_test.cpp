@@ -78,7 +78,7 @@ TEST_P(Parts, says_what_is_expected) {
 
 INSTANTIATE_TEST_SUITE_P(Contract, Parts,
                          ::testing::Combine(::testing::ValuesIn(parts()),
-                                            ::testing::Values("native", "register", "sim", "chip")),
+                                            ::testing::Values("native", "sim", "chip")),
                          [](const auto& p) { return std::get<0>(p.param) + "_" + std::get<1>(p.param); });
 
 }  // namespace

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The drivers for the chip at work: the same firmware, world and expectations in the native way (hal_sim/api,
-// closed forms) and in the register way (hal_dspic on the models of the chip). Expectations are worked out
-// from the library's numbers, not taken from either way.
+// The drivers at work: the same firmware, world and expectations with both HALs. Expectations are worked out
+// from the library's numbers, not taken from either.
 #include <cmath>
 
 #include "tests/support/firmware_test.h"
@@ -12,10 +11,10 @@ using firmware_test::Robot;
 
 class Ways : public firmware_test::FirmwareTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  Ways() { options.way = GetParam(); }
+  Ways() { options.hal = GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Drivers, Ways, ::testing::Values("native", "register"),
+INSTANTIATE_TEST_SUITE_P(Drivers, Ways, ::testing::Values("sim", "dspic"),
                          [](const auto& p) { return std::string(p.param); });
 
 // --- agendas and motors ------------------------------------------------------------------------------------

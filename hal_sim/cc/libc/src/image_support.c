@@ -35,36 +35,4 @@ void tp_image_longjmp(void *state, int *value, int v)
   __builtin_longjmp(state, 1);
 }
 
-/* addresses below are registers or nothing, as they are on the chip */
-enum { kRegistersEnd = 0x800 };
-
-static int is_register(const volatile char *at) { return (unsigned long long)at < kRegistersEnd; }
-
-static char load_byte(const volatile char *at)
-{
-  return is_register(at) ? (char)tp_sfr_read((tp_i64)at, 8) : *at;
-}
-
-static void store_byte(volatile char *at, char value)
-{
-  if (is_register(at)) tp_sfr_write((tp_i64)at, (unsigned char)value, 8);
-  else *at = value;
-}
-
-/* as the library's memcpy() and memset(), byte after byte, with registers at either end */
-void tp_image_copy(char *to, const char *from, tp_i64 n)
-{
-  tp_i64 i;
-  if (to > from)
-    for (i = n - 1; i >= 0; i--) store_byte(to + i, load_byte(from + i));
-  else
-    for (i = 0; i < n; i++) store_byte(to + i, load_byte(from + i));
-}
-
-void tp_image_fill(char *to, tp_i64 value, tp_i64 n)
-{
-  tp_i64 i;
-  for (i = 0; i < n; i++) store_byte(to + i, (char)value);
-}
-
 void __delay32(unsigned long cycles) { tp_spend(cycles); }

@@ -19,7 +19,7 @@ int __C30_UART = 1;
 enum { kStdout = 1 };
 
 int write(int handle, void *bytes, unsigned int length);
-int write(int handle, void *bytes, unsigned int length)
+__attribute__((weak)) int write(int handle, void *bytes, unsigned int length)
 {
   tp_console(bytes, length, __C30_UART);
   return (int)length;

@@ -4,19 +4,19 @@
 // Expectations from the documents of chip and compiler.
 #include <chrono>
 
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
-TEST_F(RegisterTest, printf_goes_to_the_uart_that_c30_uart_names) {
+TEST_F(OwnDrivers, printf_goes_to_the_uart_that_c30_uart_names) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <stdio.h>
 #include <libpic30.h>
 int main(void)
 {
   U2BRG = 7;
-  U2MODEbits.UARTEN = 1;  /* and UTXEN by the first character */
+  U2MODEbits.UARTEN = 1;  /* and UTXEN by the first character; UART 1 altogether */
   printf("one %d\n", 1);
   __C30_UART = 2;
   printf("two %d\n", 2);
@@ -29,7 +29,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, a_write_of_the_programs_own_gets_what_is_printed) {
+TEST_F(OwnDrivers, a_write_of_the_programs_own_gets_what_is_printed) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <stdio.h>
 int __attribute__((__section__(".libc"))) write(int handle, void *buffer, unsigned int len)
@@ -56,7 +56,7 @@ int main(void)
 }
 
 // variables of the EEPROM hold what they were given from the beginning, and keep what is written over a reset
-TEST_F(RegisterTest, data_eeprom_is_reached_through_program_addresses) {
+TEST_F(OwnDrivers, data_eeprom_is_reached_through_program_addresses) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <libpic30.h>
 int _EEDATA(_EE_ROW) rows[16] = {0x11, 0x22, 0x33};
@@ -81,7 +81,9 @@ int main(void)
   _write_eedata_row(at, words);
   _wait_eedata();
   _erase_eedata(at + 2, _EE_WORD);
+  _wait_eedata();
   _write_eedata_word(at + 2, 0x1234);
+  _wait_eedata();
   asm("reset");
   return 0;
 }
@@ -95,7 +97,7 @@ int main(void)
   EXPECT_EQ(second[15], 115);
 }
 
-TEST_F(RegisterTest, tables_in_program_memory_are_read_by_table_instructions) {
+TEST_F(OwnDrivers, tables_in_program_memory_are_read_by_table_instructions) {
   Robot& robot = add_robot_with_source(program(R"(
 const int __attribute__((space(psv))) table[3] = {0x1234, 0x5678, -2};
 const unsigned char __attribute__((space(prog))) bytes[2] = {9, 8};
@@ -118,7 +120,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, alternate_vectors_serve_while_altivt_is_set) {
+TEST_F(OwnDrivers, alternate_vectors_serve_while_altivt_is_set) {
   Robot& robot = add_robot_with_source(program(R"(
 int usual, alternate;
 void _ISR _AltT1Interrupt(void) { _T1IF = 0; if (++alternate == 3) INTCON2bits.ALTIVT = 0; }
@@ -138,7 +140,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, an_alternate_vector_without_a_function_is_named) {
+TEST_F(OwnDrivers, an_alternate_vector_without_a_function_is_named) {
   Robot& robot = add_robot_with_source(program(R"(
 void _ISR _T1Interrupt(void) { _T1IF = 0; }
 int main(void)
@@ -152,10 +154,10 @@ int main(void)
 )"));
   run_for(0.01);
   ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("no handler _AltT1Interrupt"), std::string::npos);
+  EXPECT_NE(robot.traps()[0].message.find("no _AltT1Interrupt()"), std::string::npos);
 }
 
-TEST_F(RegisterTest, the_default_interrupt_takes_what_has_no_handler) {
+TEST_F(OwnDrivers, the_default_interrupt_takes_what_has_no_handler) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <libpic30.h>
 int taken, own;
@@ -179,7 +181,7 @@ int main(void)
 }
 
 // LATA is at 0x2C4, TRISA at 0x2C0; a place in memory has no effect
-TEST_F(RegisterTest, a_variable_that_is_placed_at_a_register_is_that_register) {
+TEST_F(OwnDrivers, a_variable_that_is_placed_at_a_register_is_that_register) {
   Robot& robot = add_robot_with_source(program(R"(
 volatile unsigned int __attribute__((address(0x2C4))) leds;
 extern volatile unsigned int __attribute__((__sfr__(0x2C0))) directions;
@@ -199,7 +201,7 @@ int main(void)
 }
 
 // as drivers for several sensors do that take a whole scan at once
-TEST_F(RegisterTest, memcpy_reads_a_block_of_registers) {
+TEST_F(OwnDrivers, memcpy_reads_a_block_of_registers) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <string.h>
 int counts[6], done;
@@ -237,7 +239,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, time_counts_cycles_in_timers_2_and_3) {
+TEST_F(OwnDrivers, time_counts_cycles_in_timers_2_and_3) {
   Robot& robot = add_robot_with_source(program(R"(
 #include <time.h>
 #include <libpic30.h>
@@ -262,7 +264,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, assembler_names_registers_without_an_underscore_and_has_comments) {
+TEST_F(OwnDrivers, assembler_names_registers_without_an_underscore_and_has_comments) {
   Robot& robot = add_robot_with_source(program(R"(
 int done;
 int main(void)
@@ -281,7 +283,7 @@ int main(void)
 }
 
 // the unlock sequences of the manuals: OSCCON takes a byte after two keys, NVMCON.WR is set after two keys
-TEST_F(RegisterTest, assembler_moves_keys_through_working_registers) {
+TEST_F(OwnDrivers, assembler_moves_keys_through_working_registers) {
   Robot& robot = add_robot_with_source(program(R"(
 int copied, kept = 7, word = 0x1234;
 unsigned oscillator, started, after;
@@ -319,7 +321,7 @@ int main(void)
 }
 
 // CN1 is RC13, beside the camera's pins: their edges are none of its business
-TEST_F(RegisterTest, change_notification_does_not_follow_pins_that_it_does_not_watch) {
+TEST_F(OwnDrivers, change_notification_does_not_follow_pins_that_it_does_not_watch) {
   Robot& robot = add_robot_with_source(program(R"(
 int changes;
 void _ISR _CNInterrupt(void) { _CNIF = 0; changes++; }
@@ -340,4 +342,4 @@ int main(void)
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The controllers of the repository in both ways: the library's functions as closed forms, and the drivers of
-// the real robot on the models of the chip. Same world, same seed, same noise: after 2 seconds without
-// contact the robots stand within 1 mm of one another, have shown the same LEDs and sent the same bytes, and
-// neither board nor chip has anything to say about them. Later, microseconds decide which way a robot turns.
-// Players run alone: in company they touch.
+// The controllers of the repository with both HALs: busy drivers known by heart, and all of them as flashed.
+// Same world, same seed, same noise: after 2 seconds without contact the robots stand within 1 mm of one
+// another, have shown the same LEDs and sent the same bytes, and neither board nor chip has anything to say
+// about them. Later, microseconds decide which way a robot turns. Players run alone: in company they touch.
 #include <algorithm>
 #include <cmath>
 
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 struct Course {
@@ -17,7 +16,7 @@ struct Course {
   const char* where =
       "floor";  // "floor", "wall" (a long one, 0.64 m away), "lamp" (far off), or a world file
   int selector = 0;
-  const char* says = "";  // how the one diagnosis of the register way begins; empty: there is none
+  const char* says = "";  // how the one diagnosis begins; empty: there is none
   double seconds = 2;
   double within_m = 0.001;
 };
@@ -39,17 +38,13 @@ struct Seen {
 
 class Controllers : public ::testing::TestWithParam<Course> {
  protected:
-  static Seen run(const Course& course, const char* way) {
-    struct Run : RegisterTest {
+  static Seen run(const Course& course, const char* hal) {
+    struct Run : OwnDrivers {
       void TestBody() override {}
-      Seen go(const Course& c, const char* chosen_way) {
-        if (chosen_way == std::string("sim"))
-          options.way.clear(), options.hal = chosen_way;
-        else
-          options.way = chosen_way;
+      Seen go(const Course& c, const char* chosen_hal) {
+        options.hal = chosen_hal;
         Robot& robot = place(c);
-        // in one of seven samples the ways draw different noise (board/noise.h); what noise decides is
-        // compared over many seeds: docs/ways.md
+        // what noise decides is compared over many seeds: docs/ways.md
         world.proximity.noise_scale = 0;
         Seen seen;
         for (int i = 0; i < 100 * c.seconds; ++i) {
@@ -63,7 +58,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
         seen.sent = robot.uart1_text();
         seen.diagnoses = robot.diagnoses_text();
         for (const auto& t : robot.traps())
-          ADD_FAILURE() << chosen_way << ": " << t.message << " at " << to_string(t.place);
+          ADD_FAILURE() << chosen_hal << ": " << t.message << " at " << to_string(t.place);
         return seen;
       }
       Robot& place(const Course& c) {
@@ -84,36 +79,25 @@ class Controllers : public ::testing::TestWithParam<Course> {
         return add_robot(c.controller).at(0, 0, 30).selector(c.selector);
       }
     } one;
-    return one.go(course, way);
+    return one.go(course, hal);
   }
 };
 
-void expect_alike(const Course& course, const Seen& native, const Seen& chip) {
-  EXPECT_NEAR(std::hypot(chip.x_m - native.x_m, chip.y_m - native.y_m), 0, course.within_m);
-  EXPECT_NEAR(chip.distance_m, native.distance_m, course.within_m);
-  EXPECT_EQ(chip.leds, native.leds);
-  EXPECT_EQ(chip.sent, native.sent);
-  EXPECT_EQ(native.collisions, 0) << "courses without contact are comparable";
+void expect_alike(const Course& course, const Seen& sim, const Seen& dspic) {
+  EXPECT_NEAR(std::hypot(dspic.x_m - sim.x_m, dspic.y_m - sim.y_m), 0, course.within_m);
+  EXPECT_NEAR(dspic.distance_m, sim.distance_m, course.within_m);
+  EXPECT_EQ(dspic.leds, sim.leds);
+  EXPECT_EQ(dspic.sent, sim.sent);
+  EXPECT_EQ(sim.collisions, 0) << "courses without contact are comparable";
   const std::string expected = course.says;
-  for (const std::string& said : {native.diagnoses, chip.diagnoses}) {
+  for (const std::string& said : {sim.diagnoses, dspic.diagnoses}) {
     EXPECT_EQ(said.substr(0, expected.size()), expected);
     EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), expected.empty() ? 0 : 1) << said;
   }
 }
 
-TEST_P(Controllers, behave_alike_in_both_ways) {
-  expect_alike(GetParam(), run(GetParam(), "native"), run(GetParam(), "register"));
-}
-
-TEST_P(Controllers, behave_alike_as_images) {
-  if (std::string("e-puck") == GetParam().controller)
-    GTEST_SKIP() << "its text goes to UART 1 there; tests/programs/webots_chip_test.cpp has it";
-  expect_alike(GetParam(), run(GetParam(), "native"), run(GetParam(), "chip"));
-}
-
 TEST_P(Controllers, behave_alike_with_both_hals) {
-  if (std::string("e-puck") == GetParam().controller) GTEST_SKIP() << "as above";
-  expect_alike(GetParam(), run(GetParam(), "sim"), run(GetParam(), "chip"));
+  expect_alike(GetParam(), run(GetParam(), "sim"), run(GetParam(), "dspic"));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -146,11 +130,11 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 // in company: who hears and sees whom follows from everything that went before
-TEST_F(RegisterTest, a_flock_of_ten_does_alike_in_both_ways) {
-  struct Flock : RegisterTest {
+TEST_F(OwnDrivers, a_flock_of_ten_does_alike_with_both_hals) {
+  struct Flock : OwnDrivers {
     void TestBody() override {}
-    std::vector<sim::Vec2> end(const char* way) {
-      options.way = way;
+    std::vector<sim::Vec2> end(const char* hal) {
+      options.hal = hal;
       load_world("worlds/flock.toml");
       run_for(30);
       std::vector<sim::Vec2> places;
@@ -158,10 +142,10 @@ TEST_F(RegisterTest, a_flock_of_ten_does_alike_in_both_ways) {
       return places;
     }
   } one, other;
-  const std::vector<sim::Vec2> native = one.end("native"), chip = other.end("register");
+  const std::vector<sim::Vec2> of_sim = one.end("sim"), of_dspic = other.end("dspic");
   for (std::size_t i = 0; i < 10; ++i)
-    EXPECT_NEAR(std::hypot(chip[i].x - native[i].x, chip[i].y - native[i].y), 0, 0.02) << i;
+    EXPECT_NEAR(std::hypot(of_dspic[i].x - of_sim[i].x, of_dspic[i].y - of_sim[i].y), 0, 0.02) << i;
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What holds in the native way holds here: traps stop one robot, runs repeat, robots of one image are apart,
-// and both ways live in one world.
-#include "tests/register/register_fixture.h"
+// Robots side by side: a trap is its robot's alone, runs repeat, robots of one image are apart.
+#include "tests/own_drivers/fixture.h"
 #include "twinpuck_paths.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 // selector position as step; waits without reading registers
@@ -22,24 +21,11 @@ int main(void)
 }
 )");
 
-// The speed of the register way rests on not asking the chip for its next instant where nothing can have
-// changed it: once to find the vector of an interrupt is enough, and once more where two meet. A write of the
-// handler, its return and the rounds of the waiting main program used to ask eleven times.
-TEST_F(RegisterTest, an_interrupt_costs_the_chip_one_question_or_two) {
-  add_robot(std::string(TWINPUCK_SOURCE_DIR) + "/bench/firmware/register_load");
-  run_for(0.2);
-  const host::CompiledRunner& robot = runner();
-  // 16384 Hz and 10 kHz for 0.2 s
-  EXPECT_NEAR(static_cast<double>(robot.interrupts_served()), 5277, 60);
-  EXPECT_LT(static_cast<double>(robot.looks()) / static_cast<double>(robot.interrupts_served()), 2.0);
-  expect_no_traps();
-}
-
 // Both interrupts have the priority of a reset, 4, as in the library: while an agenda's callback runs, the
 // scan waits, and of the frames that end meanwhile one is kept. 475 us also hold off 3 of Timer 2's ticks, so
 // the callback comes every 1.3 ms, 769 times a second. The 825 us between hold 12.5 frames of 66 us; and the
 // one that waited: 13 each time, half a one more or less.
-TEST_F(RegisterTest, a_long_callback_costs_the_scan_its_frames) {
+TEST_F(OwnDrivers, a_long_callback_costs_the_scan_its_frames) {
   Robot& robot = add_robot_with_source(R"(
 #include <p30F6014A.h>
 #include <a_d/advance_ad_scan/e_ad_conv.h>
@@ -64,7 +50,7 @@ int main(void) {
   EXPECT_NEAR(robot.variable("tickAdcIsr") - before, 769 * 13, 769 / 2);
 }
 
-TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
+TEST_F(OwnDrivers, robots_of_one_image_have_chips_of_their_own) {
   Robot& one = add_robot_with_source(kStepper).selector(1);
   Robot& three = add_robot_with_source(kStepper).at(0.5, 0).selector(3);
   run_for(0.505);
@@ -77,24 +63,10 @@ TEST_F(RegisterTest, robots_of_one_image_have_chips_of_their_own) {
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, a_native_and_a_register_robot_in_one_world) {
-  options.way = "";
-  Robot& reg = add_robot_with_source(kStepper).selector(2);
-  reg.settings().own["way"] = "register";
-  Robot& native = add_robot("blink").at(0.5, 0);
-  native.settings().own["way"] = "native";
-  run_for(0.505);
-  EXPECT_EQ(reg.variable<std::uint16_t>("count"), 100);
-  EXPECT_STREQ(runner(0).way(), "register");
-  EXPECT_STREQ(runner(1).way(), "native");
-  EXPECT_GT(native.cycles(), 0);
-  expect_no_traps();
-}
-
-TEST_F(RegisterTest, runs_repeat_whatever_the_number_of_threads) {
+TEST_F(OwnDrivers, runs_repeat_whatever_the_number_of_threads) {
   std::uint64_t digests[2];
   for (int run = 0; run < 2; ++run) {
-    struct Run : RegisterTest {
+    struct Run : OwnDrivers {
       void TestBody() override {}
       std::uint64_t digest_with(int threads) {
         options.threads = threads;
@@ -108,7 +80,7 @@ TEST_F(RegisterTest, runs_repeat_whatever_the_number_of_threads) {
   EXPECT_EQ(digests[0], digests[1]);
 }
 
-TEST_F(RegisterTest, traps_stop_their_robot_alone) {
+TEST_F(OwnDrivers, traps_stop_their_robot_alone) {
   Robot& bad = add_robot_with_source(program(R"(
 volatile int zero;
 int result;
@@ -129,22 +101,7 @@ int main(void) { return depth(0); }
   EXPECT_EQ(good.variable<std::uint16_t>("count"), 50);
 }
 
-TEST_F(RegisterTest, an_endless_loop_with_interrupts_off_is_found) {
-  Robot& robot = add_robot_with_source(program(R"(
-void _ISR _T1Interrupt(void) { _T1IF = 0; }
-int main(void)
-{
-  PR1 = 575; T1CON = 0x8030; _T1IE = 1;
-  SET_CPU_IPL(7);
-  while (1);
-}
-)"));
-  run_for(1.5);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("T1"), std::string::npos) << robot.traps()[0].message;
-}
-
-TEST_F(RegisterTest, an_enabled_interrupt_without_handler_is_named) {
+TEST_F(OwnDrivers, an_enabled_interrupt_without_handler_is_named) {
   Robot& robot = add_robot_with_source(program(R"(
 int main(void) { PR3 = 1000; T3CON = 0x8000; _T3IE = 1; while (1); }
 )"));
@@ -153,7 +110,7 @@ int main(void) { PR3 = 1000; T3CON = 0x8000; _T3IE = 1; while (1); }
   EXPECT_NE(robot.traps()[0].message.find("_T3Interrupt"), std::string::npos) << robot.traps()[0].message;
 }
 
-TEST_F(RegisterTest, a_flag_that_is_never_cleared_is_named) {
+TEST_F(OwnDrivers, a_flag_that_is_never_cleared_is_named) {
   add_robot_with_source(program(R"(
 void _ISR _T1Interrupt(void) { LATA ^= 0x40; }
 int main(void) { PR1 = 10000; T1CON = 0x8000; _T1IE = 1; while (1); }
@@ -163,7 +120,7 @@ int main(void) { PR1 = 10000; T1CON = 0x8000; _T1IE = 1; while (1); }
       << this->robot(0).diagnoses_text();
 }
 
-TEST_F(RegisterTest, the_watchdog_resets_a_program_that_forgets_it) {
+TEST_F(OwnDrivers, the_watchdog_resets_a_program_that_forgets_it) {
   Robot& robot = add_robot_with_source(program(R"(
 int main(void)
 {
@@ -179,14 +136,5 @@ int main(void)
   EXPECT_TRUE(robot.led(2));
 }
 
-TEST_F(RegisterTest, the_native_way_names_the_register_way) {
-  options.way = "native";
-  Robot& robot = add_robot_with_source(program("int main(void) { ADCON1 = 0x8000; while (1); }\n"));
-  run_for(0.05);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("ADCON1"), std::string::npos);
-  EXPECT_NE(robot.traps()[0].message.find("--way register"), std::string::npos);
-}
-
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Sound in the register way: hal_dspic's codec driver, and programs that write the DCI themselves, against
-// the samples and instants worked out from the chip's documents and the codec's registers; the native way
-// beside it where both exist.
+// Sound: the library's codec driver, and programs that write the DCI themselves, against the samples and
+// instants worked out from the chip's documents and the codec's registers.
 #include <algorithm>
 #include <cmath>
 
 #include "hal_sim/board/sound_bank.h"
 #include "sim_core/sound/sound_field.h"
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 // what left the loudspeaker, a value each `period` cycles from the first that is not 0 on
@@ -18,7 +17,7 @@ struct Speech {
   host::Cycle begin = -1;
 };
 
-class Sound : public RegisterTest {
+class Sound : public OwnDrivers {
  protected:
   Speech listen(int robot, double seconds, host::Cycle period = 2048) {
     Speech speech;
@@ -39,15 +38,8 @@ class Sound : public RegisterTest {
   }
 };
 
-class SoundWays : public Sound, public ::testing::WithParamInterface<const char*> {
- protected:
-  SoundWays() { options.way = GetParam(); }
-};
-INSTANTIATE_TEST_SUITE_P(Sound, SoundWays, ::testing::Values("native", "register"),
-                         [](const auto& p) { return std::string(p.param); });
-
 // "spaah": 1760 samples from number 2116 on; the driver moves before it reads, so 2117 to 3876
-TEST_P(SoundWays, the_loudspeaker_gets_the_banks_samples_one_by_one) {
+TEST_F(Sound, the_loudspeaker_gets_the_banks_samples_one_by_one) {
   add_robot_with_source(R"(
 #include <codec/e_sound.h>
 #include <motor_led/e_init_port.h>
@@ -63,7 +55,7 @@ int main(void) { e_init_port(); e_init_sound(); e_play_sound(2116, 1760); while 
   expect_no_traps();
 }
 
-TEST_P(SoundWays, a_closed_codec_is_silent_at_once) {
+TEST_F(Sound, a_closed_codec_is_silent_at_once) {
   add_robot_with_source(R"(
 #include <codec/e_sound.h>
 #include <motor_led/e_init_port.h>
@@ -221,4 +213,4 @@ int main(void) {
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

@@ -4,9 +4,9 @@
 // what was broken.
 #include <utility>
 
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 struct Driver {
@@ -193,7 +193,8 @@ const Mutation kMutations[] = {
     {"channel_left_digital", &kInfrared, "ADPCFG = 0;", "ADPCFG = 0xFFFF;",
      "AN8: analogue channel left digital: AN8 is converted, but"},
     {"infrared_pin_left_input", &kInfrared, "TRISFbits.TRISF7 = 0;", "", "TRISF7: input driven: LATF7"},
-    {"handler_too_slow", &kInfrared, "i < 600", "i < 30000", "T1: missed interrupt: T1: an event came while"},
+    {"handler_too_slow", &kInfrared, "i < 600; i++) Nop();",
+     "i < 30000; i++) { Nop(); Nop(); Nop(); Nop(); }", "T1: missed interrupt: T1: an event came while"},
     {"converter_flag_never_cleared", &kScan, "IFS0bits.ADIF = 0;\n  frames++;", "frames++;",
      "flag never cleared: _ADCInterrupt returns without clearing IFS0.ADIF"},
     {"wrong_divisor", &kSerial, "U1BRG = 7;", "U1BRG = 8;",
@@ -215,7 +216,7 @@ std::string changed(const std::string& text, const std::string& was, const std::
   return place == std::string::npos ? text : std::string(text).replace(place, was.size(), is);
 }
 
-class MutationTest : public RegisterTest {
+class MutationTest : public OwnDrivers {
  protected:
   Robot& run(const std::string& source, const Driver& driver) {
     Robot& robot = add_robot_with_source(program(source));
@@ -282,4 +283,4 @@ TEST_F(MutationTest, wrong_scan_list_shows_in_the_inputs_that_answer) {
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

@@ -3,14 +3,14 @@
 // inputs of timers 5, 4 and 1, as a capture uses them, and the remote control's pulses at INT0.
 #include <cmath>
 
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 // a window of 40 x 40 pixels, nothing skipped, two bytes a pixel. The driver asks the sensor for a pixel more
 // a line than it takes
-TEST_F(RegisterTest, camera_edges_of_a_frame_are_counted_by_timers) {
+TEST_F(OwnDrivers, camera_edges_of_a_frame_are_counted_by_timers) {
   Robot& robot = add_robot_with_source(R"(
 #include <camera/fast_2_timer/e_poxxxx.h>
 #include <motor_led/e_epuck_ports.h>
@@ -70,7 +70,7 @@ int main(void) {
 // 11, toggle 0, address 00101, key 100011: seven ones fall in their middle, and of the six zeros that follow
 // one another the second of each pair falls at its beginning, four in all: 11 falling edges; as many rise. A
 // bit is 64 / 36 kHz: from the middle of the first one to that of the second 26214 cycles
-TEST_F(RegisterTest, remote_control_edges_interrupt_at_int0) {
+TEST_F(OwnDrivers, remote_control_edges_interrupt_at_int0) {
   const std::string source = program(R"(
 unsigned int edges, at[32];
 void __attribute__((interrupt, no_auto_psv)) _INT0Interrupt(void)
@@ -112,4 +112,4 @@ int main(void)
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers

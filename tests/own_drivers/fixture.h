@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
-// A world whose robots run the register way.
+// A world whose robots run programs that reach the registers themselves. Each test runs with both HALs:
+// hal_sim, and hal_dspic by TWINPUCK_HAL=dspic (own_drivers_dspic_test).
 #pragma once
-#include "hal_sim/host/compiled_runner.h"
 #include "tests/support/firmware_test.h"
 
-namespace register_test {
+namespace own_drivers {
 
 using firmware_test::Robot;
-
-class RegisterTest : public firmware_test::FirmwareTest {
- protected:
-  RegisterTest() { options.way = "register"; }
-  host::CompiledRunner& runner(int robot = 0) {
-    return dynamic_cast<host::CompiledRunner&>(*twin().mind(robot).runner());
-  }
-};
+using OwnDrivers = firmware_test::FirmwareTest;
 
 /// What every program below begins with.
 inline const char* const kHead = R"(
@@ -28,4 +21,4 @@ _FGS(CODE_PROT_OFF);
 
 inline std::string program(const std::string& rest) { return kHead + rest; }
 
-}  // namespace register_test
+}  // namespace own_drivers

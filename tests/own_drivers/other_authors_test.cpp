@@ -2,13 +2,13 @@
 // What public e-puck programs do beside the library's functions, found by building such programs: registers
 // by pointer and by number, assembler on variables, flags that are not volatile, configuration words.
 // Expectations from the chip's documents.
-#include "tests/register/register_fixture.h"
+#include "tests/own_drivers/fixture.h"
 
-namespace register_test {
+namespace own_drivers {
 namespace {
 
 // as the library's converter handler: the results are fetched by a pointer that walks over the buffers
-TEST_F(RegisterTest, results_are_read_by_a_pointer_to_the_first_buffer) {
+TEST_F(OwnDrivers, results_are_read_by_a_pointer_to_the_first_buffer) {
   Robot& robot = add_robot_with_source(program(R"(
 int counts[6], done;
 void __attribute__((interrupt, auto_psv)) _ADCInterrupt(void)
@@ -43,7 +43,7 @@ int main(void)
 
 // a table of registers, a register given to a function, and one that lies in no header: LATA is at 0x2C4,
 // TRISA at 0x2C0, both as on the chip
-TEST_F(RegisterTest, registers_are_reached_by_tables_arguments_and_numbers) {
+TEST_F(OwnDrivers, registers_are_reached_by_tables_arguments_and_numbers) {
   Robot& robot = add_robot_with_source(program(R"(
 static volatile unsigned int *const directions[2] = {&TRISA, &TRISC};
 static void set_bit(volatile unsigned int *port, int bit) { *port |= 1 << bit; }
@@ -68,7 +68,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, pointers_to_memory_stay_pointers_to_memory_beside_them) {
+TEST_F(OwnDrivers, pointers_to_memory_stay_pointers_to_memory_beside_them) {
   Robot& robot = add_robot_with_source(program(R"(
 int table[4] = {1, 2, 3, 4}, sum, *walk;
 static int take(int *p) { return *p; }
@@ -86,19 +86,8 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, a_null_pointer_is_still_one) {
-  Robot& robot = add_robot_with_source(program(R"(
-int *nothing;
-volatile unsigned int *something = &PORTG;
-int main(void) { return *something + *nothing; }
-)"));
-  run_for(0.02);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_EQ(robot.traps()[0].kind, TP_TRAP_ADDRESS);
-}
-
 // as the library's e_sound.c, and drivers that clear their flags so: LED 0 is RA6, T1IF is bit 3 of IFS0
-TEST_F(RegisterTest, assembler_changes_variables_and_registers_in_place) {
+TEST_F(OwnDrivers, assembler_changes_variables_and_registers_in_place) {
   Robot& robot = add_robot_with_source(program(R"(
 int busy, stopped = 5, up = 7, down = 7, flags = 0x0F0F;
 unsigned char bytes[2] = {0xFF, 0xFF};
@@ -137,50 +126,14 @@ int main(void)
   expect_no_traps();
 }
 
-// a driver for a device that the program never switches on does not keep it from running; if it is switched
-// on after all, the robot says what it cannot do
-TEST_F(RegisterTest, assembler_in_a_handler_matters_when_the_handler_runs) {
-  const std::string source = program(R"(
-extern int go;
-void __attribute__((interrupt, no_auto_psv)) _T5Interrupt(void)
-{
-  __asm__ volatile("push.d w0");
-  __asm__ volatile("swap w1");
-  IFS1bits.T5IF = 0;
-  __asm__ volatile("pop.d w0");
-}
-int rounds;
-int main(void)
-{
-  PR5 = 1000;
-  T5CON = 0x8000;
-  _T5IE = GO;
-  while (rounds < 20000) rounds++;
-  while (1);
-}
-)");
-  const auto with = [&](const char* go) {
-    std::string s = source;
-    return s.replace(s.find("GO;"), 2, go);
-  };
-  Robot& off = add_robot_with_source(with("0"));
-  Robot& on = add_robot_with_source(with("1")).at(0.5, 0);
-  run_for(0.1);
-  EXPECT_EQ(off.variable("rounds"), 20000);
-  EXPECT_TRUE(off.traps().empty());
-  ASSERT_EQ(on.traps().size(), 1u);
-  EXPECT_NE(on.traps()[0].message.find("push.d w0"), std::string::npos) << on.traps()[0].message;
-  EXPECT_NE(on.traps()[0].message.find("_T5Interrupt"), std::string::npos) << on.traps()[0].message;
-}
-
 // the converter's driver counts its interrupts, about 15,280 a second; programs wait for the count, declared
 // plainly, in loops that do something beside
-TEST_F(RegisterTest, plain_variables_of_drivers_are_read_each_round) {
+TEST_F(OwnDrivers, plain_variables_of_drivers_are_read_each_round) {
   Robot& robot = add_robot_with_source(R"(
 #include <a_d/advance_ad_scan/e_ad_conv.h>
 #include <motor_led/e_init_port.h>
 extern unsigned int tickAdcIsr;
-int started, passed;
+volatile int started, passed;
 unsigned int rounds, seen;
 int main(void) {
   e_init_port();
@@ -206,7 +159,7 @@ int main(void) {
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, a_plain_flag_that_an_own_handler_sets_is_seen_in_the_main_loop) {
+TEST_F(OwnDrivers, a_plain_flag_that_an_own_handler_sets_is_seen_in_the_main_loop) {
   Robot& robot = add_robot_with_source(program(R"(
 static int tick;
 int twice;
@@ -229,7 +182,7 @@ int main(void)
 
 // as the library's I2C driver: a start is made only after a stop, which no start has seen yet; the failure
 // makes the program send a stop, reset the module and try again. PO3030K: device 0xDC, register 0 holds 0x30
-TEST_F(RegisterTest, an_i2c_driver_that_waits_for_a_stop_before_its_first_start) {
+TEST_F(OwnDrivers, an_i2c_driver_that_waits_for_a_stop_before_its_first_start) {
   Robot& robot = add_robot_with_source(program(R"(
 volatile char mode;
 unsigned char id;
@@ -276,7 +229,7 @@ int main(void)
 
 // settings and functions under the names of the vendor's peripheral library: 28800 ticks of 256 cycles are
 // half a second
-TEST_F(RegisterTest, the_peripheral_librarys_names_set_timers_converter_and_uart) {
+TEST_F(OwnDrivers, the_peripheral_librarys_names_set_timers_converter_and_uart) {
   Robot& robot = add_robot_with_source(R"(
 #include <xc.h>
 #include <adc12.h>
@@ -317,77 +270,6 @@ int main(void)
   expect_no_traps();
 }
 
-// as schedulers do that give every process a stack of its own by moving W15
-TEST_F(RegisterTest, a_jump_into_a_function_that_has_returned_stops_the_robot) {
-  Robot& robot = add_robot_with_source(program(R"(
-#include <setjmp.h>
-static jmp_buf place;
-int came;
-static void deep(int n)
-{
-  volatile char room[40];
-  room[0] = n;
-  if (n) deep(n - 1);
-  else if (setjmp(place)) came++;
-  room[1] = n;
-}
-int main(void)
-{
-  deep(5);
-  longjmp(place, 1);
-  return came;
-}
-)"));
-  run_for(0.02);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
-}
-
-// leaves a place behind, then calls `call`
-std::string jump_after(const std::string& call) {
-  return program(R"(
-#include <setjmp.h>
-static jmp_buf place;
-int came, sum;
-static void __attribute__((noinline)) leave(int n)
-{
-  volatile char room[40];
-  room[0] = n;
-  if (n && setjmp(place)) came++;
-  if (!n) longjmp(place, 1);
-  room[1] = n;
-}
-static void __attribute__((noinline)) deeper(int n)
-{
-  volatile char room[20];
-  room[0] = n;
-  if (n) deeper(n - 1);
-  else longjmp(place, 1);
-  room[1] = n;
-}
-int main(void)
-{
-  leave(1);
-  )" + call + R"(;
-  return came;
-}
-)");
-}
-
-TEST_F(RegisterTest, a_jump_to_a_place_that_other_functions_use_now_stops_the_robot) {
-  Robot& robot = add_robot_with_source(jump_after("deeper(9)"));
-  run_for(0.02);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
-}
-
-TEST_F(RegisterTest, a_jump_to_a_place_of_the_same_function_in_another_call_stops_the_robot) {
-  Robot& robot = add_robot_with_source(jump_after("leave(0)"));
-  run_for(0.02);
-  ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("longjmp()"), std::string::npos) << robot.traps()[0].message;
-}
-
 // --- configuration words -----------------------------------------------------------------------------------
 
 std::string configured(const std::string& words, const std::string& rest) {
@@ -395,7 +277,7 @@ std::string configured(const std::string& words, const std::string& rest) {
 }
 
 // watchdog on, postscalers 8 and 4: 2 ms x 8 x 4 = 64 ms
-TEST_F(RegisterTest, the_watchdog_of_the_configuration_bites_a_program_that_forgets_it) {
+TEST_F(OwnDrivers, the_watchdog_of_the_configuration_bites_a_program_that_forgets_it) {
   const std::string words = "_FWDT(WDT_ON & WDTPSA_8 & WDTPSB_4)\n";
   const std::string head =
       "int __attribute__((persistent)) nothing;\nint main(void) {\n"
@@ -415,7 +297,7 @@ TEST_F(RegisterTest, the_watchdog_of_the_configuration_bites_a_program_that_forg
 
 // 14745 x 1000 cycles: 1 s at XT_PLL8, half a second at XT_PLL16, two at XT_PLL4; and U1BRG = 15 gives 115200
 // baud at twice the clock
-TEST_F(RegisterTest, the_multiplier_of_the_crystal_sets_the_instruction_rate) {
+TEST_F(OwnDrivers, the_multiplier_of_the_crystal_sets_the_instruction_rate) {
   const std::string rest = R"(
 unsigned int ticks;
 void _ISR _T1Interrupt(void) { _T1IF = 0; ticks++; }
@@ -444,7 +326,7 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(RegisterTest, the_words_may_be_given_by_pragmas) {
+TEST_F(OwnDrivers, the_words_may_be_given_by_pragmas) {
   const std::string rest = R"(
 unsigned int ticks;
 void _ISR _T1Interrupt(void) { _T1IF = 0; ticks++; }
@@ -472,7 +354,7 @@ int main(void)
 }
 
 // an e-puck has no external clock, so nothing would run
-TEST_F(RegisterTest, a_clock_that_the_robot_has_not_is_told) {
+TEST_F(OwnDrivers, a_clock_that_the_robot_has_not_is_told) {
   Robot& robot =
       add_robot_with_source(configured("_FOSC(CSW_FSCM_OFF & EC_PLL8);", "int main(void) { while (1); }\n"));
   run_for(0.02);
@@ -481,4 +363,4 @@ TEST_F(RegisterTest, a_clock_that_the_robot_has_not_is_told) {
 }
 
 }  // namespace
-}  // namespace register_test
+}  // namespace own_drivers
