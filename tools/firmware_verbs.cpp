@@ -89,7 +89,11 @@ int build(cc::BuildOptions options, const std::string& way) {
   of_run.way = way;
   of_run.hal = options.hal;
   of_run.sanitize = options.sanitize;
-  of_run.coverage = options.coverage;
+  if (options.coverage) {
+    of_run.coverage = "run";  // as a run builds it that counts
+    if (options.optimisation.empty()) options.optimisation = "-O0";
+  }
+  options.coverage = false;
   std::vector<std::string> no_controller;
   const std::string found = twin::find_firmware(given, "", no_controller);
   options.hal = twin::hal_of(of_run, found);
@@ -191,7 +195,7 @@ void add_build(CLI::App& app, int& exit_code) {
   auto way = std::make_shared<std::string>();
   add_way(*verb, *way, "native: for the PC, .so; chip is --hal dspic");
   verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
-  verb->add_flag("--coverage", o->coverage, "line counters, for run --coverage");
+  verb->add_flag("--coverage", o->coverage, "as run --coverage builds it: with -O0");
   verb->callback([o, way, &exit_code] { exit_code = build(*o, *way); });
 }
 

@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <map>
 
 #include "sim_core/record/csv_recorder.h"
 #include "tools/command_line.h"
@@ -32,32 +31,6 @@ bool write_text(const std::string& path, const std::string& text, const char* op
   return false;
 }
 
-// lcov's tracefile format: one record a source file, DA:line,count
-std::string lcov_of(const twin::Twin& twin) {
-  std::map<std::string, std::map<long long, long long>> lines;
-  for (const auto& image : twin.images())
-    for (const auto& copy : image->copies()) {
-      const tp_image& d = copy->description();
-      std::map<std::pair<std::string, long long>, long long> here;  // of this copy: a line's busiest block
-      for (const auto* c = d.coverage; c != d.coverage_end; ++c) {
-        auto& count = here[{c->file, c->line}];
-        count = std::max<long long>(count, *c->count);
-      }
-      for (const auto& [place, count] : here) lines[place.first][place.second] += count;
-    }
-  std::string text;
-  for (const auto& [file, counts] : lines) {
-    text += fmt::format("TN:\nSF:{}\n", file);
-    long hit = 0;
-    for (const auto& [line, count] : counts) {
-      text += fmt::format("DA:{},{}\n", line, count);
-      hit += count > 0;
-    }
-    text += fmt::format("LF:{}\nLH:{}\nend_of_record\n", counts.size(), hit);
-  }
-  return text;
-}
-
 }  // namespace
 
 void add_output_options(CLI::App& verb, OutputArguments& a) {
@@ -75,7 +48,8 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   verb.add_option("--save-sound", a.sound_folder,
                   "folder for what each robot's loudspeaker plays, a WAV file each");
   verb.add_option("--coverage", a.coverage,
-                  "lcov file of the lines that firmware executed; builds controllers with counters");
+                  "lcov file that counts of lines, branches and functions of the programs are added to; "
+                  "builds controllers with -O0 (docs/testing.md)");
   add_picture_options(verb, a.pictures);
   add_trace_options(verb, a.traces);
 }
@@ -104,7 +78,12 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
   check_files_differ(std::move(files), problems);
   if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
-  can_write(a.coverage, "--coverage", problems);
+  // counts are added to those of earlier runs
+  if (!a.coverage.empty()) coverage_ = twin::CoverageRun::open(twin_, a.coverage, problems);
+  if (coverage_) {
+    std::ofstream out(a.coverage, std::ios::app);
+    if (!out) problems.push_back(a.coverage + ": --coverage: cannot be written: " + std::strerror(errno));
+  }
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);
@@ -139,6 +118,7 @@ void RunOutputs::after_tick() {
   sample();
   pictures_.after_tick();
   traces_.after_tick();
+  if (coverage_) coverage_->look();
 }
 
 bool RunOutputs::wants_ticks() const {
@@ -179,7 +159,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
     problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
-  if (!a.coverage.empty()) write_text(a.coverage, lcov_of(twin_), "--coverage", problems);
+  if (coverage_) coverage_->finish(problems);
   for (int r = 0; r < twin_.robots(); ++r)
     for (int port = 1; port <= 2; ++port)
       if (const auto* end = twin_.mind(r).board().uart(port).end(); end && !end->error().empty())

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 #include "tools/picture_outputs.h"
@@ -61,6 +62,7 @@ class RunOutputs {
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;
+  std::unique_ptr<twin::CoverageRun> coverage_;
   PictureOutputs pictures_;
   TraceOutputs traces_;
   std::unique_ptr<viewer::Report> report_;

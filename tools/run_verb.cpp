@@ -74,7 +74,7 @@ int run(const RunArguments& arguments) {
   options.hal = arguments.hal;
   options.externs = arguments.externs;
   options.sanitize = arguments.sanitize;
-  options.coverage = !arguments.outputs.coverage.empty();
+  options.coverage = arguments.outputs.coverage;
   options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
   bool fits_the_chip = true;
   options.no_room = [&fits_the_chip] { fits_the_chip = false; };

@@ -108,7 +108,12 @@ class LineProgram {
         emit();
         map_.lines.back().line = 0;
         // what the linker left out stands at 0, where no C code can be
-        if (map_.lines[sequence_].address == 0) map_.lines.resize(sequence_);
+        if (map_.lines[sequence_].address == 0) {
+          const auto from = map_.lines.begin() + static_cast<std::ptrdiff_t>(sequence_);
+          if (map_.left_out.size() < kMostLines)
+            map_.left_out.insert(map_.left_out.end(), from, map_.lines.end());
+          map_.lines.erase(from, map_.lines.end());
+        }
         return begin();
       case SetAddress:
         row_.address = rest.number(rest.left());

@@ -30,7 +30,9 @@ struct CodeMap {
   };
   std::vector<Function> functions;  ///< by address
   std::vector<Line> lines;          ///< by address
-  std::vector<std::string> files;   ///< whole paths where the folder of the compilation is known
+  /// Rows of what the linker left out, in the order of the file; each function ends with is_end.
+  std::vector<Line> left_out;
+  std::vector<std::string> files;  ///< whole paths where the folder of the compilation is known
 
   /// Null where there is none.
   const Function* function_at(std::uint32_t address) const;

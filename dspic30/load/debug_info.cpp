@@ -47,6 +47,7 @@ enum Attribute : unsigned {
   kAbstractOrigin = 0x31,
   kCountOf = 0x37,
   kDataMemberLocation = 0x38,
+  kDeclaredLine = 0x3B,
   kDeclaration = 0x3C,
   kEncoding = 0x3E,
   kFrameBase = 0x40,
@@ -277,6 +278,7 @@ class Reader {
     const Entry* const top = read_entries(unit, c, false);
     types_.clear();
     points_.clear();
+    functions_.clear();
     if (!top) return;
     if (const Value* name = top->find(kName)) file_ = name->text;
     low_ = 2 * (top->number(kLowPc) / 2);
@@ -437,12 +439,52 @@ class Reader {
           } else if (inner.tag == kSubprogram) {
             to = from = 1;  // only its statics are somewhere
           }
+          if (inner.tag != kLexicalBlock) note_function(inner, offset, from, to);
           scope(inner, from, to, inner.tag == kSubprogram ? frame_of(inner) : frame, depth + 1);
           break;
         default:
           break;
       }
     }
+  }
+
+  /// What both an entry of a function and those of its copies refer to.
+  std::uint32_t origin_of(const Entry& entry, std::uint32_t offset) const {
+    for (const unsigned link : {kAbstractOrigin, kSpecification})
+      if (const Value* to = entry.find(link)) return to->number;
+    return offset;
+  }
+
+  void note_function(const Entry& entry, std::uint32_t offset, std::uint32_t begin, std::uint32_t end) {
+    const std::uint32_t origin = origin_of(entry, offset);
+    const auto about = entries_.find(origin);
+    const Value* const name = about == entries_.end() ? nullptr : about->second.find(kName);
+    if (!name || about->second.number(kDeclaration)) return;
+    const auto [known, is_new] = functions_.emplace(origin, out_.functions.size());
+    if (is_new) {
+      out_.functions.emplace_back();
+      out_.functions.back().name = name->text;
+      out_.functions.back().unit = file_;
+      out_.functions.back().line = static_cast<int>(about->second.number(kDeclaredLine));
+    }
+    DebugInfo::Function& function = out_.functions[known->second];
+    if (inlined_begin(entry, begin))
+      function.inlined_at.push_back(begin);
+    else if (entry.tag == kSubprogram && entry.find(kLowPc) && begin == 0)
+      function.is_left_out = true;
+    else if (entry.tag == kSubprogram && entry.find(kLowPc))
+      function.begin = begin, function.end = end;
+  }
+
+  /// The first address of a copy in another function; false: it is no copy, or has no code.
+  bool inlined_begin(const Entry& entry, std::uint32_t& begin) const {
+    if (entry.tag != kInlinedSubroutine) return false;
+    if (entry.find(kLowPc)) return begin != 0;
+    const Value* const ranges = entry.find(kRanges);
+    if (!ranges) return false;
+    Cursor c = at(".debug_ranges", ranges->number);
+    begin = low_ + c.number(address_bytes_);
+    return begin != 0;
   }
 
   int frame_of(const Entry& function) const {
@@ -542,6 +584,7 @@ class Reader {
   const std::map<std::string, DebugInfo::Section>& sections_;
   std::map<std::uint32_t, Entry> entries_;  // of the unit
   std::map<std::uint32_t, int> types_;
+  std::map<std::uint32_t, std::size_t> functions_;     // of the unit, in out_
   std::vector<std::pair<int, std::uint32_t>> points_;  // pointers, and their entries
   std::string file_;
   std::uint32_t unit_ = 0, low_ = 0;

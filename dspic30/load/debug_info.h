@@ -43,6 +43,14 @@ struct DebugInfo {
     bool is_static = true;             ///< one place, always
     std::vector<Place> places;
   };
+  /// A function with code, or one that stands in others.
+  struct Function {
+    std::string name, unit;                 ///< unit: the file that was compiled
+    int line = 0;                           ///< where its name stands
+    std::uint32_t begin = 0, end = 0;       ///< 0: it has no code of its own
+    bool is_left_out = false;               ///< it had, and the linker left it out
+    std::vector<std::uint32_t> inlined_at;  ///< where copies of it begin
+  };
   /// Part of a variable.
   struct Found {
     const Variable* variable = nullptr;
@@ -53,6 +61,7 @@ struct DebugInfo {
 
   std::vector<Type> types{Type{}};  ///< 0: unknown
   std::vector<Variable> variables;
+  std::vector<Function> functions;
   std::map<std::string, int> named;                 ///< types: "u8", "struct node" (of unions and enums too)
   std::map<std::string, std::int32_t> enumerators;  ///< constants that enums name
 

@@ -105,7 +105,7 @@ std::string hal_of(const Options& options, const std::string& path) {
   if (!options.hal.empty()) return options.hal;
   if (options.way == "chip") return "dspic";
   // what only code for the PC has
-  const bool is_of_pc = !options.way.empty() || options.sanitize || options.coverage;
+  const bool is_of_pc = !options.way.empty() || options.sanitize;
   return is_of_pc || programs::is_pc_program(path) ? "" : kUsual;
 }
 
@@ -114,7 +114,7 @@ std::string image_file(const std::string& folder, const Options& options) {
   for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
   char tag[32];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
-  std::string kind = options.sanitize ? "-sanitize" : options.coverage ? "-coverage" : "";
+  std::string kind = options.sanitize ? "-sanitize" : !options.coverage.empty() ? "-coverage" : "";
   const std::string hal = hal_of(options, folder);
   if (!hal.empty()) kind += "-" + hal;
   // the same program has another image in a world that says something else
@@ -206,8 +206,9 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.source_dir = path;
   build.output = image_file(path.string(), options);
   build.optimisation = options.optimisation;
+  // so that each line has code of its own, and each condition its branch
+  if (!options.coverage.empty() && build.optimisation.empty()) build.optimisation = "-O0";
   build.sanitize = options.sanitize;
-  build.coverage = options.coverage;
   build.hal = hal_of(options, path.string());
   build.webots_settings = options.webots_settings;
   const cc::BuildResult result = cc::build_image(build);

@@ -53,7 +53,9 @@ struct Options {
   /// Of the world, for programs of Webots' interfaces on the chip (cc::BuildOptions); Twin::open() sets it.
   std::string webots_settings;
   bool sanitize = false;  ///< ... with address and 16-bit overflow checks
-  bool coverage = false;  ///< ... with line counters
+  /// File that counts of lines are added to (coverage_run.h, which whoever opens the twin makes); empty:
+  /// none. Controllers are built for it with -O0, unless `optimisation` says otherwise.
+  std::string coverage;
   /// Told the compiler's warnings, a line each; may be empty.
   std::function<void(const std::string&)> tell;
   /// Called when a controller's data and stack do not fit the chip; may be empty. `tell` has told it.

@@ -351,17 +351,6 @@ TEST_F(Command, check_accepts_every_world_that_ships) {
   EXPECT_EQ(s.exit_code, 0) << s.text;
 }
 
-TEST_F(Command, coverage_counts_executed_lines) {
-  write("cov/main.c", "volatile int n;\nint main(void) {\n  if (n)\n    n = 5;\n  n = 7;\n  while (1);\n}\n");
-  const Said s = twinpuck("run maze --fw '*=" + path("cov") + "' --for 0.1 --coverage " + path("c.info"));
-  ASSERT_EQ(s.exit_code, 0) << s.text;
-  const std::string info = read(path("c.info"));
-  EXPECT_NE(info.find("main.c\n"), std::string::npos) << info;
-  EXPECT_NE(info.find("DA:4,0\n"), std::string::npos) << info;
-  EXPECT_EQ(info.find("DA:5,0\n"), std::string::npos) << info;
-  EXPECT_NE(info.find("DA:5,"), std::string::npos) << info;
-}
-
 TEST_F(Command, sanitize_finds_a_16_bit_overflow_and_a_bad_index) {
   write("over/main.c", "volatile int a = 30000, b;\nint main(void) {\n  b = a + a;\n  while (1);\n}\n");
   Said s = twinpuck("run maze --fw '*=" + path("over") + "' --for 0.1 --sanitize");

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The fixture itself: what a failing test of a user's is told.
 #include <gtest/gtest-spi.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <iterator>
 
 #include "tests/support/firmware_test.h"
 
@@ -42,6 +47,27 @@ TEST_F(Fixture, a_variable_or_function_that_is_not_there_is_told_at_the_line_tha
   expect_here([&] { robot.variables("there", 5); }, __LINE__, "no variable 'there' of 10 bytes");
   expect_here([&] { robot.cost_of("absent"); }, __LINE__, "no function 'absent'");
   EXPECT_NE(robot.variable("there"), 0);
+}
+
+TEST_F(Fixture, coverage_of_several_tests_is_added_up) {
+  const std::string file = ::testing::TempDir() + "fixture-" + std::to_string(getpid()) + ".info";
+  std::remove(file.c_str());
+  struct Another : FirmwareTest {
+    void TestBody() override {}
+    void test(const std::string& info) {
+      options.coverage = info;
+      add_robot_with_source(
+          "volatile int n;\nint main(void) {\n  int i;\n  for (i = 0; i < 10; i++)\n    n++;\n  while "
+          "(1);\n}\n");
+      run_for(0.01);
+    }
+  };
+  for (int i = 0; i < 2; ++i) Another().test(file);
+  std::ifstream in(file);
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  EXPECT_NE(text.find("\nDA:5,20\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\nFNDA:2,main\n"), std::string::npos) << text;
+  std::remove(file.c_str());
 }
 
 TEST_F(Fixture, a_program_that_does_not_compile_is_told_with_the_line_that_runs_it) {

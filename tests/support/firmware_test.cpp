@@ -127,8 +127,14 @@ FirmwareTest::FirmwareTest() {
   // dspic
   if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
   if (const char* hal = std::getenv("TWINPUCK_HAL")) options.hal = hal;
+  // counts of all tests that run: TWINPUCK_COVERAGE=c.info
+  if (const char* file = std::getenv("TWINPUCK_COVERAGE")) options.coverage = file;
 }
-FirmwareTest::~FirmwareTest() = default;
+FirmwareTest::~FirmwareTest() {
+  std::vector<std::string> problems;
+  if (coverage_) coverage_->finish(problems);
+  for (const std::string& problem : problems) ADD_FAILURE() << problem;
+}
 
 void FirmwareTest::arena(double width_m, double depth_m) {
   world.arena = sim::ArenaDesc{};
@@ -201,6 +207,10 @@ void FirmwareTest::start(const Caller& caller) {
   std::vector<std::string> problems;
   twin_ = twin::Twin::open(world, options, problems);
   if (!twin_) throw std::runtime_error(where + "the test's world cannot start:\n" + all_lines(problems));
+  if (!options.coverage.empty()) {
+    coverage_ = twin::CoverageRun::open(*twin_, options.coverage, problems);
+    if (!coverage_) throw std::runtime_error(where + "coverage:\n" + all_lines(problems));
+  }
   for (auto& r : robots_) {
     Robot* robot = r.get();
     robot->mind().board().virtual_devices().on_console = [robot](const std::string& line) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "hal_sim/cc/build.h"
+#include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 
@@ -163,7 +164,8 @@ class FirmwareTest : public ::testing::Test {
   programs::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.
   const programs::Outcome& finish();
-  /// Number of threads, extra flags for twinpuck-cc; before the first run.
+  /// Number of threads, extra flags for twinpuck-cc; before the first run. `options.coverage`: an lcov file
+  /// that the counts of the test's programs are added to when it ends.
   twin::Options options;
   twin::Twin& twin(Caller caller = Caller::here());
 
@@ -174,6 +176,7 @@ class FirmwareTest : public ::testing::Test {
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;
   std::unique_ptr<programs::Team> team_;
+  std::unique_ptr<twin::CoverageRun> coverage_;
 };
 
 }  // namespace firmware_test
