@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "dspic30/periph/vectors.h"
 #include "hal_sim/board/cycle.h"
@@ -105,6 +106,19 @@ bool Budgets::read(const std::string& file, std::vector<std::string>& problems) 
   return problems.size() == before;
 }
 
+bool Budgets::add(const std::string& budget, std::vector<std::string>& problems) {
+  const std::size_t equals = budget.find('=');
+  char* end = nullptr;
+  const double limit = equals == std::string::npos ? -1 : std::strtod(budget.c_str() + equals + 1, &end);
+  const bool is_number = end && *end == 0 && end > budget.c_str() + equals + 1;
+  if (equals == 0 || !is_number || !(limit >= 0 && limit < 1e15)) {
+    problems.push_back("command line: --budget: got '" + budget + "', expected NAME=CYCLES");
+    return false;
+  }
+  budgets_.push_back({Of::Function, budget.substr(0, equals), "max", limit, "command line: --budget"});
+  return true;
+}
+
 std::vector<std::string> Budgets::unknown(const dspic::FirmwareFile& program) const {
   std::vector<std::string> problems, functions, vectors;
   for (const auto& f : program.code.functions) functions.push_back(f.name);
@@ -121,13 +135,15 @@ std::vector<std::string> Budgets::unknown(const dspic::FirmwareFile& program) co
   return problems;
 }
 
-std::vector<Budgets::Verdict> Budgets::judge(const chip::ProfileReport& report) const {
+std::vector<Budgets::Verdict> Budgets::judge(const chip::ProfileReport& report,
+                                             const std::map<std::string, double>& most) const {
   std::vector<Verdict> all;
-  for (const Budget& budget : budgets_) all.push_back(judge(budget, report));
+  for (const Budget& budget : budgets_) all.push_back(judge(budget, report, most));
   return all;
 }
 
-Budgets::Verdict Budgets::judge(const Budget& budget, const chip::ProfileReport& report) const {
+Budgets::Verdict Budgets::judge(const Budget& budget, const chip::ProfileReport& report,
+                                const std::map<std::string, double>& most) const {
   double got = 0;
   const char* unit = " cycles";
   std::string missing;
@@ -142,6 +158,11 @@ Budgets::Verdict Budgets::judge(const Budget& budget, const chip::ProfileReport&
         missing.clear();
         of_spread(f.cycles, "never returned");
       }
+    if (const auto by_code = most.find(budget.name); !missing.empty() && by_code != most.end()) {
+      missing.clear();
+      got = by_code->second;
+      unit = " cycles, by its code";
+    }
   } else if (budget.of == Of::Interrupt) {
     missing = "was never served";
     for (const auto& i : report.interrupts) {

@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: MIT
-// twinpuck cycles: what each function of a program takes: estimated from the code that is made for the PC,
-// exact from a run of the chip's own program, or both beside one another.
+// twinpuck cycles: what each function of a program takes on the chip, exactly: in a run, and from its code
+// alone where that is straight or branches without loops.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 
-#include "hal_sim/cc/build.h"
+#include "hal_sim/chip/code_cycles.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
 #include "tools/profile_report.h"
+#include "tools/program_file.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -22,36 +25,33 @@ namespace fs = std::filesystem;
 
 struct CyclesArguments {
   std::string file, world = "maze", budgets;
+  std::vector<std::string> budget;
   double period_ms = 10, seconds = 2;
-  bool with_library = false, exact = false;
+  bool with_library = false, lines = false;
 };
 
-using Exact = std::map<std::string, chip::ProfileReport::Function>;
-
-std::string count(double cycles) { return cycles < 0 ? "no bound" : fmt::format("{:.0f}", cycles); }
-
-std::string kind_of_image(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  std::string head(20, '\0');
-  in.read(head.data(), 20);
-  return dspic::kind_of(head) == dspic::FileKind::Other ? "PC" : "chip";
-}
-
-std::vector<cc::FunctionCycles> estimates(const std::string& image, std::vector<std::string>& problems) {
-  if (!fs::is_regular_file(image)) {
-    problems.push_back(image + ": cycles: got a device, expected an image made by `twinpuck build`");
-    return {};
-  }
-  auto functions = cc::function_costs(image);
-  if (functions.empty())
-    problems.push_back(
-        image + ": cycles: got a file without a cost table, expected an image made by `twinpuck build`");
-  return functions;
+/// The program of the chip that was asked for: built for it, or a file. Empty: lines in `problems`.
+std::string image_of(const std::string& name, dspic::FirmwareFile& file, std::vector<std::string>& problems) {
+  twin::Options options;
+  options.hal = "dspic";  // with the code of all drivers
+  const std::string image = twin::provide_image(name, "", options, problems);
+  std::string bytes, error;
+  if (image.empty()) return "";
+  if (!fs::is_regular_file(image))
+    error = image + ": cycles: got a device, expected a controller, a folder, or a .elf or .hex";
+  else if (!read_file(image, bytes) || dspic::kind_of(bytes) == dspic::FileKind::Other)
+    error =
+        image + ": cycles: got no program of the chip, expected a controller, a folder, or a .elf or .hex";
+  else
+    dspic::load_firmware(bytes, image, file, error);
+  if (error.empty()) return image;
+  problems.push_back(error);
+  return "";
 }
 
 /// A run of the image in the world, by the profile of its first robot.
-bool measure(const CyclesArguments& a, const std::string& image, const Budgets& budgets,
-             chip::ProfileReport& report, std::vector<std::string>& problems) {
+bool measure(const CyclesArguments& a, const std::string& image, chip::ProfileReport& report,
+             std::vector<std::string>& problems) {
   std::optional<sim::WorldDesc> world = open_world(a.world, problems);
   if (!world) return false;
   twin::Options options;
@@ -61,9 +61,6 @@ bool measure(const CyclesArguments& a, const std::string& image, const Budgets& 
   if (!twin) return false;
   Profiles profiles(*twin);
   profiles.begin("cycles", problems);
-  if (!problems.empty()) return false;
-  for (std::string& line : budgets.unknown(chip_runner(*twin, 0)->file()))
-    problems.push_back(std::move(line));
   if (!problems.empty()) return false;
   while (twin->simulation().now() < sim::from_seconds(a.seconds))
     twin->simulation().advance(sim::from_seconds(a.seconds));
@@ -76,132 +73,154 @@ bool is_handler(const std::string& name) {
   return name[0] == '_' && name.size() > 9 && name.compare(name.size() - 9, 9, "Interrupt") == 0;
 }
 
-void show_row(const std::string& name, double min, double mean, double max, double load, bool is_main,
-              const std::string& where) {
-  // main() is not called every so many milliseconds: it has no load
-  std::cout << fmt::format("{:<32} {:>9} {:>9} {:>9} {:>11.2f} {:>10}  {}\n", name, count(min), count(mean),
-                           count(max), micros(mean), is_main ? "" : fmt::format("{:.2f}%", 100 * load),
-                           where);
+/// One function of the program, as it was called and as its code is.
+struct FunctionRow {
+  std::string name, place;
+  const chip::ProfileReport::Function* run = nullptr;  // null: it never ran
+  bool has_code = false;
+  std::uint32_t begin = 0, end = 0;
+  chip::PathCycles code;
+  std::set<std::string> part_of;  // functions that hold copies of it
+};
+
+std::string place_text(const dspic::FirmwareFile& file, std::uint32_t address) {
+  const auto* const row = file.code.line_at(address);
+  return row ? fmt::format("{}:{}", file.code.files[row->file], row->line) : "";
+}
+std::string place_text(const dspic::FirmwareFile& file, const dspic::DebugInfo::Function& f) {
+  const int source = dspic::source_of(file, f);
+  return source < 0 ? "" : fmt::format("{}:{}", file.code.files[static_cast<std::size_t>(source)], f.line);
 }
 
-void show_estimates(const CyclesArguments& a, const std::vector<cc::FunctionCycles>& functions) {
+/// The functions that ran by their own time, then the others, then those that stand in others alone.
+std::vector<FunctionRow> function_rows(const dspic::FirmwareFile& file, const chip::ProfileReport& report) {
+  chip::CodeCycles cycles(file);
+  std::map<std::pair<std::string, std::string>, std::size_t> known;
+  std::vector<FunctionRow> rows;
+  const auto row_of = [&](const std::string& name, const std::string& place) -> FunctionRow& {
+    const auto [at, is_new] = known.emplace(std::pair(name, place), rows.size());
+    if (is_new) {
+      rows.emplace_back();
+      rows.back().name = name;
+      rows.back().place = place;
+    }
+    return rows[at->second];
+  };
+  std::map<std::string, std::string> places;
+  for (const auto& f : report.functions) row_of(f.name, f.place).run = &f;
+  for (const auto& f : file.code.functions) {
+    FunctionRow& row = row_of(f.name, place_text(file, f.begin));
+    row.has_code = true;
+    row.begin = f.begin;
+    row.end = f.end;
+    row.code = cycles.of_function(f.begin);
+    places.emplace(f.name, row.place);
+  }
+  for (const auto& f : file.debug.info().functions) {
+    if (f.inlined_at.empty()) continue;
+    const bool has_code = f.end > 0 && places.count(f.name);
+    FunctionRow& row = row_of(f.name, has_code ? places[f.name] : place_text(file, f));
+    for (const std::uint32_t address : f.inlined_at)
+      if (const auto* in = file.code.function_at(address)) row.part_of.insert(in->name);
+  }
+  return rows;
+}
+
+std::string range(const chip::PathCycles& code) {
+  if (!code.is_known()) return "-";
+  return code.least == code.most ? fmt::format("{}", code.least)
+                                 : fmt::format("{} to {}", code.least, code.most);
+}
+
+void show_row(const CyclesArguments& a, const FunctionRow& row) {
+  const std::string name = row.name + (is_handler(row.name) ? " (interrupt)" : ""),
+                    in = fmt::format("{}", fmt::join(row.part_of, ", "));
+  if (!row.has_code && !row.run) {
+    std::cout << fmt::format("{:<32} part of {}: to measure it, declare it __attribute__((noinline))  {}\n",
+                             name, in, from_here(row.place));
+    return;
+  }
+  std::string run = fmt::format("{:>9} {:>9} {:>9} {:>11} {:>10} {:>7} {:>9}", "", "", "", "", "", 0, "");
+  if (row.run && row.run->cycles.count == 0)
+    run = fmt::format("{:>9} {:>9} {:>9} {:>11} {:>10} {:>7} {:>9}", "runs on", "", "", "", "", "", "");
+  if (row.run && row.run->cycles.count > 0) {
+    const chip::Spread& c = row.run->cycles;
+    run = fmt::format("{:>9} {:>9.0f} {:>9} {:>11.2f} {:>9.2f}% {:>7} {:>9.0f}", c.min, c.mean(), c.max,
+                      micros(c.mean()), micros(c.mean()) / a.period_ms / 10, c.count,
+                      static_cast<double>(row.run->own) / static_cast<double>(c.count));
+  }
+  std::cout << fmt::format("{:<32} {} {:>15}  {}", name, run, range(row.code), from_here(row.place));
+  if (row.has_code && !row.code.is_known()) std::cout << "; only a run tells: it " << row.code.why_not;
+  if (!row.part_of.empty()) std::cout << "; copies of it are part of " << in;
+  std::cout << '\n';
+}
+
+void show(const CyclesArguments& a, const std::vector<FunctionRow>& rows) {
   std::cout << fmt::format(
-      "estimated cycles at 14.7456 MHz, callees included (docs/cycles.md says how good the estimate is)\n"
-      "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10}  where\n",
-      "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", a.period_ms));
+      "exact cycles at 14.7456 MHz, callees included, in {:g} s of {}, handlers not included\n"
+      "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10} {:>7} {:>9} {:>15}  where\n",
+      a.seconds, a.world, "function", "min", "mean", "max", "mean (us)",
+      fmt::format("load/{:g}ms", a.period_ms), "calls", "own", "by its code");
   int of_library = 0;
-  for (const auto& f : functions) {
-    const std::string where = fmt::format("{}:{}", from_here(f.file), f.line);
-    if (f.is_library && !a.with_library)
+  for (const FunctionRow& row : rows)
+    if (is_library_place(from_here(row.place)) && !a.with_library)
       ++of_library;
-    else if (!f.inlined_into.empty())
-      std::cout << fmt::format("{:<32} part of {}  {}\n", f.name, f.inlined_into, where);
     else
-      show_row(f.name + (f.is_interrupt ? " (interrupt)" : ""), f.min, f.mean, f.max,
-               f.cpu_load(a.period_ms / 1000), f.name == "main", where);
-  }
+      show_row(a, row);
   if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
 }
 
-std::string measured_in(const CyclesArguments& a) {
-  return fmt::format("{:g} s of {}, handlers not included", a.seconds, a.world);
+/// The lines of a source, from 1 on; none: it is not here.
+std::vector<std::string> text_of(const std::string& file) {
+  std::vector<std::string> lines{""};
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
 }
 
-void show_exact(const CyclesArguments& a, const chip::ProfileReport& report) {
-  std::cout << fmt::format(
-      "exact cycles at 14.7456 MHz, callees included, in {}\n"
-      "{:<32} {:>9} {:>9} {:>9} {:>11} {:>10} {:>7}  where\n",
-      measured_in(a), "function", "min", "mean", "max", "mean (us)", fmt::format("load/{:g}ms", a.period_ms),
-      "calls");
-  int of_library = 0;
-  for (const auto& f : report.functions) {
-    if (is_library_place(from_here(f.place)) && !a.with_library) {
-      ++of_library;
-      continue;
+void show_lines(const CyclesArguments& a, const dspic::FirmwareFile& file,
+                const std::vector<FunctionRow>& rows) {
+  const chip::CodeCycles cycles(file);
+  std::map<std::string, std::vector<std::string>> texts;
+  for (const FunctionRow& row : rows) {
+    if (!row.has_code || (is_library_place(from_here(row.place)) && !a.with_library)) continue;
+    std::cout << fmt::format("\n{}()  {}\n{:>7} {:>12} {:>13}\n", row.name, from_here(row.place), "line",
+                             "instructions", "cycles");
+    for (const auto& line : cycles.lines(row.begin, row.end)) {
+      if (!texts.count(line.file)) texts[line.file] = text_of(line.file);
+      const auto& text = texts[line.file];
+      std::string said = line.line > 0 && static_cast<std::size_t>(line.line) < text.size()
+                             ? text[static_cast<std::size_t>(line.line)]
+                             : "";
+      if (!line.calls.empty()) said += fmt::format("   ; + {}", fmt::join(line.calls, ", "));
+      if (line.repeats) said += "   ; + repeats";
+      std::cout << fmt::format("{:>7} {:>12} {:>13}  {}\n", line.line, line.instructions,
+                               range({line.least, line.most, ""}), said);
     }
-    const std::string name = f.name + (is_handler(f.name) ? " (interrupt)" : "");
-    if (f.cycles.count == 0)
-      std::cout << fmt::format("{:<32} runs on{:>52}  {}\n", name, "", from_here(f.place));
-    else
-      std::cout << fmt::format("{:<32} {:>9} {:>9.0f} {:>9} {:>11.2f} {:>9.2f}% {:>7}  {}\n", name,
-                               f.cycles.min, f.cycles.mean(), f.cycles.max, micros(f.cycles.mean()),
-                               micros(f.cycles.mean()) / a.period_ms / 10, f.cycles.count,
-                               from_here(f.place));
   }
-  if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
-}
-
-/// Does an exact mean lie between the estimate's least and most? If not, by how much it is off.
-bool is_within(const cc::FunctionCycles& estimate, double exact) {
-  return exact >= estimate.min && (estimate.max < 0 || exact <= estimate.max);
-}
-double off(const cc::FunctionCycles& estimate, double exact) {
-  return (exact < estimate.min ? estimate.min : estimate.max) / exact - 1;
-}
-
-void show_both(const CyclesArguments& a, const std::vector<cc::FunctionCycles>& functions,
-               const chip::ProfileReport& report) {
-  std::cout << fmt::format(
-      "cycles at 14.7456 MHz, callees included; exact: {}\n"
-      "{:<28} | {:>8} {:>8} {:>8} | {:>8} {:>8} {:>8} {:>7} | {:>6}  where\n",
-      measured_in(a), "function", "estim.", "mean", "max", "exact", "mean", "max", "calls", "off");
-  Exact exact;
-  for (const auto& f : report.functions) exact[f.name] = f;
-  int of_library = 0;
-  for (const auto& f : functions) {
-    if (f.is_library && !a.with_library) {
-      ++of_library;
-      continue;
-    }
-    if (!f.inlined_into.empty()) continue;
-    const auto found = exact.find(f.name);
-    std::string measured = fmt::format("{:>8} {:>8} {:>8} {:>7} | {:>6}", "", "", "", "none", "");
-    if (found != exact.end() && found->second.cycles.count == 0)
-      measured = fmt::format("{:>8} {:>8} {:>8} {:>7} | {:>6}", "", "", "", "runs on", "");
-    if (found != exact.end() && found->second.cycles.count > 0) {
-      const chip::Spread& s = found->second.cycles;
-      measured = fmt::format("{:>8} {:>8.0f} {:>8} {:>7} | {:>5}", s.min, s.mean(), s.max, s.count,
-                             is_within(f, s.mean()) ? "-" : fmt::format("{:+.0f}%", 100 * off(f, s.mean())));
-    }
-    std::cout << fmt::format("{:<28} | {:>8} {:>8} {:>8} | {}  {}:{}\n", f.name, count(f.min), count(f.mean),
-                             count(f.max), measured, from_here(f.file), f.line);
-  }
-  if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
 }
 
 int cycles(const CyclesArguments& a) {
   std::vector<std::string> problems;
-  const bool exact = a.exact || !a.budgets.empty();
   Budgets budgets;
   if (!a.budgets.empty()) budgets.read(a.budgets, problems);
-  std::string image, chip_image;
-  std::vector<cc::FunctionCycles> functions;
+  for (const std::string& budget : a.budget) budgets.add(budget, problems);
+  dspic::FirmwareFile file;
   chip::ProfileReport report;
-  twin::Options estimated;  // code of the PC knows what the chip's would take
-  estimated.way = "native";
-  if (problems.empty()) image = twin::provide_image(a.file, "", estimated, problems);
-  if (!image.empty() && kind_of_image(image) == "chip") chip_image = std::exchange(image, "");
-  if (!image.empty()) functions = estimates(image, problems);
-  if (!image.empty() && problems.empty() && exact) {
-    twin::Options options;
-    options.way = "chip";
-    chip_image = twin::provide_image(a.file, "", options, problems);
-    if (problems.empty() && kind_of_image(chip_image) != "chip")
-      problems.push_back(chip_image +
-                         ": --exact: got a program for the PC, expected its source, or a .elf or .hex");
-  }
-  if (problems.empty() && !chip_image.empty()) measure(a, chip_image, budgets, report, problems);
+  const std::string image = problems.empty() ? image_of(a.file, file, problems) : "";
+  if (problems.empty())
+    for (std::string& line : budgets.unknown(file)) problems.push_back(std::move(line));
+  if (problems.empty()) measure(a, image, report, problems);
   complain(problems);
   if (!problems.empty()) return kBadInput;
-  if (chip_image.empty())
-    show_estimates(a, functions);
-  else if (image.empty())
-    show_exact(a, report);
-  else
-    show_both(a, functions, report);
+  const std::vector<FunctionRow> rows = function_rows(file, report);
+  show(a, rows);
+  if (a.lines) show_lines(a, file, rows);
   int exit_code = kPass;
-  for (const Budgets::Verdict& v :
-       a.budgets.empty() ? std::vector<Budgets::Verdict>() : budgets.judge(report)) {
+  std::map<std::string, double> most;
+  for (const FunctionRow& row : rows)
+    if (row.has_code && row.code.is_known()) most[row.name] = static_cast<double>(row.code.most);
+  for (const Budgets::Verdict& v : budgets.judge(report, most)) {
     std::cout << v.text << '\n';
     if (!v.passes) exit_code = kTestFailed;
   }
@@ -212,17 +231,18 @@ int cycles(const CyclesArguments& a) {
 
 void add_cycles(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
-      "cycles",
-      "Cycles of every function and interrupt: estimated, or exact from a run of the chip's program");
+      "cycles", "Exact cycles of every function and interrupt of a program: in a run, and from its code");
   auto a = std::make_shared<CyclesArguments>();
-  verb->add_option("FILE", a->file,
-                   "an image, a folder or a controller's name: estimated; a .elf or .hex of the chip: exact")
+  verb->add_option("FILE", a->file, "a folder or a controller's name, or a .elf or .hex of the chip")
       ->required();
-  verb->add_flag("--exact", a->exact, "builds the program for the chip, too, and shows both");
-  verb->add_option("--world", a->world, "where the chip's program runs")->capture_default_str();
+  verb->add_option("--world", a->world, "where it runs")->capture_default_str();
   verb->add_option("--for", a->seconds, "simulated seconds that it runs")
       ->check(between(0.001, 1e5))
       ->capture_default_str();
+  verb->add_flag("--lines", a->lines, "source lines with the cycles of their instructions, too");
+  verb->add_option(
+      "--budget", a->budget,
+      "NAME=CYCLES: what a call of a function may take at most; exit code 1 when one takes more");
   verb->add_option(
       "--budgets", a->budgets,
       "TOML file of what functions and interrupts may take (docs/profile.md); exit code 1 when one takes "

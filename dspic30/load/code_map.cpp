@@ -18,8 +18,9 @@ class LineProgram {
   LineProgram(CodeMap& map, Cursor unit, std::string folder)
       : map_(map), unit_(unit), folder_(std::move(folder)) {}
 
-  void run() {
+  void run(std::uint32_t place) {
     if (!read_head()) return;
+    map_.unit_files[place] = files_;
     while (!unit_.is_at_end() && map_.lines.size() < kMostLines) {
       const std::uint8_t code = unit_.byte();
       if (code >= opcode_base_)
@@ -207,10 +208,11 @@ void CodeMap::add_lines(const unsigned char* bytes, std::size_t size,
                         const std::map<std::uint32_t, std::string>& folders) {
   Cursor section(bytes, size);
   while (section.left() > 4) {
-    const auto folder = folders.find(static_cast<std::uint32_t>(size - section.left()));
+    const auto place = static_cast<std::uint32_t>(size - section.left());
+    const auto folder = folders.find(place);
     const std::uint32_t length = section.number(4);
     if (length > section.left()) return;
-    LineProgram(*this, section.part(length), folder == folders.end() ? "" : folder->second).run();
+    LineProgram(*this, section.part(length), folder == folders.end() ? "" : folder->second).run(place);
   }
 }
 

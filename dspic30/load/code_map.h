@@ -32,6 +32,8 @@ struct CodeMap {
   std::vector<Line> lines;          ///< by address
   /// Rows of what the linker left out, in the order of the file; each function ends with is_end.
   std::vector<Line> left_out;
+  /// Of each unit, by its place in .debug_line: its numbers of files, from 1 on, as numbers of `files`.
+  std::map<std::uint32_t, std::vector<std::uint16_t>> unit_files;
   std::vector<std::string> files;  ///< whole paths where the folder of the compilation is known
 
   /// Null where there is none.

@@ -5,86 +5,14 @@
 #include <mutex>
 
 #include "dspic30/load/cursor.h"
+#include "dspic30/load/dwarf.h"
 
 namespace dspic {
 
 namespace {
 
-// --- DWARF's numbers [DWARF 4, 7.5] ------------------------------------------------------------------------
+using namespace dwarf;
 
-enum Tag : unsigned {
-  kArrayType = 0x01,
-  kEnumerationType = 0x04,
-  kFormalParameter = 0x05,
-  kLexicalBlock = 0x0B,
-  kMember = 0x0D,
-  kPointerType = 0x0F,
-  kCompileUnit = 0x11,
-  kStructureType = 0x13,
-  kTypedef = 0x16,
-  kUnionType = 0x17,
-  kInlinedSubroutine = 0x1D,
-  kSubrangeType = 0x21,
-  kBaseType = 0x24,
-  kEnumerator = 0x28,
-  kConstType = 0x26,
-  kSubprogram = 0x2E,
-  kVariable = 0x34,
-  kVolatileType = 0x35
-};
-enum Attribute : unsigned {
-  kLocation = 0x02,
-  kName = 0x03,
-  kStatements = 0x10,
-  kByteSize = 0x0B,
-  kBitOffset = 0x0C,
-  kBitSize = 0x0D,
-  kLowPc = 0x11,
-  kHighPc = 0x12,
-  kCompileFolder = 0x1B,
-  kConstValue = 0x1C,
-  kUpperBound = 0x2F,
-  kAbstractOrigin = 0x31,
-  kCountOf = 0x37,
-  kDataMemberLocation = 0x38,
-  kDeclaredLine = 0x3B,
-  kDeclaration = 0x3C,
-  kEncoding = 0x3E,
-  kFrameBase = 0x40,
-  kSpecification = 0x47,
-  kType = 0x49,
-  kRanges = 0x55,
-  kDataBitOffset = 0x6B
-};
-enum Form : unsigned {
-  kAddr = 0x01,
-  kBlock2 = 0x03,
-  kBlock4 = 0x04,
-  kData2 = 0x05,
-  kData4 = 0x06,
-  kData8 = 0x07,
-  kString = 0x08,
-  kBlock = 0x09,
-  kBlock1 = 0x0A,
-  kData1 = 0x0B,
-  kFlag = 0x0C,
-  kSdata = 0x0D,
-  kStrp = 0x0E,
-  kUdata = 0x0F,
-  kRefAddr = 0x10,
-  kRef1 = 0x11,
-  kRef2 = 0x12,
-  kRef4 = 0x13,
-  kRef8 = 0x14,
-  kRefUdata = 0x15,
-  kSecOffset = 0x17,
-  kExprloc = 0x18,
-  kFlagPresent = 0x19
-};
-constexpr unsigned kFloatEncoding = 0x04, kSignedEncoding = 0x05, kSignedChar = 0x06;
-// operations of locations
-constexpr unsigned kOpAddr = 0x03, kOpPlusConst = 0x23, kOpReg0 = 0x50, kOpBreg0 = 0x70, kOpConst1u = 0x08,
-                   kOpConsts = 0x11, kOpConstu = 0x10, kOpFbreg = 0x91, kOpLit0 = 0x30, kOpStackValue = 0x9F;
 constexpr int kDeepest = 64;
 
 struct Value {
@@ -282,6 +210,7 @@ class Reader {
     if (!top) return;
     if (const Value* name = top->find(kName)) file_ = name->text;
     low_ = 2 * (top->number(kLowPc) / 2);
+    lines_ = top->number(kStatements);
     scope(*top, 0, 0, 14, 0);
     for (std::size_t i = 0; i < points_.size(); ++i) {  // what they point to may hold more of them
       const auto [pointer, offset] = points_[i];
@@ -464,7 +393,8 @@ class Reader {
     if (is_new) {
       out_.functions.emplace_back();
       out_.functions.back().name = name->text;
-      out_.functions.back().unit = file_;
+      out_.functions.back().unit = lines_;
+      out_.functions.back().file = about->second.number(kDeclaredFile);
       out_.functions.back().line = static_cast<int>(about->second.number(kDeclaredLine));
     }
     DebugInfo::Function& function = out_.functions[known->second];
@@ -587,7 +517,7 @@ class Reader {
   std::map<std::uint32_t, std::size_t> functions_;     // of the unit, in out_
   std::vector<std::pair<int, std::uint32_t>> points_;  // pointers, and their entries
   std::string file_;
-  std::uint32_t unit_ = 0, low_ = 0;
+  std::uint32_t unit_ = 0, low_ = 0, lines_ = 0;
   std::size_t address_bytes_ = 4;
 };
 

@@ -45,8 +45,10 @@ struct DebugInfo {
   };
   /// A function with code, or one that stands in others.
   struct Function {
-    std::string name, unit;                 ///< unit: the file that was compiled
-    int line = 0;                           ///< where its name stands
+    std::string name;
+    std::uint32_t unit = 0;                 ///< CodeMap::unit_files has its files,
+    unsigned file = 0;                      ///< of which this one, from 1 on, holds its name; 0: not known
+    int line = 0;                           ///< ... in this line
     std::uint32_t begin = 0, end = 0;       ///< 0: it has no code of its own
     bool is_left_out = false;               ///< it had, and the linker left it out
     std::vector<std::uint32_t> inlined_at;  ///< where copies of it begin

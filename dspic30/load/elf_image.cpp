@@ -155,6 +155,13 @@ class ElfReader {
 
 }  // namespace
 
+int source_of(const FirmwareFile& file, const DebugInfo::Function& function) {
+  const auto unit = file.code.unit_files.find(function.unit);
+  const bool is_known =
+      unit != file.code.unit_files.end() && function.file > 0 && function.file <= unit->second.size();
+  return is_known ? unit->second[function.file - 1] : -1;
+}
+
 std::string hal_of(const FirmwareFile& file) {
   const auto mark = file.marks.find(kHalSymbol);
   return mark == file.marks.end() ? "own" : mark->second ? "sim" : "dspic";

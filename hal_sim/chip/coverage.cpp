@@ -109,7 +109,7 @@ class Collector {
       const dspic::DebugInfo::Function* last = nullptr;
       for (const auto& f : file_.debug.info().functions)
         if (f.is_left_out && f.line <= rows[i].line && (!last || f.line > last->line) &&
-            dspic::ends_path(file_.code.files[rows[i].file], f.unit))
+            dspic::source_of(file_, f) == rows[i].file)
           last = &f;
       if (last) source->functions.emplace(last->name, Lcov::Function{last->line, 0});
     }

@@ -6,9 +6,10 @@
 //                        stack of calls --> report()
 //
 // A context's clock stands while another one interrupts it. So a function's cycles are those of its code and
-// of what it calls, from its first instruction to RETURN, without the handlers served meanwhile: the same as
-// twinpuck cycles estimates. A turn of the main loop is told in the robot's time, handlers included.
-// A wait is a round of a loop that changes nothing but one counter that is no pointer: polling, or a delay.
+// of what it calls, from its first instruction to RETURN, without the handlers served meanwhile: what its
+// code alone says (code_cycles.h), where that tells. A turn of the main loop is told in the robot's time,
+// handlers included. A wait is a round of a loop that changes nothing but one counter that is no pointer:
+// polling, or a delay.
 #pragma once
 #include <array>
 #include <cstdint>

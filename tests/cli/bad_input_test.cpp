@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"},
         Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "neither a file nor a controller"},
         Bad{"lint_of_nothing", "lint @/nowhere", 2, "neither a file nor a controller"},
-        Bad{"cycles_of_text", "cycles @/text.so", 2, "cost table"},
+        Bad{"cycles_of_text", "cycles @/text.so", 2, "got no program of the chip"},
         Bad{"negative_time", "run maze --for -1", 2, "--for"},
         Bad{"time_is_a_word", "run maze --for long", 2, "--for"},
         Bad{"bad_speed", "run maze --speed quick", 2, "expected max or a factor"},

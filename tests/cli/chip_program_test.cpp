@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck asm and dis, and a run of what they made: docs/chip-core.md's sample blinks.
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 
 #include "tests/cli/command.h"
 
@@ -197,12 +199,6 @@ TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
   EXPECT_EQ(exact.text.find("\n_T2Interrupt"), std::string::npos) << "the library's are not shown";
   EXPECT_NE(twinpuck("cycles '" + elf + "' --for 0.5 --all").text.find("\n_T2Interrupt (interrupt)"),
             std::string::npos);
-  const auto both = twinpuck("cycles obstacle --exact --for 0.5");
-  EXPECT_NE(both.text.find(
-                "\ncontrol_tick                 |        5        5        5 |        5        5        5"),
-            std::string::npos)
-      << both.text;
-
   const auto budget = [&](const std::string& text) {
     return twinpuck("cycles '" + elf + "' --for 0.5 --budgets '" + file("b.toml", text) + "'");
   };
@@ -234,6 +230,63 @@ TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
     EXPECT_NE(wrong.text.find(said), std::string::npos) << wrong.text;
   }
   EXPECT_EQ(twinpuck("cycles '" + elf + "' --budgets /nonexistent.toml").exit_code, 2);
+  // without a file
+  EXPECT_EQ(twinpuck("cycles '" + elf + "' --for 0.5 --budget control_tick=5 --budget drive=1000").exit_code,
+            0);
+  EXPECT_EQ(twinpuck("cycles '" + elf + "' --for 0.1 --budget control_tick=4").exit_code, 1);
+  EXPECT_EQ(twinpuck("cycles '" + elf + "' --budget control_tick=x").exit_code, 2);
+  EXPECT_EQ(twinpuck("cycles '" + elf + "' --budget absent=5").exit_code, 2);
+}
+
+// what was not called is held against its code
+TEST_F(ChipProgram, cycles_tells_what_code_takes_without_a_run) {
+  const std::string source = file("main.c",
+                                  "volatile int n;\n"
+                                  "void __attribute__((noinline)) never(void) {\n"
+                                  "  n = 1;\n"
+                                  "}\n"
+                                  "static void part(void) { n = 3; }\n"
+                                  "int main(void) {\n"
+                                  "  if (n == 5) never();\n"
+                                  "  part();\n"
+                                  "  while (1);\n"
+                                  "}\n");
+  const std::string cycles = "cycles '" + folder.string() + "' --for 0.1";
+  const auto said = twinpuck(cycles + " --lines");
+  ASSERT_EQ(said.exit_code, 0) << said.text;
+  // mov #1, w0; mov w0, n; return
+  EXPECT_TRUE(std::regex_search(said.text, std::regex("\nnever +0 +5 +[^ ]*main.c:2\n"))) << said.text;
+  EXPECT_TRUE(std::regex_search(said.text, std::regex("\npart +part of main: to measure it, declare it "
+                                                      "__attribute__\\(\\(noinline\\)\\) +[^ ]*main.c:5\n")))
+      << said.text;
+  EXPECT_TRUE(std::regex_search(said.text,
+                                std::regex("\nmain +runs on .*only a run tells: it loops \\(main.c:9\\)\n")))
+      << said.text;
+  EXPECT_TRUE(std::regex_search(said.text, std::regex("\n +4 +1 +3  \\}\n"))) << said.text;
+  const auto kept = twinpuck(cycles + " --budget never=5"), broken = twinpuck(cycles + " --budget never=4");
+  EXPECT_EQ(kept.exit_code, 0) << kept.text;
+  EXPECT_NE(kept.text.find("pass  never: max 5 of 5 cycles, by its code"), std::string::npos) << kept.text;
+  EXPECT_EQ(broken.exit_code, 1) << broken.text;
+}
+
+// a RETURN before an interrupt is a cycle shorter, else the code is right
+TEST_F(ChipProgram, what_code_tells_holds_in_runs) {
+  static const std::regex row(
+      R"(^(\S+)(?: \(interrupt\))? +(\d+) +\d+ +(\d+) +\S+ +\S+% +\d+ +\d+ +(\d+)(?: to (\d+))?  )");
+  constexpr int kShorterReturns = 2;
+  int held = 0;
+  for (const char* controller : {"asercom", "camera_follow", "u_obstacle"}) {
+    std::istringstream lines(twinpuck(std::string("cycles ") + controller + " --all --for 0.5").text);
+    std::smatch m;
+    for (std::string line; std::getline(lines, line);) {
+      if (!std::regex_search(line, m, row)) continue;
+      const int least = std::stoi(m[4]), most = m[5].matched ? std::stoi(m[5]) : least;
+      EXPECT_GE(std::stoi(m[2]), least - kShorterReturns) << line;
+      EXPECT_LE(std::stoi(m[3]), most) << line;
+      ++held;
+    }
+  }
+  EXPECT_GT(held, 40);
 }
 
 TEST_F(ChipProgram, exact_cycles_of_the_docs_are_those_of_the_chip) {

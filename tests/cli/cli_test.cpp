@@ -312,6 +312,15 @@ TEST_F(Command, cycles_lists_functions_with_microseconds) {
   EXPECT_EQ(s.exit_code, 0) << s.text;
   EXPECT_NE(s.text.find("main"), std::string::npos);
   EXPECT_NE(s.text.find("mean (us)"), std::string::npos);
+  // 5 cycles in the run, and by its code
+  const std::size_t row = s.text.find("\ncontrol_tick ");
+  ASSERT_NE(row, std::string::npos) << s.text;
+  std::istringstream in(s.text.substr(row));
+  std::string name, min, mean, max, us, load, calls, own, code;
+  in >> name >> min >> mean >> max >> us >> load >> calls >> own >> code;
+  for (const std::string& cycles : {min, mean, max, own, code}) EXPECT_EQ(cycles, "5") << s.text;
+  EXPECT_EQ(us, "0.34");
+  EXPECT_EQ(calls, "55");
 }
 
 TEST_F(Command, cycles_shows_the_programs_functions_and_the_librarys_when_asked) {

@@ -49,6 +49,31 @@ TEST_F(Fixture, a_variable_or_function_that_is_not_there_is_told_at_the_line_tha
   EXPECT_NE(robot.variable("there"), 0);
 }
 
+// -O1: what is called with a constant stands in its caller
+TEST_F(Fixture, cost_is_that_of_the_chip) {
+  const std::string program =
+      "volatile int n, there;\n__attribute__((noinline)) void once(void) { n = 1; }\n"
+      "__attribute__((noinline)) void either(void) { if (n) { there++; there++; } }\n"
+      "__attribute__((noinline)) void loop(int k) { while (k--) there++; }\n"
+      "int main(void) { once(); either(); loop(n + 2); while (1); }\n";
+  Robot& robot = add_robot_with_source(program, "one").measured();
+  Robot& other = add_robot_with_source(program, "other").at(0.3, 0);
+  run_for(0.01);
+  // mov #1, w0; mov w0, n; return
+  EXPECT_EQ(robot.cost_of("once").calls, 1);
+  EXPECT_EQ(robot.cost_of("once").max, 5);
+  EXPECT_EQ(other.cost_of("once").calls, 0);
+  EXPECT_EQ(other.cost_of("once").mean, 5);
+  EXPECT_GE(robot.cost_of("either").min, other.cost_of("either").min);
+  EXPECT_LE(robot.cost_of("either").max, other.cost_of("either").max);
+  EXPECT_LT(other.cost_of("either").min, other.cost_of("either").max);
+  EXPECT_EQ(other.cost_of("either").mean, -1);
+  EXPECT_EQ(robot.cost_of("loop").calls, 1);
+  EXPECT_GT(robot.cost_of("loop").mean, 10);
+  expect_here([&] { other.cost_of("loop"); }, __LINE__,
+              "only a run tells what it takes: it loops (main.c:4)");
+}
+
 TEST_F(Fixture, coverage_of_several_tests_is_added_up) {
   const std::string file = ::testing::TempDir() + "fixture-" + std::to_string(getpid()) + ".info";
   std::remove(file.c_str());

@@ -7,6 +7,9 @@
 #include <fstream>
 
 #include "hal_sim/board/part.h"
+#include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/chip/code_cycles.h"
+#include "hal_sim/chip/profile.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
@@ -75,11 +78,29 @@ double Robot::longest_wall_touch_s() const {
   return test_->twin().simulation().touches(index_).longest_wall_touch_s;
 }
 double Robot::cpu_load() const { return mind().runner()->cpu_load(); }
-cc::FunctionCycles Robot::cost_of(const std::string& function, Caller caller) const {
-  for (const auto& f : cc::function_costs(test_->twin().image_path(index_)))
-    if (f.name == function) return f;
-  ADD_FAILURE_AT(caller.file, caller.line) << "no function '" << function << "' in the firmware";
-  return {};
+Robot& Robot::measured() {
+  is_measured_ = true;
+  return *this;
+}
+Cost Robot::cost_of(const std::string& function, Caller caller) const {
+  if (profile_)
+    for (const auto& f : profile_->report().functions)
+      if (f.name == function && f.cycles.count > 0)
+        return {f.cycles.count, static_cast<double>(f.cycles.min), f.cycles.mean(),
+                static_cast<double>(f.cycles.max)};
+  const auto* const runner = dynamic_cast<const chip::ChipRunner*>(test_->twin().mind(index_).runner());
+  const auto* const known = runner ? runner->file().code.function_named(function) : nullptr;
+  if (!known) {
+    ADD_FAILURE_AT(caller.file, caller.line) << "no function '" << function << "' in the firmware";
+    return {};
+  }
+  const chip::PathCycles code = chip::CodeCycles(runner->file()).of_function(known->begin);
+  if (!code.is_known())
+    ADD_FAILURE_AT(caller.file, caller.line)
+        << function << "(): only a run tells what it takes: it " << code.why_not
+        << (profile_ ? "; it was not called" : "; call measured() of the robot before the first run");
+  const auto least = static_cast<double>(code.least), most = static_cast<double>(code.most);
+  return {0, least, code.least == code.most ? least : -1, most};
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
   const auto found = mind().runner()->read_variable(name, bytes);
@@ -210,6 +231,12 @@ void FirmwareTest::start(const Caller& caller) {
   if (!options.coverage.empty()) {
     coverage_ = twin::CoverageRun::open(*twin_, options.coverage, problems);
     if (!coverage_) throw std::runtime_error(where + "coverage:\n" + all_lines(problems));
+  }
+  for (auto& r : robots_) {
+    auto* const runner = r->is_measured_ ? dynamic_cast<chip::ChipRunner*>(r->mind().runner()) : nullptr;
+    if (!runner) continue;
+    r->profile_ = std::make_shared<chip::Profile>(runner->file(), runner->processor(), runner->device());
+    runner->watch_steps(r->profile_.get(), true);
   }
   for (auto& r : robots_) {
     Robot* robot = r.get();

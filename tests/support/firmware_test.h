@@ -18,10 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/cc/build.h"
 #include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
+
+namespace chip {
+class Profile;
+}
 
 namespace firmware_test {
 
@@ -37,6 +40,12 @@ struct Caller {
   }
 };
 
+/// What calls of a function took, in cycles.
+struct Cost {
+  std::int64_t calls = 0;             ///< 0: by its code alone
+  double min = 0, mean = 0, max = 0;  ///< mean: -1 when only the code is known and has several ways
+};
+
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {
  public:
@@ -46,6 +55,8 @@ class Robot {
   Robot& battery(double volts);
   /// UART 1 keeps the Bluetooth module, instead of a line that the test holds: for commands and links.
   Robot& bluetooth();
+  /// Calls of its functions are measured: for cost_of(). It runs instruction by instruction then.
+  Robot& measured();
   sim::RobotDesc& settings() { return desc_; }  ///< everything else a world file can say
 
   // --- while running
@@ -93,9 +104,9 @@ class Robot {
     return values;
   }
 
-  /// Estimated cycles of a function of the firmware, callees included; -1 fields: no bound known
-  /// (docs/cycles.md).
-  cc::FunctionCycles cost_of(const std::string& function, Caller caller = Caller::here()) const;
+  /// Exact cycles of a call of a function of the firmware on the chip, callees included, handlers not
+  /// (docs/profile.md): in the run so far, if the robot is measured() and has called it, else by its code.
+  Cost cost_of(const std::string& function, Caller caller = Caller::here()) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().runner()->traps(); }
   /// What board and chip have to say about the firmware so far (docs/diagnoses.md).
@@ -116,7 +127,8 @@ class Robot {
   sim::RobotDesc desc_;
   MemoryEnd* serial_[2] = {nullptr, nullptr};
   std::vector<std::string> console_;
-  bool keeps_bluetooth_ = false;
+  bool keeps_bluetooth_ = false, is_measured_ = false;
+  std::shared_ptr<chip::Profile> profile_;
 };
 
 class FirmwareTest : public ::testing::Test {
