@@ -162,8 +162,11 @@ void show(const CyclesArguments& a, const std::vector<FunctionRow>& rows) {
       a.seconds, a.world, "function", "min", "mean", "max", "mean (us)",
       fmt::format("load/{:g}ms", a.period_ms), "calls", "own", "by its code");
   int of_library = 0;
+  // a HEX file says of none whose it is
+  const bool all = a.with_library ||
+                   std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.place.empty(); });
   for (const FunctionRow& row : rows)
-    if (is_library_place(from_here(row.place)) && !a.with_library)
+    if (is_library_place(from_here(row.place)) && !all)
       ++of_library;
     else
       show_row(a, row);

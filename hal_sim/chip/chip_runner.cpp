@@ -331,6 +331,7 @@ void ChipRunner::run_watched(Cycle end) {
     const int nesting = device().nesting();
     const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
     if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
+      for (StepWatch* watch : watches_) watch->led_to_reset(step.pc);
       reset(*kind);
       continue;
     }

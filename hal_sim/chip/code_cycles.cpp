@@ -13,7 +13,7 @@ using dspic::Insn;
 
 namespace {
 
-constexpr int kDeepest = 2000;           // jumps and calls
+constexpr int kDeepest = 1000;           // jumps and calls
 constexpr Cycle kEntryOfHandler = 3;     // as Profile counts a service
 constexpr unsigned kTables = 0x8000;     // data addresses from here on read the flash
 constexpr std::uint16_t kCalled = 0xFF;  // W0 to W7 are anybody's behind a call

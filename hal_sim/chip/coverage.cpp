@@ -68,17 +68,24 @@ class Collector {
   }
 
   void branches() {
-    std::map<std::pair<std::uint16_t, int>, int> conditions;  // of a line so far
+    // of a line so far, in each function that holds a copy of it
+    std::map<std::tuple<std::uint16_t, int, std::uint32_t>, int> conditions;
     for (const auto& [address, word] : file_.words) {
       if (address >= dspic::kFlashEnd) break;
       const Row* const row = is_conditional(word) ? file_.code.line_at(address) : nullptr;
       Lcov::Source* const source = row ? source_of(*row) : nullptr;
       if (!source) continue;
-      const int block = conditions[{row->file, row->line}]++;
+      const auto* const function = file_.code.function_at(address);
+      const int block = conditions[{row->file, row->line, function ? function->begin : 0}]++;
       const std::uint64_t all = ran(address), jumped = counts_ ? counts_->jumped(address) : 0;
-      source->branches[{row->line, block, 0}] = {all > 0, all - jumped};
-      source->branches[{row->line, block, 1}] = {all > 0, jumped};
+      add(source->branches[{row->line, block, 0}], all > 0, all - jumped);
+      add(source->branches[{row->line, block, 1}], all > 0, jumped);
     }
+  }
+
+  static void add(Lcov::Ways& ways, bool is_known, std::uint64_t count) {
+    ways.is_known |= is_known;
+    ways.count += count;
   }
 
   void functions() {
@@ -87,7 +94,9 @@ class Collector {
       Lcov::Source* const source = row && row->address == f.begin ? source_of(*row) : nullptr;
       if (!source) continue;
       const int declared = line_of(f.name, f.begin);
-      source->functions[f.name] = {declared > 0 ? declared : row->line, ran(f.begin)};
+      Lcov::Function& function = source->functions[f.name];  // a static one of a header: several
+      function.line = declared > 0 ? declared : row->line;
+      function.calls += ran(f.begin);
     }
   }
 

@@ -13,6 +13,9 @@ class StepCounts final : public StepWatch {
  public:
   explicit StepCounts(const dspic::FirmwareFile& file);
   void after(const Step& step) override;
+  void led_to_reset(unsigned pc) override {
+    if (pc / 2 < ran_.size()) ++ran_[pc / 2];
+  }
 
   /// Of the instruction at a program address; all iterations of a REPEAT are one.
   std::uint64_t ran(std::uint32_t address) const { return count(ran_, address); }

@@ -72,7 +72,9 @@ std::unique_ptr<CoverageRun> CoverageRun::open(Twin& twin, const std::string& fi
   std::unique_ptr<CoverageRun> run(new CoverageRun(twin, file));
   run->look();
   if (run->counted_.empty()) {
-    problems.push_back("command line: --coverage: got no robot that runs code of the chip, expected one");
+    problems.push_back(
+        "command line: --coverage: got no robot that runs code of the chip, expected one; programs "
+        "for Webots do with --hal sim");
     return nullptr;
   }
   // what cannot be added is said before the run
@@ -89,7 +91,7 @@ std::unique_ptr<CoverageRun> CoverageRun::open(Twin& twin, const std::string& fi
 
 CoverageRun::~CoverageRun() {
   for (const auto& [robot, counted] : now_)
-    if (twin_.mind(robot).runner() == counted->watched)
+    if (counted && twin_.mind(robot).runner() == counted->watched)
       counted->watched->watch_steps(&counted->counts, false);
 }
 
@@ -97,10 +99,12 @@ void CoverageRun::look() {
   for (int robot = 0; robot < twin_.robots(); ++robot) {
     auto* const runner = dynamic_cast<chip::ChipRunner*>(twin_.mind(robot).runner());
     Counted*& counted = now_[robot];
-    // another image may have been flashed
-    if (!runner || (counted && counted->watched == runner && counted->image == runner->image())) continue;
-    counted_.push_back(std::make_unique<Counted>(*runner));
-    counted = counted_.back().get();
+    if (!runner) continue;
+    // another image may have been flashed, or the same one into another runner
+    if (!counted || counted->watched != runner || counted->image != runner->image()) {
+      counted_.push_back(std::make_unique<Counted>(*runner));
+      counted = counted_.back().get();
+    }
     runner->watch_steps(&counted->counts, true);
   }
 }

@@ -49,6 +49,18 @@ __T1Interrupt: bclr IFS0, #3
   EXPECT_EQ(counts.ran(0x17000), 0u);
 }
 
+TEST_F(StepCountsTest, an_instruction_that_resets_has_run) {
+  const std::string text =
+      "__reset: mov #__SP_init, w15\n  mov #5000, w0\nwait: dec w0, w0\n  bra nz, wait\nend: reset\n";
+  add_robot(hex(text));
+  const dspic::FirmwareFile file = with_labels(text);
+  chip::StepCounts counts(file);
+  runner().watch_steps(&counts, true);
+  run_for(0.01);
+  runner().watch_steps(&counts, false);
+  EXPECT_GE(counts.ran(file.functions.at("end")), 2u);
+}
+
 TEST(lcov, text_and_back) {
   Lcov lcov, again;
   auto& source = lcov.sources["/a/main.c"];

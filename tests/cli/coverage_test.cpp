@@ -150,6 +150,27 @@ TEST_F(Coverage, robots_are_added) {
   expect(records("b"), {"DA:3,1", "FNDA:1,main", "FNF:1"});
 }
 
+// a header's function, compiled with two files
+TEST_F(Coverage, copies_are_added) {
+  write("a/shared.h", "static int most(int a, int b) {\n  if (a > b)\n    return a;\n  return b;\n}\n");
+  write("a/other.c", "#include \"shared.h\"\nint other(int a) { return most(a, 5); }\n");
+  write("a/main.c",
+        "#include \"shared.h\"\nint other(int a);\nvolatile int n;\n"
+        "int main(void) {\n  n = most(4, 3) + other(7) + other(2);\n  for (;;);\n}\n");
+  const Said s = run("*=" + path("a"));
+  ASSERT_EQ(s.exit_code, 0) << s.text;
+  expect(records(), {"FNDA:3,most", "FNDA:2,other", "DA:2,3", "DA:3,2"});
+  const std::string info = read(path("c.info"));
+  EXPECT_NE(info.find("BRF:2\nBRH:2\n"), std::string::npos) << info;
+}
+
+TEST_F(Coverage, a_robot_that_has_no_code_of_the_chip_is_none) {
+  write("a/main.py", "from controller import Robot\nrobot = Robot()\nwhile robot.step(64) != -1:\n  pass\n");
+  const Said s = run("*=" + path("a/main.py"));
+  EXPECT_EQ(s.exit_code, 2) << s.text;
+  EXPECT_NE(s.text.find("got no robot that runs code of the chip"), std::string::npos) << s.text;
+}
+
 TEST_F(Coverage, of_an_image_is_what_its_lines_say) {
   write("a/main.c",
         "volatile int n = 10, sum;\nint main(void) {\n  int i, end = n;\n  for (i = 0; i < end; i++)\n"
