@@ -194,13 +194,13 @@ static void format_into(struct sink *s, const char *format, va_list given)
   va_list list;
   va_copy(list, given);
   for (; *format; format++) {
-    struct spec f = {0, 0, 0, 0, 0, 0, -1};
-    int longs = 0;
-    const char *prefix = "";
     if (*format != '%') {
       put(s, *format);
       continue;
     }
+    struct spec f = {0, 0, 0, 0, 0, 0, -1};
+    int longs = 0;
+    const char *prefix = "";
     for (format++;; format++) {
       if (*format == '-') f.left = 1;
       else if (*format == '+') f.plus = 1;
