@@ -112,6 +112,8 @@ class CodeTable {
   bool tells(const Decoded* d) const { return beside_[index_of(d)].tells; }
   /// The routine known by heart that begins at a program address; null: none.
   const KnownRoutine* known_at(unsigned address) const { return known_ ? known_->find(address) : nullptr; }
+  /// Handlers of interrupts that are known by heart; null: none.
+  KnownHandler known_handlers() const { return known_ ? known_->handlers() : nullptr; }
   /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as
   /// Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);

@@ -117,6 +117,8 @@ class Cpu final : public SfrOwner {
   /// What begins at a program address; null: no known routine.
   const KnownRoutine* known_at(unsigned address) const { return table_->known_at(address); }
 
+  KnownHandler known_handlers() const { return table_->known_handlers(); }
+
   // --- flow
   unsigned address_of(const Decoded* d) const {
     if constexpr (kIsTranslated) return 2 * static_cast<unsigned>(d - code_);

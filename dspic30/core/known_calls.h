@@ -31,6 +31,9 @@ class KnownCalls {
     }
   }
   std::size_t size() const { return count_; }
+  /// Handlers that are answered, too; null: none.
+  void add_handlers(KnownHandler handlers) { handlers_ = handlers; }
+  KnownHandler handlers() const { return handlers_; }
 
   /// W registers that count as written once a known routine has been called: the ones that C's callees use
   /// freely.
@@ -50,6 +53,7 @@ class KnownCalls {
 
   std::vector<Place> places_;  // open addressing, a power of two, half empty
   std::size_t count_ = 0;
+  KnownHandler handlers_ = nullptr;
 };
 
 /// The course has come to `d`, where `routine` begins, and its return address is on top of the stack. Where

@@ -152,6 +152,9 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       continue;
     }
     if (outlook.vector != kNoVector) {
+      if (const KnownHandler known = cpu.known_handlers();
+          known && outlook.vector >= kFirstIrqVector && known(cpu, outlook.vector, until))
+        continue;
       waits_->cut(cpu);
       enter_interrupt(outlook.vector);
       if (cpu.host) continue;  // its level may hold handlers off

@@ -28,9 +28,17 @@ class Uart final : public SfrOwner, public EventOwner {
   void receive(const UartFrame& frame, Cycle now);
   std::int64_t overruns() const { return overruns_; }
   std::uint64_t state_hash() const;
-  static constexpr std::uint16_t kOn = sfr_bits("U1MODE", "UARTEN"), kSends = sfr_bits("U1STA", "UTXEN");
+  static constexpr std::uint16_t kOn = sfr_bits("U1MODE", "UARTEN"), kSends = sfr_bits("U1STA", "UTXEN"),
+                                 kOverrun = sfr_bits("U1STA", "OERR");
   bool enabled() const { return (mode_ & kOn) != 0; }
   std::uint16_t brg() const { return brg_; }
+  bool transmits() const { return enabled() && (sta_ & kSends); }
+  /// When the word that is being sent is over; in the past: none is.
+  Cycle busy_until() const { return break_since_ < 0 ? busy_until_ : 0; }
+  /// UTXBF is 0; URXDA; OERR.
+  bool has_room() const { return !out_.full(); }
+  bool has_received() const { return in_.count > 0; }
+  bool has_overrun() const { return (sta_ & kOverrun) != 0; }
 
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
@@ -59,7 +67,6 @@ class Uart final : public SfrOwner, public EventOwner {
   };
   enum : int { Transmit, Receive };
 
-  bool transmits() const { return enabled() && (sta_ & kSends); }
   Cycle sixteenth() const { return Cycle{brg_} + 1; }
   Cycle bit() const { return 16 * sixteenth(); }
   Cycle align(Cycle at) const;

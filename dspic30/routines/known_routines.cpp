@@ -60,6 +60,7 @@ std::shared_ptr<const KnownCalls> known_calls(const std::map<std::string, std::u
   auto calls = std::make_shared<KnownCalls>();
   for (const auto& [name, address] : functions)
     if (const KnownRoutine* const routine = find_known(name, program, address)) calls->add(address, *routine);
+  calls->add_handlers(uart_handler());
   return calls;
 }
 

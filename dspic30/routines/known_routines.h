@@ -27,6 +27,9 @@ const std::vector<KnownRoutine>& memory_routines();
 /// Of hal_dspic/I2C. Their sums hide a variable.
 const std::vector<KnownRoutine>& i2c_routines();
 
+/// The handlers of hal_dspic/uart.
+KnownHandler uart_handler();
+
 std::vector<const KnownRoutine*> known_routines();
 
 /// What this code is; null: no known routine. `name`: its symbol, as in FirmwareFile::functions; empty: the
