@@ -25,9 +25,9 @@ using KnownFunction = KnownAnswer (*)(std::uint64_t w0_to_w3);
 /// its end.
 using KnownAction = int (*)(Cpu& cpu, std::int64_t limit);
 
-/// Of an interrupt's handler, whose vector is about to be entered, at Cpu::now; clocks are settled. True: it was
-/// entered and left as the core does, up to behind its RETFIE, all within run()'s `until`. False: nothing was
-/// done, and it runs.
+/// Of an interrupt's handler, whose vector is about to be entered, at Cpu::now; clocks are settled. True: it
+/// was entered and left as the core does, up to behind its RETFIE, all within run()'s `until`. False: nothing
+/// was done, and it runs.
 using KnownHandler = bool (*)(Cpu& cpu, int vector, std::int64_t until);
 
 struct KnownRoutine {

@@ -22,7 +22,7 @@ using namespace forms;
 
 constexpr unsigned kUartFlags = sfr("IFS0");
 // longer than either handler may take, with what the window into the flash costs
-constexpr Cycle kLongestHandler = 120;
+constexpr Cycle kLongestHandler = 92;
 // how close a handler known by heart may come to its beginning and its end
 constexpr Cycle kMargin = 4;
 // what the handler pays more for a byte that lies in the flash

@@ -103,6 +103,62 @@ TEST_P(HalWindows, do_not_matter_to_ten_robots) {
   expect_same(whole, course_of(GetParam(), kShort, kRobots, [] { return Cycle{1}; }), "one cycle");
 }
 
+// with agenda and scan beside it, which the UART's handlers hold off
+TEST(UartUnderHalSim, is_the_same_by_heart_and_as_it_runs) {
+  const sim::WorldDesc world = hal_test::world_with("uart-by-heart", R"(
+#include <stdio.h>
+#include "motor_led/e_init_port.h"
+#include "motor_led/advance_one_timer/e_motors.h"
+#include "motor_led/advance_one_timer/e_agenda.h"
+#include "a_d/advance_ad_scan/e_ad_conv.h"
+#include "uart/e_uart_char.h"
+static volatile int due;
+static void tick(void) { due = 1; }
+static char text[64];
+int main(void) {
+  int n = 0;
+  e_init_port();
+  e_init_motors();
+  e_init_uart1();
+  e_init_ad_scan(ALL_ADC);
+  e_activate_agenda(tick, 200);
+  e_start_agendas_processing();
+  e_set_speed_left(400);
+  for (;;) {
+    while (!due) continue;
+    due = 0;
+    sprintf(text, "%05d 34567890123456789012345678901234\r\n", n++);
+    e_send_uart1_char(text, 40);
+    while (e_uart1_sending()) continue;
+  }
+}
+)");
+  std::string text[2];
+  std::uint64_t hash[2] = {};
+  Cycle idle[2] = {};
+  for (const int knows : {0, 1}) {
+    twin::Options options;
+    options.hal = "sim";
+    std::vector<std::string> problems;
+    const auto twin = twin::Twin::open(world, options, problems);
+    for (const std::string& p : problems) ADD_FAILURE() << p;
+    if (!twin) return;
+    const auto line = std::make_shared<hal_test::MemoryEnd>();
+    twin->mind(0).board().uart(1).connect(line);
+    auto& runner = dynamic_cast<chip::ChipRunner&>(*twin->mind(0).runner());
+    if (!knows) runner.know_nothing();
+    while (sim::to_seconds(twin->simulation().now()) < 3) twin->simulation().step();
+    text[knows] = line->text();
+    hash[knows] = runner.hash();
+    idle[knows] = runner.idle_cycles();
+  }
+  EXPECT_GT(text[0].size(), 3000u);
+  EXPECT_EQ(text[1], text[0]);
+  EXPECT_EQ(hash[1], hash[0]);  // each word on the line at its cycle, each step of the motor
+  // waits are found by looks, whose instants routines known by heart move (docs/limits.md)
+  EXPECT_NEAR(static_cast<double>(idle[1]), static_cast<double>(idle[0]), 1000);
+}
+
 INSTANTIATE_TEST_SUITE_P(Of, HalWindows, ::testing::Values("sim", "dspic"),
                          [](const auto& info) { return std::string(info.param); });
 
