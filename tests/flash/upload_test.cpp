@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "dspic30/memory/program_memory.h"
+#include "hal_sim/cc/build.h"
 #include "tests/chip/chip_fixture.h"
 
 namespace {
