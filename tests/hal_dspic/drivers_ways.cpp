@@ -9,18 +9,18 @@ namespace {
 
 using firmware_test::Robot;
 
-class Ways : public firmware_test::FirmwareTest, public ::testing::WithParamInterface<const char*> {
+class BothHals : public firmware_test::FirmwareTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  Ways() { options.hal = GetParam(); }
+  BothHals() { options.hal = GetParam(); }
 };
 
-INSTANTIATE_TEST_SUITE_P(Drivers, Ways, ::testing::Values("sim", "dspic"),
+INSTANTIATE_TEST_SUITE_P(Drivers, BothHals, ::testing::Values("sim", "dspic"),
                          [](const auto& p) { return std::string(p.param); });
 
 // --- agendas and motors ------------------------------------------------------------------------------------
 
 // 1475 cycles a tick: 9996.7 a second, so 99 or 100 calls of a cycle of 100 ticks in a second
-TEST_P(Ways, agendas_tick_every_1475_cycles) {
+TEST_P(BothHals, agendas_tick_every_1475_cycles) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -47,7 +47,7 @@ int main(void) {
 }
 
 // An agenda may end itself and its neighbour from inside; both are gone at once
-TEST_P(Ways, agendas_edit_the_list_from_inside) {
+TEST_P(BothHals, agendas_edit_the_list_from_inside) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -75,7 +75,7 @@ int main(void) {
 }
 
 // 300 steps/s are agendas of 33 ticks: 9996.7 / 33 = 302.9 steps a second; 1000 are 10 ticks: 999.7
-TEST_P(Ways, agenda_motors_step_at_the_librarys_rates) {
+TEST_P(BothHals, agenda_motors_step_at_the_librarys_rates) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_agenda.h>
@@ -101,7 +101,7 @@ int main(void) {
 }
 
 // 57600 / 500 = 115: (115 + 1) x 256 cycles, 496.6 steps/s
-TEST_P(Ways, timer_motors_step_at_their_periods) {
+TEST_P(BothHals, timer_motors_step_at_their_periods) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_motors.h>
 int main(void) {
@@ -121,7 +121,7 @@ int main(void) {
 
 // --- LEDs, selector
 
-TEST_P(Ways, leds_and_selector) {
+TEST_P(BothHals, leds_and_selector) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_led.h>
@@ -145,7 +145,7 @@ int main(void) {
 
 // --- serial lines
 
-TEST_P(Ways, serial_lines_echo_what_they_get) {
+TEST_P(BothHals, serial_lines_echo_what_they_get) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <uart/e_uart_char.h>
@@ -173,7 +173,7 @@ int main(void) {
 // --- the scan
 
 // 65 frames of 965 cycles: an accelerometer sample every 4.26 ms, 49 of them before e_init_ad_scan returns
-TEST_P(Ways, scan_fills_its_arrays_at_the_librarys_rate) {
+TEST_P(BothHals, scan_fills_its_arrays_at_the_librarys_rate) {
   wall(0.05, -0.2, 0.05, 0.2);  // a centimetre before it
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
@@ -202,7 +202,7 @@ int main(void) {
 )");
   for (int i = 0; i < 100 && !robot.variable("started"); ++i) run_for(0.01);
   run_for(1.0);
-  // the library reckons 0.061 ms a frame; 1 s has 15,280 of 965 cycles. The register way's estimate is 0.7 %
+  // the library reckons 0.061 ms a frame; 1 s has 15,280 of 965 cycles. What it was estimated at is 0.7 %
   // slower
   EXPECT_NEAR(robot.variable<float>("elapsed"), 932.1, 9);
   const auto prox = robot.variables("prox", 8);
@@ -216,7 +216,7 @@ int main(void) {
   expect_no_traps();
 }
 
-TEST_P(Ways, basic_proximity_sees_the_wall) {
+TEST_P(BothHals, basic_proximity_sees_the_wall) {
   wall(0.05, -0.2, 0.05, 0.2);
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
@@ -239,7 +239,7 @@ int main(void) {
 
 // --- camera, codec, EEPROM, transform
 
-TEST_P(Ways, camera_takes_a_picture) {
+TEST_P(BothHals, camera_takes_a_picture) {
   wall(0.2, -0.3, 0.2, 0, {0, 0, 0});
   wall(0.2, 0, 0.2, 0.3, {1, 1, 1});
   Robot& robot = add_robot_with_source(R"(
@@ -273,7 +273,7 @@ int main(void) {
 
 // Two bytes a pixel: a line that is read a byte too early or late has its colours' halves exchanged. A red
 // wall is RRRRRGGG GGGBBBBB with more red than anything else, in every pixel.
-TEST_P(Ways, camera_takes_colours_in_step_with_the_bytes) {
+TEST_P(BothHals, camera_takes_colours_in_step_with_the_bytes) {
   wall(0.15, -0.4, 0.15, 0.4, {0.9, 0.05, 0.05});
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
@@ -306,7 +306,7 @@ int main(void) {
 }
 
 // 1800 interrupts a second of four samples: 2112 samples last 293 ms
-TEST_P(Ways, codec_plays_a_sound_to_its_end) {
+TEST_P(BothHals, codec_plays_a_sound_to_its_end) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <codec/e_sound.h>
@@ -331,7 +331,7 @@ int main(void) {
   expect_no_traps();
 }
 
-TEST_P(Ways, eeprom_keeps_what_is_written) {
+TEST_P(BothHals, eeprom_keeps_what_is_written) {
   Robot& robot = add_robot_with_source(R"(
 #include "DataEEPROM.h"
 int before, erased, after, row[16], back[16], bad;
@@ -359,7 +359,7 @@ int main(void) {
 }
 
 // An impulse of 0.25 at 0 transforms to 0.25 / 256 at every frequency: 8192 / 256 = 32
-TEST_P(Ways, transform_of_an_impulse_is_flat) {
+TEST_P(BothHals, transform_of_an_impulse_is_flat) {
   Robot& robot = add_robot_with_source(R"(
 #include <fft/e_fft.h>
 extern fractcomplex sigCmpx[FFT_BLOCK_LENGTH];
@@ -385,7 +385,7 @@ int main(void) {
 
 // on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7; noise of some
 // counts
-TEST_P(Ways, basic_converter_reads_single_channels) {
+TEST_P(BothHals, basic_converter_reads_single_channels) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <a_d/e_ad_conv.h>
@@ -407,7 +407,7 @@ int main(void) {
 }
 
 // 1474560 cycles are 0.1 s; the port's initialisation takes 21 ms
-TEST_P(Ways, delays_last_their_cycles) {
+TEST_P(BothHals, delays_last_their_cycles) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>
 #include <motor_led/e_epuck_ports.h>

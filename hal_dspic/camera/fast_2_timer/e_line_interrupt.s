@@ -3,7 +3,7 @@
 ; _poxxxx_line_conf says (1 take, 0 skip, 2 end of line). Numbers at the right are cycles from the first instruction.
 ; Shadow registers hold W0 to W3, so no other handler may use them (priority 7 and _ISRFAST). No REPEAT, which would
 ; need RCOUNT saved: the interrupted code may be in the middle of a division.
-; C twin for the register way: e_timers.c. Instants: camera_line.h.
+; Instants: camera_line.h.
 
         .equ    CAMERA_BYTE, 0x02D5     ; high byte of PORTD
         .equ    TIMER4, 0x0114          ; TMR4

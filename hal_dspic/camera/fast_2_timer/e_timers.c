@@ -3,8 +3,7 @@
  *
  *   VSYNC -> timer 5 -> interrupt: timer 4 on        HREF -> timer 4 -> interrupt: copies one line's bytes
  *
- * A byte of a line is on the pins for 8 cycles, so the copying is counted by cycles: e_line_interrupt.s. Its C twin is
- * here, for the register way: it takes each byte at the instant at which the assembler would.
+ * A byte of a line is on the pins for 8 cycles, so the copying is counted by cycles: e_line_interrupt.s.
  * Priority 6: nothing but the camera's own interrupts may delay a line.
  * Source: [lib: camera/fast_2_timer/e_timers.c, e_interrupt.s], facts restated.
  */
@@ -36,48 +35,11 @@ void __attribute__((__interrupt__, __auto_psv__)) _T5Interrupt(void) {
   T4CONbits.TON = 1;
 }
 
-#ifndef __TWINPUCK_PC__
-
 /* The handler has an archive member of its own, which a linker takes only when something names it: vectors do not, and
  * _T4Interrupt is the slow camera's handler, too. */
 extern void twinpuck_line_handler(void);
 extern void (*const twinpuck_line_interrupt)(void);
 void (*const twinpuck_line_interrupt)(void) = twinpuck_line_handler;
-
-#else
-
-/* the clock of the register way, and a wait for it */
-long long tp_now(void);
-void tp_wait_until(long long cycle);
-void tp_image_copy_line(void);
-
-#define TWIN_ENTRY_CYCLES 5 /* that the C handler has taken by then and the assembler has not */
-
-/* names with tp_image_ are not charged: the time that this takes is the waits' */
-void tp_image_copy_line(void) {
-  long long at = tp_now() + LINE_FIRST_SAMPLE - TWIN_ENTRY_CYCLES;
-  const char *mask = _poxxxx_line_conf;
-  char *to = _poxxxx_buffer;
-  for (; *mask != END_OF_LINE; mask++, at += LINE_BYTE_CYCLES) {
-    if (*mask != TAKE) continue;
-    tp_wait_until(at);
-    *to++ = (char)(PORTD >> 8);
-  }
-  tp_wait_until(at);
-  _poxxxx_buffer = to;
-}
-
-void __attribute__((__interrupt__, __auto_psv__)) _T4Interrupt(void) {
-  IFS1bits.T4IF = 0;
-  TMR4 = 0;
-  tp_image_copy_line();
-  if (++_poxxxx_current_row == _poxxxx_row) {
-    T4CONbits.TON = 0;
-    _poxxxx_img_ready = 1;
-  }
-}
-
-#endif
 
 void e_poxxxx_launch_capture(char *buf) {
   T4CON = COUNT_EDGES;
