@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "dspic30/core/memory_check.h"
 #include "dspic30/core/waits.h"
 #include "dspic30/memory/hex.h"
 #include "dspic30/memory/host_places.h"
@@ -77,6 +78,12 @@ void Cpu::have_own_store(const std::vector<std::uint32_t>& told, std::shared_ptr
   is_own_ = true;
 }
 
+void Cpu::check_memory(MemoryCheck* check) {
+  memory_check = check;
+  watch_round(round_memory);
+  code_is_stale = true;
+}
+
 // while registers are still being written, it runs on the table for all of them, each instruction looked at
 void Cpu::choose_code() {
   if (program.version() != code_version_) {
@@ -88,7 +95,8 @@ void Cpu::choose_code() {
   const unsigned so_far = written & kAllWritten;
   const bool lasts = hot == 0 || looked_at_ >= kLongestLook;
   std::shared_ptr<CodeTable> table = store_->table({so_far, reads, writes}, lasts);
-  looks_at_each_ = !table && so_far != kAllWritten;
+  looks_at_each_ = (!table && so_far != kAllWritten) || memory_check;
+  if (memory_check) looked_at_ = 0;
   run_on(table ? table : store_->table({kAllWritten, reads, writes}, true));
 }
 
@@ -110,8 +118,10 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
 
 // an address in a register that was never written resets the chip
 Run Cpu::looked_at(const Decoded* d) {
-  if (address_of_host_place(d)) return plain(d);
-  if (!is_decoded(d)) decode(d);
+  const bool is_of_host = address_of_host_place(d) != 0;
+  if (!is_of_host && !is_decoded(d)) decode(d);
+  if (memory_check) memory_check->begins(*this, d);
+  if (is_of_host) return plain(d);
   const WordRegisters& registers = registers_of(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
@@ -159,6 +169,7 @@ void Cpu::reset() {
   written = 0;
   stack_most = kNoLimit;
   window_words = nullptr;
+  if (memory_check) memory_check->restart();
   splim = tblpag = psvpag = rcount = modcon = xbrev = 0;
   corcon = kCorconAtReset;
   modulo = {0, 1, 0, 1};
@@ -591,7 +602,8 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
     return read_served(ea, bits, t);
   }
   if (ea - kRamStart < kRamBytes) {
-    round_memory->note_read(ram.data(), ea - kRamStart);
+    if (memory_check) memory_check->reads(*this, ea, bits);
+    if (watching) round_memory->note_read(ram.data(), ea - kRamStart);
     return bits == 16 ? load(ea - kRamStart) : ram[ea - kRamStart];
   }
   if (ea < kDisicnt) {
@@ -653,7 +665,8 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
                 static_cast<std::uint16_t>(bits == 16 ? 0xFFFFu : 0xFFu << shift), t);
     return;
   } else if (i < kRamBytes) {
-    round_memory->note_write(ram.data(), i, bits == 16);
+    if (memory_check) memory_check->writes(*this, ea, bits);
+    if (watching) round_memory->note_write(ram.data(), i, bits == 16);
     bits == 16 ? store(i, value) : static_cast<void>(ram[i] = static_cast<std::uint8_t>(value));
     return;
   }
@@ -664,6 +677,7 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
       window_words = nullptr;
       return;
     }
+  if (memory_check) memory_check->writes(*this, ea, bits);
   const Cycle t = true_now() + at->lead;
   if (ea >= kSfrBytes) return trap(Trap::AddressError);
   hurry_to(parts.write(ea, static_cast<std::uint16_t>(value), bits, t));

@@ -82,6 +82,7 @@ inline unsigned address_of_host_place(const Decoded* d) {
   return bytes < sizeof host_places ? kHostStart + 2 * static_cast<unsigned>(bytes / sizeof(Decoded)) : 0;
 }
 
+class MemoryCheck;  // memory_check.h
 class Waits;
 
 class Cpu final : public SfrOwner {
@@ -114,6 +115,9 @@ class Cpu final : public SfrOwner {
     }
     code_is_stale = true;
   }
+  /// RAM is looked after from now on, before anything has run: each instruction is interpreted. Nothing but
+  /// the PC's time depends on it.
+  void check_memory(MemoryCheck* check);
   /// What begins at a program address; null: no known routine.
   const KnownRoutine* known_at(unsigned address) const { return table_->known_at(address); }
 
@@ -474,7 +478,7 @@ class Cpu final : public SfrOwner {
   void watch_round(RoundMemory* memory) {
     round_memory = memory;
     watching = memory != nullptr;
-    plain_bytes = memory ? 0 : kRamEnd - plain_start;
+    plain_bytes = memory || memory_check ? 0 : kRamEnd - plain_start;
   }
   /// What runs where a wait is known to begin, when it is not looked for.
   Run beside_wait(const Decoded* d) const { return table_->beside_wait(d); }
@@ -656,6 +660,7 @@ class Cpu final : public SfrOwner {
   std::function<void()> follow_host;
   KnownWaits known_waits;
   KnownCounts known_counts;
+  MemoryCheck* memory_check = nullptr;  ///< null: nobody looks after RAM
   std::array<std::uint8_t, kRamBytes> ram{};
 };
 

@@ -435,6 +435,7 @@ void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addre
 }
 void Processor::tell_course(CourseWatch* watch) { cpu_->course = watch; }
 void Processor::know(std::shared_ptr<const KnownCalls> calls) { cpu_->know(std::move(calls)); }
+void Processor::check_memory(MemoryCheck* check) { cpu_->check_memory(check); }
 void Processor::translate_all() {
   cpu_->hot = 0;
   cpu_->forget_code();

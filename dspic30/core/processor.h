@@ -23,6 +23,7 @@ class CourseWatch;
 class Cpu;
 class HostCalls;
 class KnownCalls;  // known_calls.h
+class MemoryCheck;  // memory_check.h
 class ProgramWatch;
 struct TrapRecord;  // cpu.h
 class Translator;
@@ -77,6 +78,11 @@ class Processor {
   /// Routines of the program that are answered by heart from now on; null: none. Nothing but the PC's time
   /// depends on it.
   void know(std::shared_ptr<const KnownCalls> calls);
+  /// Whoever looks after RAM, before anything has run; it outlives this. Then all is interpreted. Nothing but
+  /// the PC's time depends on it.
+  void check_memory(MemoryCheck* check);
+  /// The core, for MemoryCheck.
+  const Cpu& cpu() const { return *cpu_; }
   /// Translates whatever is jumped to, at once: for tests.
   void translate_all();
   /// Places where translated code begins.

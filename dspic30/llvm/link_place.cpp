@@ -11,6 +11,7 @@
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/link.h"
 #include "dspic30/llvm/memory_spaces.h"
+#include "dspic30/memory/host_places.h"
 #include "dspic30/memory/program_memory.h"
 #include "dspic30/periph/vectors.h"
 
@@ -21,6 +22,7 @@ namespace {
 using namespace llvm::dspic_elf;
 
 constexpr std::uint32_t kRamBegin = 0x0800, kRamEnd = 0x2800, kYBegin = 0x1800, kNearEnd = 0x2000;
+constexpr std::uint32_t kLeastStack = 1024;  // bytes that gaps leave
 constexpr std::uint32_t kCodeBegin = 0x0100, kPageUnits = 0x8000, kEepromBegin = 0x7FF000,
                         kEepromEnd = 0x800000;
 
@@ -137,11 +139,12 @@ std::set<const Section*> place_registers(Program& program, Space& ram) {
   return placed;
 }
 
-/// `y_last`: what must lie in Y memory is at its end, not its beginning.
-void place_ram(Program& program, const Options& options, bool y_last) {
+/// `y_last`: what must lie in Y memory is at its end, not its beginning. `gap`: bytes behind each variable.
+void place_ram(Program& program, const Options& options, bool y_last, unsigned gap) {
   Space ram(kRamBegin, kRamEnd);
   const auto place = [&](Section& s, Range r, std::uint32_t align) {
     const auto take = y_last && (s.flags & kYSpace) ? &Space::take_last : &Space::take;
+    if (gap && (ram.*take)(s.size + gap, align, r.least, r.most, s.address)) return;
     if ((ram.*take)(s.size, align, r.least, r.most, s.address)) return;
     program.errors.push_back("RAM: no room for " + readable(s) + ", " + std::to_string(s.size) +
                              " bytes in " + hex(r.least) + " to " + hex(r.most - 1) +
@@ -179,18 +182,31 @@ void place_ram(Program& program, const Options& options, bool y_last) {
 }
 
 /// A large array may need the room on both sides of where Y memory begins.
-void place_ram(Program& program, const Options& options) {
+void place_ram(Program& program, const Options& options, unsigned gap) {
   const std::size_t errors = program.errors.size();
   const auto bytes = program.ram_bytes;
-  place_ram(program, options, false);
+  place_ram(program, options, false, gap);
   if (program.errors.size() == errors) return;
   std::vector<std::string> first(program.errors.begin() + std::ptrdiff_t(errors), program.errors.end());
   program.errors.resize(errors);
   program.ram_bytes = bytes;
-  place_ram(program, options, true);
+  place_ram(program, options, true, gap);
   if (program.errors.size() == errors) return;
   program.errors.resize(errors);
   program.errors.insert(program.errors.end(), first.begin(), first.end());
+}
+
+/// Gaps are left out where they take the room of variables, or of the stack.
+void place_ram(Program& program, const Options& options) {
+  const std::size_t errors = program.errors.size();
+  const auto bytes = program.ram_bytes;
+  if (options.gap_bytes > 0) {
+    place_ram(program, options, options.gap_bytes);
+    if (program.errors.size() == errors && program.stack_end - program.stack_begin >= kLeastStack) return;
+    program.errors.resize(errors);
+    program.ram_bytes = bytes;
+  }
+  place_ram(program, options, 0u);
 }
 
 /// Data that must be set before main(): a table entry each (fill_dinit() in link_fill.cpp).
@@ -364,6 +380,14 @@ void place_all(Program& program, const Options& options) {
   place_flash(program);
   place_rest(program);
   program.define("__SP_init", program.stack_begin);
+  if (options.gap_bytes > 0) {
+    program.define(kCheckedSymbol, program.stack_begin);
+    if (const auto heap = program.globals.find("__heap"), end = program.globals.find("__eheap");
+        heap != program.globals.end() && end != program.globals.end()) {
+      program.define(kCheckedHeapSymbol, heap->second->value);
+      program.define(kCheckedHeapEndSymbol, end->second->value);
+    }
+  }
   program.define("__SPLIM_init", program.stack_end - 2);
   program.define("__dinit_page", program.dinit >> 16);
   program.define("__dinit_offset", program.dinit & 0xFFFF);

@@ -24,5 +24,15 @@ inline constexpr const char* kHalSymbol = "_tp_hal";
 inline constexpr const char* kHostTableSymbol = "_tp_host_table";
 /// Another one: the level that the library was compiled at: 0 to 2 of -O0 to -O2, 3 of -Os.
 inline constexpr const char* kLibraryLevelSymbol = "_tp_library_level";
+/// Another one, of an image whose RAM is to be looked after: where its stack begins.
+inline constexpr const char* kCheckedSymbol = "_tp_checked";
+inline constexpr const char* kCheckedHeapSymbol = "_tp_checked_heap";  ///< where its heap begins
+inline constexpr const char* kCheckedHeapEndSymbol = "_tp_checked_heap_end";
+/// A function that such an image calls, only to be heard: a local variable comes into being (its address, its
+/// bytes, its name), with kLocalGap bytes on both sides that are nobody's. What else it calls so begins with
+/// kCheckedPrefix: one of clang's checks has failed.
+inline constexpr const char* kLocalFunction = "tp_checked_local";
+inline constexpr const char* kCheckedPrefix = "tp_checked_";
+inline constexpr unsigned kLocalGap = 4;
 
 }  // namespace dspic

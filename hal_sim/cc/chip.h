@@ -7,6 +7,7 @@
 //   chip_lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
 //                          takes
 //   chip_shared.cpp        loads of what an interrupt may change, done where they stand
+//   chip_checks.cpp        --sanitize: locals and failed checks are told
 //   chip_pipeline.cpp      the optimiser's passes, in our own order
 //   chip_emit.cpp          object, assembler text or IR
 #pragma once
@@ -48,6 +49,9 @@ inline constexpr const char* kAccumulatorNote = "accumulator ";
 /// Built-in functions that take or give accumulators (__builtin_mac and its like) become instructions.
 void lower_accumulators(Unit& unit);
 
+/// --sanitize: what a check of the program's memory must be told, and clang's own checks in a form that costs
+/// the chip little (chip_checks.cpp). Before the optimiser.
+void prepare_checks(Unit& unit);
 /// Before the optimiser; false after an error.
 bool lower_for_chip(Unit& unit);
 void optimise_for_chip(Unit& unit, llvm::TargetMachine& machine);

@@ -124,6 +124,7 @@ int compile_for_chip(Unit& unit) {
   set_flags(unit.options);
   auto machine = make_machine(unit.options);
   if (!lower_for_chip(unit)) return kUsersFault;
+  if (unit.options.sanitize && !unit.options.library) prepare_checks(unit);
   optimise_for_chip(unit, *machine);
   add_underscores(m);
   if (verifyModule(m, &errs())) {

@@ -110,9 +110,10 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
     for (const auto& s : files_below(folder, o.chip_way ? chip_sources : c_sources)) {
       if (is_replaced(s)) continue;
       add(s, flags);
-      if (o.sanitize && takes_strings(s)) jobs.back().flags.push_back("--sanitize");
+      if (o.sanitize && !o.chip_way && takes_strings(s)) jobs.back().flags.push_back("--sanitize");
     }
-  if (o.sanitize)
+  if (o.sanitize && o.chip_way) add(cc_dir / "runtime/chip_checks.c", flags);
+  if (o.sanitize && !o.chip_way)
     add(cc_dir / "runtime/image_sanitize.c",
         {"-O1", "--uncounted", "-I" + root.string(), "-I" + libc.string()});
   return jobs;

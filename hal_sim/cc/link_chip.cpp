@@ -96,6 +96,8 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
   add_host_table(argv, library.archive, o.hal == "sim", o.optimisation);
   if (o.hal == "sim" && !o.with_texts) argv.push_back("--no-texts");
+  constexpr const char* kGapBytes = "4";
+  if (o.sanitize) argv.insert(argv.end(), {"--gap", kGapBytes});
   const auto run = run_process(argv);
   sort_messages(with_hints(run.output), result, run.status != 0);
   if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {

@@ -200,6 +200,8 @@ int link(int argc, char** argv) {
       o.host_table = std::uint32_t(std::strtoul(value().c_str(), nullptr, 0));
     } else if (a == "--library-level") {
       o.library_level = unsigned(std::strtoul(value().c_str(), nullptr, 0));
+    } else if (a == "--gap") {
+      o.gap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     } else if (a == "--heap")
       o.heap_bytes = unsigned(std::strtoul(value().c_str(), nullptr, 0));
     else

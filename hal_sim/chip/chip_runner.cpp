@@ -67,12 +67,16 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   processor_ =
       std::make_unique<dspic::Processor>(device(), program_, image_->code(), library_.get(), plain_from_);
   fill_ram();
-  processor_->set_translator(translation());
-  processor_->know(image_->known(program_));
+  const bool is_checked = MemoryReports::is_for(file_);
+  if (!is_checked) {
+    processor_->set_translator(translation());
+    processor_->know(image_->known(program_));
+  }
   places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
   endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
   calls_ = std::make_unique<LibraryCalls>(image_->functions(), *processor_, *places_, chip_, board);
   processor_->tell_calls(this, image_->functions().addresses());
+  if (is_checked) check_memory();
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   // a source of clock that the robot has not: no instruction is ever executed
   const std::string problem = host::clock_problem(configuration.fosc);
@@ -84,6 +88,18 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   chip_.reset(start);
   if (library_) library_->reset(start);
   processor_->restart();
+}
+
+/// --sanitize: everything is interpreted, and looked at.
+void ChipRunner::check_memory() {
+  memory_ = std::make_unique<MemoryReports>(
+      file_, *processor_, *places_, [this](const std::string& message, unsigned place) {
+        report(Ending{TP_TRAP_SANITIZER, "", message, place});
+      });
+  std::vector<std::uint32_t> addresses = image_->functions().addresses();
+  for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
+  processor_->tell_calls(this, std::move(addresses));
+  processor_->check_memory(&memory_->check());
 }
 
 void ChipRunner::program_eeprom() {
@@ -182,6 +198,7 @@ void ChipRunner::begin_again() {
   if (library_) library_->reset(end_);
   processor_->power_up(end_);
   fill_ram();
+  if (memory_) memory_->check().forget(kRamStart, kRamEnd);
   wake();
 }
 
@@ -208,6 +225,7 @@ void ChipRunner::tell_reset(Cycle at) {
   if (observer_) observer_->ended(at);
   for (StepWatch* watch : watches_) watch->was_reset(at);
   calls_->forget_starts();
+  if (memory_) memory_->restart();
 }
 
 void ChipRunner::report(const Ending& ending) {
@@ -235,6 +253,7 @@ void ChipRunner::report(const Ending& ending) {
 
 void ChipRunner::went_to_reset_vector(unsigned from) {
   report(endings_->of_null_pointer(from));
+  if (memory_) memory_->restart();
   calls_->forget_starts();
   if (library_) library_->begin_anew(processor_->now());
 }

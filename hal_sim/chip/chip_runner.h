@@ -25,6 +25,7 @@
 #include "hal_sim/chip/chip_image.h"
 #include "hal_sim/chip/endings.h"
 #include "hal_sim/chip/library_calls.h"
+#include "hal_sim/chip/memory_reports.h"
 #include "hal_sim/chip/program_places.h"
 #include "hal_sim/chip/soldered_chip.h"
 #include "hal_sim/chip/step_watch.h"
@@ -128,13 +129,16 @@ class ChipRunner final : public host::Runner,
     endings_->note_trap(trap, from);
   }
   void went_to_reset_vector(unsigned from) override;
-  void entered(unsigned address) override { calls_->entered(address); }
+  void entered(unsigned address) override {
+    if (!memory_ || !memory_->entered(address)) calls_->entered(address);
+  }
   void called(api::HostFunction function) override { calls_->called(function); }
   void gives_up() override { gives_up_ = true; }
   void index_written(api::HostVariable index, unsigned value, int size) override {
     calls_->index_written(index, value, size);
   }
   void look_at_stack();
+  void check_memory();
   void calls_back(unsigned function, Cycle at) override {
     if (observer_) observer_->callback(function, at);
   }
@@ -158,6 +162,7 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<ProgramPlaces> places_;
   std::unique_ptr<Endings> endings_;
   std::unique_ptr<LibraryCalls> calls_;
+  std::unique_ptr<MemoryReports> memory_;  // null: the image was not built to be checked
   unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
   std::vector<StepWatch*> watches_;

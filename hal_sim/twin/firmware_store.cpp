@@ -105,7 +105,7 @@ std::string hal_of(const Options& options, const std::string& path) {
   if (!options.hal.empty()) return options.hal;
   if (options.way == "chip") return "dspic";
   // what only code for the PC has
-  const bool is_of_pc = !options.way.empty() || options.sanitize;
+  const bool is_of_pc = !options.way.empty();
   return is_of_pc || programs::is_pc_program(path) ? "" : kUsual;
 }
 

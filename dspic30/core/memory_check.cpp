@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// RAM, the stack's end, and when the shadow is looked at; what instructions do with it: value_check.cpp.
+#include "dspic30/core/memory_check.h"
+
+#include <algorithm>
+
+#include "dspic30/core/cpu.h"
+#include "dspic30/core/value_shape.h"
+
+namespace dspic {
+
+namespace {
+constexpr unsigned kStackPointer = 15;
+}  // namespace
+
+MemoryCheck::MemoryCheck(MemoryFindings& findings) : findings_(findings) {
+  bits_.fill(0xFF);
+  states_.fill(State::Plain);
+}
+
+MemoryCheck::~MemoryCheck() = default;
+
+void MemoryCheck::mark(unsigned begin, unsigned end, State state) {
+  begin = std::max(begin, kStart), end = std::min(end, kStart + kBytes);
+  if (begin < end) std::fill(states_.begin() + (begin - kStart), states_.begin() + (end - kStart), state);
+}
+
+void MemoryCheck::set_bits(unsigned begin, unsigned end, std::uint8_t bits) {
+  begin = std::max(begin, kStart), end = std::min(end, kStart + kBytes);
+  if (begin < end) std::fill(bits_.begin() + (begin - kStart), bits_.begin() + (end - kStart), bits);
+}
+
+void MemoryCheck::await_return(const Cpu& cpu) {
+  if (is_away_) return;
+  const unsigned top = cpu.w[kStackPointer];
+  if (top < Cpu::kRamStart + 4 || top > Cpu::kRamEnd) return;
+  const auto word = [&](unsigned at) {
+    return cpu.ram[at - Cpu::kRamStart] | static_cast<unsigned>(cpu.ram[at + 1 - Cpu::kRamStart]) << 8;
+  };
+  return_pc_ = (word(top - 2) & 0x7F) << 16 | (word(top - 4) & 0xFFFE);
+  return_top_ = top - 4;
+  is_away_ = true;
+}
+
+void MemoryCheck::restart() {
+  register_bits_.fill(0);
+  unwritten_ = 0;
+  flags_unwritten_ = read_unwritten_ = is_away_ = false;
+  at_ = nullptr;
+  reads_ = writes_ = 0;
+  top_ = kStart;
+  base_ = 0;
+}
+
+// what lies beyond the stack's end was somebody's, and is not any more
+void MemoryCheck::move_top(unsigned top) {
+  if (base_ != 0 && top < top_ && top >= base_) {
+    forget(top, top_);
+    mark(top, top_, State::Plain);
+    findings_.stack_fell(top);
+  }
+  top_ = top;
+}
+
+void MemoryCheck::begins(const Cpu& cpu, const Decoded* d) {
+  if (unwritten_ | static_cast<unsigned>(flags_unwritten_ || read_unwritten_)) finish(cpu);
+  if (base_ == 0 && cpu.splim_on) base_ = cpu.w[kStackPointer];
+  if (cpu.w[kStackPointer] != top_) move_top(cpu.w[kStackPointer]);
+  if (is_away_ && top_ <= return_top_ && (top_ < return_top_ || cpu.address_of(d) == return_pc_)) {
+    is_away_ = false;
+    findings_.returned(cpu.w[0]);
+  }
+  if (unwritten_ != 0 || flags_unwritten_) before(cpu, d);
+  at_ = d;
+  w_ = cpu.w;
+  reads_ = writes_ = 0;
+  read_unwritten_ = false;
+}
+
+bool MemoryCheck::look_at(const Cpu& cpu, unsigned ea, unsigned bytes, bool is_write) {
+  if (is_away_) return false;
+  const State state = std::max(states_[ea - kStart], states_[ea - kStart + bytes - 1]);
+  MemoryFinding finding;
+  finding.address = ea;
+  finding.bytes = bytes;
+  finding.pc = cpu.address_of(cpu.at);
+  finding.writes = is_write;
+  if (state != State::Plain) {
+    finding.kind =
+        state == State::Freed ? MemoryFinding::Kind::Freed : MemoryFinding::Kind::Outside;
+  } else if (base_ != 0 && ea >= std::max<unsigned>(top_, cpu.w[kStackPointer]) && ea <= cpu.stack_most + 1u) {
+    finding.kind = MemoryFinding::Kind::AboveStack;
+  } else {
+    return false;
+  }
+  findings_.found(finding);
+  return true;
+}
+
+void MemoryCheck::reads(const Cpu& cpu, unsigned ea, unsigned bits) {
+  const unsigned bytes = bits / 8;
+  unsigned unwritten = 0, value = 0;
+  if (ea - kStart <= kBytes - bytes) {
+    const bool is_told = look_at(cpu, ea, bytes, false);
+    for (unsigned i = 0; i < bytes; ++i) {
+      unwritten |= static_cast<unsigned>(bits_[ea - kStart + i]) << 8 * i;
+      value |= static_cast<unsigned>(cpu.ram[ea - kStart + i]) << 8 * i;
+    }
+    if (is_away_ || is_told) unwritten = 0;  // what it is worth has been said
+    read_unwritten_ |= unwritten != 0;
+  }
+  if (reads_ < read_.size()) read_[reads_++] = {ea, bytes, value, unwritten};
+}
+
+void MemoryCheck::writes(const Cpu& cpu, unsigned ea, unsigned bits) {
+  const unsigned bytes = bits / 8;
+  if (ea - kStart <= kBytes - bytes) {
+    look_at(cpu, ea, bytes, true);
+    for (unsigned i = 0; i < bytes; ++i) bits_[ea - kStart + i] = 0;
+  }
+  if (writes_ < written_.size()) written_[writes_++] = {ea, bytes, 0, 0};
+}
+
+}  // namespace dspic

@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/chip/memory_reports.h"
+
+#include <algorithm>
+
+#include "dspic30/core/cpu.h"
+#include "dspic30/memory/hex.h"
+#include "dspic30/memory/host_places.h"
+
+namespace chip {
+
+namespace {
+
+using Kind = dspic::MemoryFinding::Kind;
+using State = dspic::MemoryCheck::State;
+constexpr std::size_t kMostTold = 1000;
+constexpr unsigned kNear = 64;       // bytes beside a variable that are said to be beyond it
+constexpr std::size_t kLongestName = 60;
+
+const std::pair<const char*, const char*> kFailedChecks[] = {
+    {"add_overflow", "integer overflow in an addition"},
+    {"sub_overflow", "integer overflow in a subtraction"},
+    {"mul_overflow", "integer overflow in a multiplication"},
+    {"divrem_overflow", "integer overflow in a division"},
+    {"negate_overflow", "integer overflow in a negation"},
+    {"shift_out_of_bounds", "shift by more than the width of the operand"},
+    {"out_of_bounds", "array index out of bounds"}};
+
+}  // namespace
+
+bool MemoryReports::is_for(const dspic::FirmwareFile& file) {
+  return file.marks.count(dspic::kCheckedSymbol) != 0;
+}
+
+MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Processor& processor,
+                             const ProgramPlaces& places,
+                             std::function<void(const std::string&, unsigned)> tell)
+    : file_(file), processor_(processor), places_(places), tell_(std::move(tell)), check_(*this) {
+  const auto mark = [&](const char* name) {
+    const auto found = file.marks.find(name);
+    return found == file.marks.end() ? 0u : found->second;
+  };
+  heap_begin_ = mark(dspic::kCheckedHeapSymbol), heap_end_ = mark(dspic::kCheckedHeapEndSymbol);
+  stack_begin_ = mark(dspic::kCheckedSymbol);
+  const auto hear = [&](const std::string& name, Function function, const char* message = "") {
+    if (const auto found = file.functions.find(name); found != file.functions.end())
+      entries_[found->second] = {function, message};
+  };
+  hear(dspic::kLocalFunction, Function::Local);
+  for (const auto& [name, message] : kFailedChecks)
+    hear(std::string(dspic::kCheckedPrefix) + name, Function::FailedCheck, message);
+  if (heap_end_ > heap_begin_) {
+    hear("malloc", Function::Malloc);
+    hear("calloc", Function::Calloc);
+    hear("realloc", Function::Realloc);
+    hear("free", Function::Free);
+    check_.mark(heap_begin_, heap_end_, State::Outside);
+  }
+  // what lies behind a variable of known size, up to the next thing, is nobody's
+  for (const auto& [name, address] : file.objects) {
+    const auto bytes = file.object_bytes.find(name);
+    if (address < dspic::Processor::kRamStart || address >= dspic::Processor::kRamEnd) continue;
+    globals_.push_back({address, bytes == file.object_bytes.end() ? 0 : bytes->second, name});
+  }
+  std::sort(globals_.begin(), globals_.end(), [](const Object& a, const Object& b) {
+    return std::tie(a.begin, a.bytes, a.name) < std::tie(b.begin, b.bytes, b.name);
+  });
+  unsigned reached = 0;
+  for (std::size_t i = 0; i < globals_.size(); ++i) {
+    const Object& object = globals_[i];
+    reached = std::max(reached, object.begin + object.bytes);
+    if (object.bytes == 0) continue;
+    unsigned next = i + 1 < globals_.size() ? globals_[i + 1].begin : dspic::Processor::kRamEnd;
+    for (const unsigned other : {heap_begin_, stack_begin_})
+      if (other >= reached) next = std::min(next, other);
+    check_.mark(reached, std::min(next, reached + kNear), State::Outside);
+  }
+}
+
+std::vector<std::uint32_t> MemoryReports::addresses() const {
+  std::vector<std::uint32_t> all;
+  for (const auto& [address, entry] : entries_) all.push_back(address);
+  return all;
+}
+
+void MemoryReports::restart() {
+  locals_.clear();
+  heap_.clear();
+  if (heap_end_ > heap_begin_) check_.mark(heap_begin_, heap_end_, State::Outside);
+}
+
+// --- what the program tells
+
+bool MemoryReports::entered(unsigned address) {
+  const auto found = entries_.find(address);
+  if (found == entries_.end()) return false;
+  const auto w = [&](int n) { return static_cast<unsigned>(processor_.w(n)); };
+  const Function function = found->second.function;
+  switch (function) {
+    case Function::Local:
+      note_local();
+      break;
+    case Function::FailedCheck: {
+      const unsigned call = places_.caller();
+      tell_(found->second.message, call);
+      break;
+    }
+    case Function::Malloc:
+    case Function::Calloc:
+    case Function::Realloc:
+    case Function::Free:
+      asked_ = function;
+      asked_bytes_ = function == Function::Malloc    ? w(0)
+                     : function == Function::Calloc  ? w(0) * w(1)
+                     : function == Function::Realloc ? w(1)
+                                                     : 0;
+      asked_block_ = function == Function::Realloc || function == Function::Free ? w(0) : 0;
+      if (asked_block_ != 0) {
+        const auto block = heap_.find(asked_block_);
+        const char* const name = function == Function::Free ? "free()" : "realloc()";
+        if (block == heap_.end())
+          tell_(std::string(name) + " of what malloc() did not give", places_.own(places_.caller()));
+        else if (block->second.is_free)
+          tell_(std::string(name) + " of heap memory that is freed already", places_.own(places_.caller()));
+      }
+      check_.await_return(processor_.cpu());
+      break;
+  }
+  return true;
+}
+
+/// W0 its address, W1 its bytes, W2 its name.
+void MemoryReports::note_local() {
+  Object local{processor_.w(0), processor_.w(1), ""};
+  const dspic::Cpu& cpu = processor_.cpu();
+  for (unsigned at = processor_.w(2); at >= dspic::Cpu::kPsvStart && local.name.size() < kLongestName; ++at) {
+    const unsigned word = cpu.program.read(static_cast<unsigned>(cpu.psvpag) << 15 | (at & 0x7FFE));
+    const char c = static_cast<char>(word >> 8 * (at & 1) & 0xFF);
+    if (c == 0) break;
+    local.name += c;
+  }
+  const unsigned end = local.begin + local.bytes;
+  if (local.begin < stack_begin_ || end > processor_.w(15)) return;
+  locals_.erase(std::remove_if(locals_.begin(), locals_.end(),
+                               [&](const Object& o) { return o.begin < end && local.begin < o.begin + o.bytes; }),
+                locals_.end());
+  check_.forget(local.begin, end);
+  check_.mark(local.begin, end, State::Plain);
+  check_.mark(local.begin - dspic::kLocalGap, local.begin, State::Outside);
+  check_.mark(end, end + dspic::kLocalGap, State::Outside);
+  locals_.push_back(std::move(local));
+}
+
+void MemoryReports::stack_fell(unsigned top) {
+  if (locals_.empty()) return;
+  locals_.erase(std::remove_if(locals_.begin(), locals_.end(),
+                               [top](const Object& o) { return o.begin + o.bytes > top; }),
+                locals_.end());
+}
+
+void MemoryReports::allocate(unsigned at, unsigned bytes, bool is_written) {
+  const unsigned end = at + bytes;
+  // blocks that lay there before
+  for (auto it = heap_.begin(); it != heap_.end();)
+    it = it->first < end && at < it->first + std::max(1u, it->second.bytes) ? heap_.erase(it) : std::next(it);
+  heap_[at] = {bytes, false};
+  check_.mark(at, end, State::Plain);
+  // rounded up: its own, up to the next thing
+  if (is_written)
+    check_.define(at, end);
+  else
+    check_.forget(at, end);
+}
+
+void MemoryReports::free_block(unsigned at) {
+  const auto block = heap_.find(at);
+  if (block == heap_.end() || block->second.is_free) return;
+  block->second.is_free = true;
+  check_.mark(at, at + block->second.bytes, State::Freed);
+}
+
+void MemoryReports::returned(std::uint16_t w0) {
+  switch (asked_) {
+    case Function::Free:
+      return free_block(asked_block_);
+    case Function::Realloc: {
+      const auto old = heap_.find(asked_block_);
+      const unsigned before = old == heap_.end() ? 0 : old->second.bytes;
+      if (w0 != asked_block_ && (w0 != 0 || asked_bytes_ == 0)) free_block(asked_block_);
+      if (w0 == 0) return;
+      allocate(w0, asked_bytes_, false);
+      return check_.define(w0, w0 + std::min(before, asked_bytes_));
+    }
+    default:
+      if (w0 != 0) allocate(w0, asked_bytes_, asked_ == Function::Calloc);
+  }
+}
+
+// --- findings
+
+/// Once for each place, kind and object.
+bool MemoryReports::is_told(const dspic::MemoryFinding& f, unsigned place) {
+  std::string name;
+  Object block;
+  const Object* const o = owner(f.address, f.bytes, name, block);
+  return !told_.insert({place, 2 * static_cast<int>(f.kind) + f.writes, o ? o->begin : f.address}).second;
+}
+
+/// A variable that the debugger knows by its place in the frame of the function that runs.
+std::string MemoryReports::local_by_frame(unsigned address, unsigned pc) const {
+  using In = dspic::DebugInfo::Place::In;
+  const dspic::DebugInfo& info = file_.debug.info();
+  for (const auto& variable : info.variables) {
+    if (variable.is_static || pc < variable.begin || pc >= variable.end) continue;
+    const auto* place = dspic::DebugInfo::place_at(variable, pc);
+    if (!place || place->in != In::Frame) continue;
+    const unsigned begin = (processor_.w(place->base) + static_cast<unsigned>(place->value)) & 0xFFFF;
+    const unsigned bytes = info.types[static_cast<std::size_t>(variable.type)].bytes;
+    if (address >= begin && address < begin + std::max(1u, bytes)) return variable.name;
+  }
+  return "";
+}
+
+/// The nearest to an access: "a", "the local variable k", "a heap block". Null: nothing is near. `block`: room
+/// for one.
+const MemoryReports::Object* MemoryReports::owner(unsigned address, unsigned bytes, std::string& name,
+                                                  Object& block) const {
+  const Object* best = nullptr;
+  unsigned nearest = kNear;
+  const auto offer = [&](const Object& o, const std::string& called) {
+    const unsigned gap = address + bytes <= o.begin       ? o.begin - (address + bytes) + 1
+                         : address >= o.begin + o.bytes ? address - (o.begin + o.bytes) + 1
+                                                        : 0u;
+    if (gap >= nearest) return;
+    nearest = gap;
+    best = &o;
+    name = called;
+  };
+  if (is_heap(address)) {
+    name = "the heap";
+    for (const auto& [at, of_heap] : heap_) {
+      const Object o{at, of_heap.bytes, ""};
+      offer(o, "a heap block");
+      if (best != &o) continue;
+      block = o;
+      best = &block;
+    }
+    return best;
+  }
+  name = "any variable, at " + dspic::hex(address, 4);
+  for (auto it = locals_.rbegin(); it != locals_.rend(); ++it) offer(*it, "the local variable " + it->name);
+  for (const Object& o : globals_)
+    if (o.bytes > 0 && address < stack_begin_) offer(o, o.name);
+  return best;
+}
+
+std::string MemoryReports::owner(unsigned address, unsigned bytes) const {
+  std::string name;
+  Object block;
+  const Object* const o = owner(address, bytes, name, block);
+  if (!o) return name;
+  const int first = static_cast<int>(address) - static_cast<int>(o->begin);
+  const int last = first + static_cast<int>(bytes) - 1;
+  return name + ": got byte " + std::to_string(first < 0 ? first : last) + ", expected 0 to " +
+         std::to_string(static_cast<int>(o->bytes) - 1);
+}
+
+std::string MemoryReports::what(const dspic::MemoryFinding& f) const {
+  const std::string does = f.writes ? "write" : "read";
+  switch (f.kind) {
+    case Kind::Freed:
+      return "use of freed heap memory: " + does + " of " + owner(f.address, f.bytes);
+    case Kind::Outside:
+      if (is_heap(f.address)) return does + " out of the bounds of " + owner(f.address, f.bytes);
+      return does + " out of bounds of " + owner(f.address, f.bytes);
+    case Kind::AboveStack:
+      return does + " beyond the top of the stack, at " + dspic::hex(f.address, 4) +
+             ": a variable of a function that has returned";
+    default:
+      break;
+  }
+  std::string name;
+  for (const Object& o : locals_)
+    if (f.address >= o.begin && f.address < o.begin + o.bytes) name = o.name;
+  if (name.empty() && f.address >= stack_begin_) name = local_by_frame(f.address, f.pc);
+  if (name.empty() && is_heap(f.address)) name = "a heap block";
+  for (const Object& o : globals_)
+    if (name.empty() && f.address >= o.begin && f.address < o.begin + o.bytes) name = o.name;
+  if (name.empty()) name = "what lies at " + dspic::hex(f.address, 4);
+  using Use = dspic::MemoryFinding::Use;
+  return name + " is read, and nobody has written it; " +
+         (f.use == Use::Branch    ? "a branch depends on it"
+          : f.use == Use::Address ? "an address is made of it"
+                                  : "it goes to a register of the chip");
+}
+
+void MemoryReports::found(const dspic::MemoryFinding& finding) {
+  if (told_.size() >= kMostTold) return;
+  const unsigned place = places_.own(finding.pc);
+  if (!is_told(finding, place)) tell_(what(finding), place);
+}
+
+}  // namespace chip
