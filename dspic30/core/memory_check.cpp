@@ -115,6 +115,8 @@ void MemoryCheck::reads(const Cpu& cpu, unsigned ea, unsigned bits) {
 void MemoryCheck::writes(const Cpu& cpu, unsigned ea, unsigned bits) {
   const unsigned bytes = bits / 8;
   if (ea - kStart <= kBytes - bytes) {
+    // an interrupt's entry pushes between two instructions
+    top_ = std::max<unsigned>(top_, cpu.w[kStackPointer]);
     look_at(cpu, ea, bytes, true);
     for (unsigned i = 0; i < bytes; ++i) bits_[ea - kStart + i] = 0;
   }

@@ -57,6 +57,8 @@ class MemoryCheck {
   /// As if nobody had written it; or as if somebody had.
   void forget(unsigned begin, unsigned end) { set_bits(begin, end, 0xFF); }
   void define(unsigned begin, unsigned end) { set_bits(begin, end, 0); }
+  /// Has anybody written a part of it? `address`: of RAM.
+  bool is_written(unsigned address) const { return bits_[address - kStart] != 0xFF; }
   /// What runs from now on until the function that has just begun returns is not looked at, as it knows its
   /// memory better.
   void await_return(const Cpu& cpu);

@@ -46,6 +46,7 @@ MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Proce
     if (const auto found = file.functions.find(name); found != file.functions.end())
       entries_[found->second] = {function, message};
   };
+  hear("main", Function::Main);
   hear(dspic::kLocalFunction, Function::Local);
   for (const auto& [name, message] : kFailedChecks)
     hear(std::string(dspic::kCheckedPrefix) + name, Function::FailedCheck, message);
@@ -56,25 +57,41 @@ MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Proce
     hear("free", Function::Free);
     check_.mark(heap_begin_, heap_end_, State::Outside);
   }
-  // what lies behind a variable of known size, up to the next thing, is nobody's
+  // statics of the same name, in files and functions, are the debugger's
+  const auto add = [&](unsigned address, unsigned bytes, const std::string& name) {
+    if (address >= dspic::Processor::kRamStart && address < dspic::Processor::kRamEnd)
+      globals_.push_back({address, bytes, name});
+  };
   for (const auto& [name, address] : file.objects) {
     const auto bytes = file.object_bytes.find(name);
-    if (address < dspic::Processor::kRamStart || address >= dspic::Processor::kRamEnd) continue;
-    globals_.push_back({address, bytes == file.object_bytes.end() ? 0 : bytes->second, name});
+    add(address, bytes == file.object_bytes.end() ? 0 : bytes->second, name);
   }
-  std::sort(globals_.begin(), globals_.end(), [](const Object& a, const Object& b) {
-    return std::tie(a.begin, a.bytes, a.name) < std::tie(b.begin, b.bytes, b.name);
-  });
-  unsigned reached = 0;
-  for (std::size_t i = 0; i < globals_.size(); ++i) {
-    const Object& object = globals_[i];
-    reached = std::max(reached, object.begin + object.bytes);
-    if (object.bytes == 0) continue;
-    unsigned next = i + 1 < globals_.size() ? globals_[i + 1].begin : dspic::Processor::kRamEnd;
-    for (const unsigned other : {heap_begin_, stack_begin_})
-      if (other >= reached) next = std::min(next, other);
-    check_.mark(reached, std::min(next, reached + kNear), State::Outside);
-  }
+  const dspic::DebugInfo& info = file.debug.info();
+  for (const auto& variable : info.variables)
+    if (variable.is_static && !variable.places.empty() &&
+        variable.places[0].in == dspic::DebugInfo::Place::In::Memory)
+      add(static_cast<unsigned>(variable.places[0].value),
+          info.types[static_cast<std::size_t>(variable.type)].bytes, variable.name);
+  std::stable_sort(globals_.begin(), globals_.end(),
+                   [](const Object& a, const Object& b) { return a.begin < b.begin; });
+}
+
+/// What start-up code has left alone belongs to nobody, unless it is known to.
+void MemoryReports::find_gaps() {
+  std::vector<bool> is_free(dspic::Processor::kRamBytes, true);
+  const auto keep = [&](unsigned begin, unsigned end) {
+    for (unsigned at = std::max(begin, dspic::Processor::kRamStart);
+         at < std::min(end, dspic::Processor::kRamEnd); ++at)
+      is_free[at - dspic::Processor::kRamStart] = false;
+  };
+  const auto served = file_.marks.find(dspic::kServedEndSymbol);
+  keep(dspic::Processor::kRamStart, served == file_.marks.end() ? 0 : served->second);
+  keep(heap_begin_, heap_end_);
+  keep(stack_begin_, processor_.cpu().splim + 2u);
+  for (const Object& o : globals_) keep(o.begin, o.begin + (o.bytes ? o.bytes : 2));
+  for (unsigned at = dspic::Processor::kRamStart; at < dspic::Processor::kRamEnd; ++at)
+    if (is_free[at - dspic::Processor::kRamStart] && !check_.is_written(at))
+      check_.mark(at, at + 1, State::Outside);
 }
 
 std::vector<std::uint32_t> MemoryReports::addresses() const {
@@ -86,6 +103,7 @@ std::vector<std::uint32_t> MemoryReports::addresses() const {
 void MemoryReports::restart() {
   locals_.clear();
   heap_.clear();
+  check_.mark(dspic::Processor::kRamStart, dspic::Processor::kRamEnd, State::Plain);
   if (heap_end_ > heap_begin_) check_.mark(heap_begin_, heap_end_, State::Outside);
 }
 
@@ -97,6 +115,9 @@ bool MemoryReports::entered(unsigned address) {
   const auto w = [&](int n) { return static_cast<unsigned>(processor_.w(n)); };
   const Function function = found->second.function;
   switch (function) {
+    case Function::Main:
+      find_gaps();
+      return false;
     case Function::Local:
       note_local();
       break;
@@ -297,7 +318,11 @@ std::string MemoryReports::what(const dspic::MemoryFinding& f) const {
 void MemoryReports::found(const dspic::MemoryFinding& finding) {
   if (told_.size() >= kMostTold) return;
   const unsigned place = places_.own(finding.pc);
-  if (!is_told(finding, place)) tell_(what(finding), place);
+  if (is_told(finding, place)) return;
+  // the library's own lines are not the program's doing
+  const std::string function = places_.place_of(finding.pc).function;
+  const bool is_own = place == finding.pc || function == "?";
+  tell_((is_own ? "" : "in " + function + "(): ") + what(finding), place);
 }
 
 }  // namespace chip

@@ -35,7 +35,7 @@ class MemoryReports final : private dspic::MemoryFindings {
   void restart();
 
  private:
-  enum class Function : std::uint8_t { Local, Malloc, Calloc, Realloc, Free, FailedCheck };
+  enum class Function : std::uint8_t { Main, Local, Malloc, Calloc, Realloc, Free, FailedCheck };
   struct Entry {
     Function function;
     const char* message = "";
@@ -51,6 +51,7 @@ class MemoryReports final : private dspic::MemoryFindings {
   void found(const dspic::MemoryFinding& finding) override;
   void returned(std::uint16_t w0) override;
   void stack_fell(unsigned top) override;
+  void find_gaps();
   void note_local();
   void allocate(unsigned at, unsigned bytes, bool is_written);
   void free_block(unsigned at);
