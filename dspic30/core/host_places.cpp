@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/core/memory_check.h"
 
 namespace dspic {
 
@@ -198,6 +199,7 @@ void Cpu::pop_frame(unsigned registers, int words) {
 
 // as the interrupt and the handler's first instructions do
 void Cpu::enter_handler() {
+  if (memory_check) memory_check->cut(*this);
   const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
   const Cycle entry = now;
   at = next;

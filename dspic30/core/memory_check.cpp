@@ -77,6 +77,13 @@ void MemoryCheck::begins(const Cpu& cpu, const Decoded* d) {
   read_unwritten_ = false;
 }
 
+void MemoryCheck::cut(const Cpu& cpu) {
+  if (unwritten_ | static_cast<unsigned>(flags_unwritten_ || read_unwritten_)) finish(cpu);
+  if (cpu.w[kStackPointer] != top_) move_top(cpu.w[kStackPointer]);
+  at_ = nullptr;
+  read_unwritten_ = false;
+}
+
 bool MemoryCheck::look_at(const Cpu& cpu, unsigned ea, unsigned bytes, bool is_write) {
   if (is_away_) return false;
   const State state = std::max(states_[ea - kStart], states_[ea - kStart + bytes - 1]);

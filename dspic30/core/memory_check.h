@@ -67,6 +67,8 @@ class MemoryCheck {
   // --- from the core
   /// An instruction begins; all before it are through.
   void begins(const Cpu& cpu, const Decoded* d);
+  /// What comes next is no instruction's, but an interrupt's entry.
+  void cut(const Cpu& cpu);
   void reads(const Cpu& cpu, unsigned ea, unsigned bits);
   void writes(const Cpu& cpu, unsigned ea, unsigned bits);
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/core/memory_check.h"
 #include "dspic30/core/waits.h"
 #include "dspic30/memory/state_hash.h"
 
@@ -399,6 +400,7 @@ void Processor::enter_interrupt(int vector) {
   Cpu& cpu = *cpu_;
   const Cycle began = cpu.now;
   cpu.parts.events.tell_change(began);
+  if (cpu.memory_check) cpu.memory_check->cut(cpu);
   cpu.at = cpu.next;  // what the stack's pushes belong to
   const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(cpu.parts.interrupts.level());
   if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;

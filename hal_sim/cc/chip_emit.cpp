@@ -33,7 +33,9 @@ void set_flags(const Options& o) {
                          "-instcombine-maxarray-size=0", unrolled,
                          // equal ends of blocks become one where size counts: the end of a loop and what
                          // stands before it would, and the loop lose its flags
-                         o.level <= 1 ? "-enable-tail-merge=0" : "-enable-tail-merge=1"};
+                         o.level <= 1 ? "-enable-tail-merge=0" : "-enable-tail-merge=1",
+                         // the gaps beside a local variable are its own as long as its function runs
+                         o.sanitize ? "-no-stack-coloring=1" : "-no-stack-coloring=0"};
   cl::ParseCommandLineOptions(std::size(flags), flags);
 }
 

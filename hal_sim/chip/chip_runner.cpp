@@ -94,7 +94,9 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
 void ChipRunner::check_memory() {
   memory_ = std::make_unique<MemoryReports>(
       file_, *processor_, *places_, [this](const std::string& message, unsigned place) {
-        report(Ending{TP_TRAP_SANITIZER, "", message, place});
+        constexpr std::size_t kMostCallers = 16;
+        report(Ending{TP_TRAP_SANITIZER, "", message, place},
+               places_->callers(processor_->pc_of_access(), place, kMostCallers));
       });
   std::vector<std::uint32_t> addresses = image_->functions().addresses();
   for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
@@ -228,7 +230,7 @@ void ChipRunner::tell_reset(Cycle at) {
   if (memory_) memory_->restart();
 }
 
-void ChipRunner::report(const Ending& ending) {
+void ChipRunner::report(const Ending& ending, const std::vector<unsigned>& callers) {
   host::TrapReport report;
   report.robot = name();
   report.kind = ending.kind;
@@ -236,6 +238,8 @@ void ChipRunner::report(const Ending& ending) {
   report.message = ending.message;
   report.place = place_of(ending.place);
   if (report.place.function == "?") report.place.function = places_->text_of(ending.place);
+  if (!callers.empty()) report.backtrace.push_back(report.place);
+  for (const unsigned call : callers) report.backtrace.push_back(place_of(call));
   report.cycle = processor_->now();
   report.time_s = to_world_s ? to_world_s(report.cycle) : 0;
   // it may come ten thousand times a second, from here and from there

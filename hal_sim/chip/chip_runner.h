@@ -147,7 +147,7 @@ class ChipRunner final : public host::Runner,
     return address >= dspic::Processor::kRamStart && address < plain_from_;
   }
   void catch_up(Cycle now);
-  void report(const Ending& ending);
+  void report(const Ending& ending, const std::vector<unsigned>& callers = {});
   bool is_ending(const board::Diagnosis& diagnosis) const;
   std::string comment(const dspic::Diagnosis& diagnosis) const;
   void reset(dspic::ResetKind kind);

@@ -115,19 +115,43 @@ unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
   return address;
 }
 
+/// Where the call or jump at an address leads, if it says so itself; else 0.
+unsigned ProgramPlaces::target(unsigned at) const {
+  const dspic::Row* row = dspic::find_row(program_.read(at));
+  if (!row) return 0;
+  const dspic::Fields f = dspic::fields_of(*row, program_.read(at));
+  if (row->id == dspic::Insn::Call_Expr || row->id == dspic::Insn::Goto_Expr)
+    return (program_.read(at + 2) & 0x7F) << 16 | f.n << 1;
+  if (row->id == dspic::Insn::Rcall_Expr || row->id == dspic::Insn::Bra_Expr)
+    return (at + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+  return 0;
+}
+
+// as own(), but a call that says where it leads must lead to the function that runs further in
+std::vector<unsigned> ProgramPlaces::callers(unsigned address, unsigned own_place, std::size_t most) const {
+  std::vector<unsigned> calls;
+  bool is_met = address == own_place;
+  const auto* inner = file_.code.function_at(address);
+  unsigned at = std::min<unsigned>(processor_.w(15), dspic::Processor::kRamEnd) & ~1u;
+  for (; at >= dspic::Processor::kRamStart + 4 && calls.size() < most; at -= 2) {
+    const unsigned high = stack_word(at - 2);
+    const unsigned call = high <= 0x7F ? call_before(high << 16 | stack_word(at - 4)) : 0;
+    if (call == 0) continue;
+    if (is_handler_code(call)) break;
+    const unsigned to = target(call);
+    if (to != 0 && inner && to != inner->begin) continue;
+    inner = file_.code.function_at(call);
+    if (call == own_place)
+      is_met = true;
+    else if (is_met && is_own(call))
+      calls.push_back(call);
+  }
+  return calls;
+}
+
 /// A function may end in a jump to the next one, which leaves nothing on the stack: the jump to the function
 /// of `to` in the one that is called at `call`, if that is the program's own; else `call`.
 unsigned ProgramPlaces::last_jump(unsigned call, unsigned to) const {
-  const auto target = [this](unsigned at) -> unsigned {
-    const dspic::Row* row = dspic::find_row(program_.read(at));
-    if (!row) return 0;
-    const dspic::Fields f = dspic::fields_of(*row, program_.read(at));
-    if (row->id == dspic::Insn::Call_Expr || row->id == dspic::Insn::Goto_Expr)
-      return (program_.read(at + 2) & 0x7F) << 16 | f.n << 1;
-    if (row->id == dspic::Insn::Rcall_Expr || row->id == dspic::Insn::Bra_Expr)
-      return (at + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
-    return 0;
-  };
   const unsigned called = target(call);
   const auto *between = called ? file_.code.function_at(called) : nullptr, *end = file_.code.function_at(to);
   if (!between || !end || between == end || !is_own(called)) return call;

@@ -235,8 +235,7 @@ const Case kCases[] = {
     {"an overflow of 16 bits in variables",
      "volatile int s = 30000, k = 2; volatile long t; int main(void) { t = s * k; while (1); }", 0, nullptr,
      nullptr, nullptr,
-     "the chip wraps without a word and so do programs that mean it (timers, sums); --sanitize tells, native "
-     "way"},
+     "the chip wraps without a word and so do programs that mean it (timers, sums); --sanitize tells"},
     {"constants in a handler without auto_psv",
      "const int table[4] = {1, 2, 3, 4}; volatile int n, o; void __attribute__((interrupt, no_auto_psv)) "
      "_T1Interrupt(void) { IFS0bits.T1IF = 0; o = table[n++ & 3]; }\nint main(void) { TIMER_1; while (1); }",
