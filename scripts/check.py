@@ -32,7 +32,7 @@ MAY_INCLUDE = {
     "hal_sim/api": ["hal_sim/host/pins", "hal_sim/host/image_abi.h", "firmware/include", "firmware/library", "hal_sim/drivers", "hal_sim/board",
                     "dspic30/memory", "dspic30/core", "dspic30/periph/vectors.h", "sim_core/base"],
     "firmware/library": ["firmware/include"],
-    "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
+    "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "dspic30/memory/host_places.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
                    "hal_sim/api/timings.h", "hal_sim/api/host_table", "dspic30/llvm/target.h", "dspic30/llvm/link.h", "sim_core/base/pattern.h"],  # its libc calls the host
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
     # ties board, host and world together

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "dspic30/core/memory_check.h"
+#include "dspic30/core/memory_check_each.h"
 #include "dspic30/core/waits.h"
 #include "dspic30/memory/hex.h"
 #include "dspic30/memory/host_places.h"
@@ -78,12 +78,6 @@ void Cpu::have_own_store(const std::vector<std::uint32_t>& told, std::shared_ptr
   is_own_ = true;
 }
 
-void Cpu::check_memory(MemoryCheck* check) {
-  memory_check = check;
-  watch_round(round_memory);
-  code_is_stale = true;
-}
-
 // while registers are still being written, it runs on the table for all of them, each instruction looked at
 void Cpu::choose_code() {
   if (program.version() != code_version_) {
@@ -120,7 +114,10 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
 Run Cpu::looked_at(const Decoded* d) {
   const bool is_of_host = address_of_host_place(d) != 0;
   if (!is_of_host && !is_decoded(d)) decode(d);
-  if (memory_check) memory_check->begins(*this, d);
+  if (memory_check) {
+    memory_check->begins(*this, d);
+    if (!is_of_host && (written & kAllWritten) == kAllWritten && !table_->tells(d)) return plain(d);
+  }
   if (is_of_host) return plain(d);
   const WordRegisters& registers = registers_of(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
@@ -579,6 +576,10 @@ Cpu::Saved Cpu::saved_register(unsigned ea) {
 }
 
 unsigned Cpu::read_elsewhere(unsigned ea, unsigned bits) {
+  if (is_checked(ea, bits)) {
+    memory_check->reads(*this, ea, bits);
+    return bits == 16 ? load(ea - kRamStart) : ram[ea - kRamStart];
+  }
   const Cycle t = true_now() + at->lead;
   if (!(ea & 1) && !watching && parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
   return read_other(ea, bits, t);
@@ -655,6 +656,11 @@ void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned b
 }
 
 void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
+  if (is_checked(ea, bits)) {
+    memory_check->writes(*this, ea, bits);
+    return bits == 16 ? store(ea - kRamStart, value)
+                      : static_cast<void>(ram[ea - kRamStart] = static_cast<std::uint8_t>(value));
+  }
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
   if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();

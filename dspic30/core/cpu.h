@@ -581,6 +581,10 @@ class Cpu final : public SfrOwner {
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   void find_loop_end();
+  /// Is it RAM that somebody looks after, and nobody notes?
+  bool is_checked(unsigned ea, unsigned bits) const {
+    return ea - plain_start < kRamEnd - plain_start && memory_check && !watching && !(bits == 16 && (ea & 1));
+  }
   bool is_plain_pair(unsigned ea) const {
     const unsigned bytes = plain_ram();
     return bytes >= 4 && ea - plain_start <= bytes - 4 && !(ea & 1) && ea + 2 <= stack_most;

@@ -146,7 +146,8 @@ void Cpu::stand(Cycle until, const Decoded* d) {
 /// Of the stack, `words` from `begin` on: are they plain RAM below the limit, and nobody notes it?
 bool Cpu::is_plain_frame(unsigned begin, unsigned words) const {
   const unsigned end = begin + 2 * words;
-  return plain_bytes > 0 && !(begin & 1) && begin >= plain_start && end <= kRamEnd && (!splim_on || end <= splim);
+  return plain_bytes > 0 && !(begin & 1) && begin >= plain_start && end <= kRamEnd &&
+         (!splim_on || end <= splim);
 }
 
 // how many of them are W0, W1, ... without a gap

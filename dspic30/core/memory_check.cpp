@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RAM, the stack's end, and when the shadow is looked at; what instructions do with it: value_check.cpp.
+// RAM and the stack's end; what each instruction costs: memory_check_each.h; what it does with values:
+// value_check.cpp.
 #include "dspic30/core/memory_check.h"
 
 #include <algorithm>
@@ -9,9 +10,11 @@
 
 namespace dspic {
 
-namespace {
-constexpr unsigned kStackPointer = 15;
-}  // namespace
+void Cpu::check_memory(MemoryCheck* check) {
+  memory_check = check;
+  watch_round(round_memory);
+  code_is_stale = true;
+}
 
 MemoryCheck::MemoryCheck(MemoryFindings& findings) : findings_(findings) {
   bits_.fill(0xFF);
@@ -62,19 +65,11 @@ void MemoryCheck::move_top(unsigned top) {
   top_ = top;
 }
 
-void MemoryCheck::begins(const Cpu& cpu, const Decoded* d) {
-  if (unwritten_ | static_cast<unsigned>(flags_unwritten_ || read_unwritten_)) finish(cpu);
-  if (base_ == 0 && cpu.splim_on) base_ = cpu.w[kStackPointer];
-  if (cpu.w[kStackPointer] != top_) move_top(cpu.w[kStackPointer]);
-  if (is_away_ && top_ <= return_top_ && (top_ < return_top_ || cpu.address_of(d) == return_pc_)) {
-    is_away_ = false;
-    findings_.returned(cpu.w[0]);
-  }
-  if (unwritten_ != 0 || flags_unwritten_) before(cpu, d);
-  at_ = d;
-  w_ = cpu.w;
-  reads_ = writes_ = 0;
-  read_unwritten_ = false;
+// a function that is not looked at has returned, or was left
+void MemoryCheck::come_back(const Cpu& cpu, const Decoded* d) {
+  if (top_ > return_top_ || (top_ == return_top_ && cpu.address_of(d) != return_pc_)) return;
+  is_away_ = false;
+  findings_.returned(cpu.w[0]);
 }
 
 void MemoryCheck::cut(const Cpu& cpu) {
@@ -93,41 +88,15 @@ bool MemoryCheck::look_at(const Cpu& cpu, unsigned ea, unsigned bytes, bool is_w
   finding.pc = cpu.address_of(cpu.at);
   finding.writes = is_write;
   if (state != State::Plain) {
-    finding.kind =
-        state == State::Freed ? MemoryFinding::Kind::Freed : MemoryFinding::Kind::Outside;
-  } else if (base_ != 0 && ea >= std::max<unsigned>(top_, cpu.w[kStackPointer]) && ea <= cpu.stack_most + 1u) {
+    finding.kind = state == State::Freed ? MemoryFinding::Kind::Freed : MemoryFinding::Kind::Outside;
+  } else if (base_ != 0 && ea >= std::max<unsigned>(top_, cpu.w[kStackPointer]) &&
+             ea <= cpu.stack_most + 1u) {
     finding.kind = MemoryFinding::Kind::AboveStack;
   } else {
     return false;
   }
   findings_.found(finding);
   return true;
-}
-
-void MemoryCheck::reads(const Cpu& cpu, unsigned ea, unsigned bits) {
-  const unsigned bytes = bits / 8;
-  unsigned unwritten = 0, value = 0;
-  if (ea - kStart <= kBytes - bytes) {
-    const bool is_told = look_at(cpu, ea, bytes, false);
-    for (unsigned i = 0; i < bytes; ++i) {
-      unwritten |= static_cast<unsigned>(bits_[ea - kStart + i]) << 8 * i;
-      value |= static_cast<unsigned>(cpu.ram[ea - kStart + i]) << 8 * i;
-    }
-    if (is_away_ || is_told) unwritten = 0;  // what it is worth has been said
-    read_unwritten_ |= unwritten != 0;
-  }
-  if (reads_ < read_.size()) read_[reads_++] = {ea, bytes, value, unwritten};
-}
-
-void MemoryCheck::writes(const Cpu& cpu, unsigned ea, unsigned bits) {
-  const unsigned bytes = bits / 8;
-  if (ea - kStart <= kBytes - bytes) {
-    // an interrupt's entry pushes between two instructions
-    top_ = std::max<unsigned>(top_, cpu.w[kStackPointer]);
-    look_at(cpu, ea, bytes, true);
-    for (unsigned i = 0; i < bytes; ++i) bits_[ea - kStart + i] = 0;
-  }
-  if (writes_ < written_.size()) written_[writes_++] = {ea, bytes, 0, 0};
 }
 
 }  // namespace dspic

@@ -62,6 +62,8 @@ class MemoryCheck {
   /// What runs from now on until the function that has just begun returns is not looked at, as it knows its
   /// memory better.
   void await_return(const Cpu& cpu);
+  /// Is one awaited?
+  bool is_away() const { return is_away_; }
   void restart();
 
   // --- from the core
@@ -69,11 +71,13 @@ class MemoryCheck {
   void begins(const Cpu& cpu, const Decoded* d);
   /// What comes next is no instruction's, but an interrupt's entry.
   void cut(const Cpu& cpu);
+  /// `ea`: of RAM, a word's is even.
   void reads(const Cpu& cpu, unsigned ea, unsigned bits);
+  /// ... or of a register.
   void writes(const Cpu& cpu, unsigned ea, unsigned bits);
 
  private:
-  static constexpr unsigned kStart = 0x800, kBytes = 0x2000;
+  static constexpr unsigned kStart = 0x800, kBytes = 0x2000, kStackPointer = 15;
   struct Origin {
     unsigned pc = 0, address = 0;
   };
@@ -88,7 +92,9 @@ class MemoryCheck {
   void set_bits(unsigned begin, unsigned end, std::uint8_t bits);
   /// True: there is something to say.
   bool look_at(const Cpu& cpu, unsigned ea, unsigned bytes, bool is_write);
+  bool is_plain(unsigned i, unsigned bits) const;
   void move_top(unsigned top);
+  void come_back(const Cpu& cpu, const Decoded* d);
   void before(const Cpu& cpu, const Decoded* d);
   void finish(const Cpu& cpu);
   const Shape& shape_of(const Cpu& cpu, unsigned pc);

@@ -22,7 +22,7 @@ class CodeStore;  // code_store.h
 class CourseWatch;
 class Cpu;
 class HostCalls;
-class KnownCalls;  // known_calls.h
+class KnownCalls;   // known_calls.h
 class MemoryCheck;  // memory_check.h
 class ProgramWatch;
 struct TrapRecord;  // cpu.h

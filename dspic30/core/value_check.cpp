@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What instructions make of values that nobody wrote, bit by bit where that is cheap to say. What is not known
-// here gives results that count as written: a finding that is missed is better than a false one.
+// What instructions make of values that nobody wrote, bit by bit where that is cheap to say. What is not
+// known here gives results that count as written: a finding that is missed is better than a false one.
 #include <algorithm>
 #include <map>
 #include <string>
@@ -135,8 +135,8 @@ MemoryCheck::Value MemoryCheck::of_memory(unsigned n) const {
 MemoryCheck::Value MemoryCheck::source(const Shape& shape, unsigned& reads) const {
   const Row& row = *shape.row;
   const Fields& f = shape.f;
-  const bool of_byte = shape.byte || shape.group == Shape::Group::SignExtend ||
-                       shape.group == Shape::Group::ZeroExtend;
+  const bool of_byte =
+      shape.byte || shape.group == Shape::Group::SignExtend || shape.group == Shape::Group::ZeroExtend;
   for (const Operand kind : row.kinds) switch (kind) {
       case Operand::File:
         if (row.id == Insn::Mov_WREG_f) break;
@@ -168,8 +168,7 @@ MemoryCheck::Value MemoryCheck::source(const Shape& shape, unsigned& reads) cons
 void MemoryCheck::put(const Shape& shape, const Value& value, unsigned pc) {
   const Row& row = *shape.row;
   const Fields& f = shape.f;
-  const bool widens =
-      shape.group == Shape::Group::SignExtend || shape.group == Shape::Group::ZeroExtend;
+  const bool widens = shape.group == Shape::Group::SignExtend || shape.group == Shape::Group::ZeroExtend;
   const bool byte = shape.byte && !widens;
   bool to_file = false;
   for (const Operand kind : row.kinds) switch (kind) {

@@ -16,10 +16,10 @@ struct MemoryCheck::Shape {
     And,
     Or,
     Xor,
-    Sum,    // carries go upwards only
-    Left,   // one bit, or as many as the literal says
+    Sum,   // carries go upwards only
+    Left,  // one bit, or as many as the literal says
     Right,
-    Mix,    // each bit of the result may depend on each of the operands
+    Mix,  // each bit of the result may depend on each of the operands
     SignExtend,
     ZeroExtend,
     Swap,

@@ -36,7 +36,8 @@ bool may_be_read_first(AllocaInst& local) {
   enum class First { None, Load, Store };
   const auto first_in = [&](BasicBlock& block) {
     for (Instruction& i : block) {
-      if (auto* load = dyn_cast<LoadInst>(&i); load && load->getPointerOperand() == &local) return First::Load;
+      if (auto* load = dyn_cast<LoadInst>(&i); load && load->getPointerOperand() == &local)
+        return First::Load;
       if (auto* store = dyn_cast<StoreInst>(&i); store && store->getPointerOperand() == &local)
         return First::Store;
     }
@@ -151,9 +152,9 @@ void prepare_checks(Unit& unit) {
   Module& m = unit.module;
   LLVMContext& context = m.getContext();
   name_failed_checks(m);
-  auto tell = m.getOrInsertFunction(dspic::kLocalFunction, Type::getVoidTy(context),
-                                    Type::getInt8PtrTy(context), Type::getInt16Ty(context),
-                                    Type::getInt8PtrTy(context));
+  auto tell =
+      m.getOrInsertFunction(dspic::kLocalFunction, Type::getVoidTy(context), Type::getInt8PtrTy(context),
+                            Type::getInt16Ty(context), Type::getInt8PtrTy(context));
   for (Function& f : m) watch_locals(f, tell);
 }
 

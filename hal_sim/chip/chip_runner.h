@@ -162,7 +162,7 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<ProgramPlaces> places_;
   std::unique_ptr<Endings> endings_;
   std::unique_ptr<LibraryCalls> calls_;
-  std::unique_ptr<MemoryReports> memory_;  // null: the image was not built to be checked
+  std::unique_ptr<MemoryReports> memory_;              // null: the image was not built to be checked
   unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
   std::vector<StepWatch*> watches_;

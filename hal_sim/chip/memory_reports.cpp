@@ -14,7 +14,7 @@ namespace {
 using Kind = dspic::MemoryFinding::Kind;
 using State = dspic::MemoryCheck::State;
 constexpr std::size_t kMostTold = 1000;
-constexpr unsigned kNear = 64;       // bytes beside a variable that are said to be beyond it
+constexpr unsigned kNear = 64;  // bytes beside a variable that are said to be beyond it
 constexpr std::size_t kLongestName = 60;
 
 const std::pair<const char*, const char*> kFailedChecks[] = {
@@ -57,21 +57,21 @@ MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Proce
     hear("free", Function::Free);
     check_.mark(heap_begin_, heap_end_, State::Outside);
   }
-  // statics of the same name, in files and functions, are the debugger's
+  // statics of the same name, in files and functions, are in the debugger's list alone
   const auto add = [&](unsigned address, unsigned bytes, const std::string& name) {
     if (address >= dspic::Processor::kRamStart && address < dspic::Processor::kRamEnd)
       globals_.push_back({address, bytes, name});
   };
-  for (const auto& [name, address] : file.objects) {
-    const auto bytes = file.object_bytes.find(name);
-    add(address, bytes == file.object_bytes.end() ? 0 : bytes->second, name);
-  }
   const dspic::DebugInfo& info = file.debug.info();
   for (const auto& variable : info.variables)
     if (variable.is_static && !variable.places.empty() &&
         variable.places[0].in == dspic::DebugInfo::Place::In::Memory)
       add(static_cast<unsigned>(variable.places[0].value),
           info.types[static_cast<std::size_t>(variable.type)].bytes, variable.name);
+  for (const auto& [name, address] : file.objects) {
+    const auto bytes = file.object_bytes.find(name);
+    add(address, bytes == file.object_bytes.end() ? 0 : bytes->second, name);
+  }
   std::stable_sort(globals_.begin(), globals_.end(),
                    [](const Object& a, const Object& b) { return a.begin < b.begin; });
 }
@@ -130,6 +130,7 @@ bool MemoryReports::entered(unsigned address) {
     case Function::Calloc:
     case Function::Realloc:
     case Function::Free:
+      if (check_.is_away()) break;  // one of these calls another
       asked_ = function;
       asked_bytes_ = function == Function::Malloc    ? w(0)
                      : function == Function::Calloc  ? w(0) * w(1)
@@ -162,9 +163,10 @@ void MemoryReports::note_local() {
   }
   const unsigned end = local.begin + local.bytes;
   if (local.begin < stack_begin_ || end > processor_.w(15)) return;
-  locals_.erase(std::remove_if(locals_.begin(), locals_.end(),
-                               [&](const Object& o) { return o.begin < end && local.begin < o.begin + o.bytes; }),
-                locals_.end());
+  locals_.erase(
+      std::remove_if(locals_.begin(), locals_.end(),
+                     [&](const Object& o) { return o.begin < end && local.begin < o.begin + o.bytes; }),
+      locals_.end());
   check_.forget(local.begin, end);
   check_.mark(local.begin, end, State::Plain);
   check_.mark(local.begin - dspic::kLocalGap, local.begin, State::Outside);
@@ -242,14 +244,14 @@ std::string MemoryReports::local_by_frame(unsigned address, unsigned pc) const {
   return "";
 }
 
-/// The nearest to an access: "a", "the local variable k", "a heap block". Null: nothing is near. `block`: room
-/// for one.
+/// The nearest to an access: "a", "the local variable k", "a heap block". Null: nothing is near. `block`:
+/// room for one.
 const MemoryReports::Object* MemoryReports::owner(unsigned address, unsigned bytes, std::string& name,
                                                   Object& block) const {
   const Object* best = nullptr;
   unsigned nearest = kNear;
   const auto offer = [&](const Object& o, const std::string& called) {
-    const unsigned gap = address + bytes <= o.begin       ? o.begin - (address + bytes) + 1
+    const unsigned gap = address + bytes <= o.begin     ? o.begin - (address + bytes) + 1
                          : address >= o.begin + o.bytes ? address - (o.begin + o.bytes) + 1
                                                         : 0u;
     if (gap >= nearest) return;

@@ -50,8 +50,8 @@ class ProgramPlaces final {
   unsigned stack_word(unsigned address) const;
   /// The call that stands in front of an address; 0: there is none.
   unsigned call_before(unsigned address) const;
-  /// The calls in the program's own code that led to `own` from `address`, which runs now, the innermost first;
-  /// `own` itself is none of them. Up to the frame of an interrupt; at most `most`.
+  /// The calls in the program's own code that led to `own` from `address`, which runs now, the innermost
+  /// first; `own` itself is none of them. Up to the frame of an interrupt; at most `most`.
   std::vector<unsigned> callers(unsigned address, unsigned own, std::size_t most) const;
 
  private:
