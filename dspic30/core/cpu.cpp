@@ -114,10 +114,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
 Run Cpu::looked_at(const Decoded* d) {
   const bool is_of_host = address_of_host_place(d) != 0;
   if (!is_of_host && !is_decoded(d)) decode(d);
-  if (memory_check) {
-    memory_check->begins(*this, d);
-    if (!is_of_host && (written & kAllWritten) == kAllWritten && !table_->tells(d)) return plain(d);
-  }
+  if (memory_check) memory_check->begins(*this, d);
   if (is_of_host) return plain(d);
   const WordRegisters& registers = registers_of(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
@@ -129,6 +126,7 @@ Run Cpu::looked_at(const Decoded* d) {
 }
 
 void Cpu::run_each() {
+  if (memory_check && (written & kAllWritten) == kAllWritten) return run_checked();
   while (now < deadline) {
     const Decoded* const d = at = next;
     if (has_heads() && is_own_head(d) && stops_at(d)) return;

@@ -207,6 +207,7 @@ class Cpu final : public SfrOwner {
   /// at.
   bool looks_at_each() const { return looks_at_each_; }
   void run_each();
+  void run_checked();
   /// The function of this one instruction for this robot, whose registers count as written by it.
   Run looked_at(const Decoded* d);
   /// Up to `deadline`, as straight as code goes.

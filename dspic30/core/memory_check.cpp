@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "dspic30/core/cpu.h"
+#include "dspic30/core/memory_check_each.h"
 #include "dspic30/core/value_shape.h"
 
 namespace dspic {
@@ -14,6 +14,20 @@ void Cpu::check_memory(MemoryCheck* check) {
   memory_check = check;
   watch_round(round_memory);
   code_is_stale = true;
+}
+
+// as run_straight(): whoever runs on all registers need not look at each for any other reason
+void Cpu::run_checked() {
+  const Decoded* d = next;
+  while (now < deadline) {
+    memory_check->begins(*this, d);
+    at = d;
+    const Decoded* following = d->run.load(std::memory_order_acquire)(*this, d);
+    now += d->cycles;
+    if (d == loop_end) following = loop_back(d, following);
+    d = following;
+  }
+  next = d;
 }
 
 MemoryCheck::MemoryCheck(MemoryFindings& findings) : findings_(findings) {

@@ -27,15 +27,19 @@ inline void MemoryCheck::begins(const Cpu& cpu, const Decoded* d) {
 inline bool MemoryCheck::is_plain(unsigned i, unsigned bits) const {
   static_assert(static_cast<int>(State::Plain) == 0);
   std::uint16_t states = 0;
-  std::memcpy(&states, &states_[i], bits / 8);
+  bits == 16 ? std::memcpy(&states, &states_[i], 2) : std::memcpy(&states, &states_[i], 1);
   return states == 0 && i + kStart < top_;
 }
 
 inline void MemoryCheck::reads(const Cpu& cpu, unsigned ea, unsigned bits) {
   const unsigned i = ea - kStart, bytes = bits / 8;
   std::uint16_t unwritten = 0, value = 0;
-  std::memcpy(&unwritten, &bits_[i], bytes);
-  std::memcpy(&value, &cpu.ram[i], bytes);
+  if (bits == 16) {
+    std::memcpy(&unwritten, &bits_[i], 2);
+    std::memcpy(&value, &cpu.ram[i], 2);
+  } else {
+    unwritten = bits_[i], value = cpu.ram[i];
+  }
   // what it is worth has been said, or is not looked at
   if ((!is_plain(i, bits) && look_at(cpu, ea, bytes, false)) || is_away_) unwritten = 0;
   read_unwritten_ |= unwritten != 0;
@@ -48,7 +52,7 @@ inline void MemoryCheck::writes(const Cpu& cpu, unsigned ea, unsigned bits) {
     // an interrupt's entry pushes between two instructions
     top_ = std::max<unsigned>(top_, cpu.w[kStackPointer]);
     if (!is_plain(i, bits)) look_at(cpu, ea, bytes, true);
-    std::memset(&bits_[i], 0, bytes);
+    bits == 16 ? std::memset(&bits_[i], 0, 2) : std::memset(&bits_[i], 0, 1);
   }
   if (writes_ < written_.size()) written_[writes_++] = {ea, bytes, 0, 0};
 }

@@ -88,6 +88,7 @@ void MemoryCheck::depends(Use use, const Origin& origin, unsigned pc) {
 
 void MemoryCheck::before(const Cpu& cpu, const Decoded* d) {
   if (address_of_host_place(d)) return;
+  if (!cpu.is_decoded(d)) return;  // it runs for the first time
   const unsigned pc = cpu.address_of(d);
   // an address: told once, then it counts as written
   for (unsigned left = unwritten_ & cpu.registers_of(d).uses; left != 0; left &= left - 1) {

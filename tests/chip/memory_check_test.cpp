@@ -33,7 +33,7 @@ const Case kCases[] = {
     {"unwritten_heap", "a heap block is read, and nobody has written it",
      "int main(void) { c = malloc(8); c[0] = 1;\n if (c[5]) out = 1; /* HERE */\n while (1); }"},
     {"unwritten_index", "an address is made of it",
-     "int t[4]; int main(void) { int k[2]; p = k;\n out = *(t + (p[1] & 3)); /* HERE */\n while (1); }"},
+     "int t[4], *q = t; int main(void) { int k[2]; p = k;\n out = q[p[1] & 3]; /* HERE */\n while (1); }"},
     {"unwritten_sent", "it goes to a register of the chip",
      "int main(void) { int k[2]; p = k;\n PORTB = p[1]; /* HERE */\n while (1); }"},
     {"unwritten_persistent", "kept is read, and nobody has written it",
