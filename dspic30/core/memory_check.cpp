@@ -20,6 +20,7 @@ void Cpu::check_memory(MemoryCheck* check) {
 void Cpu::run_checked() {
   const Decoded* d = next;
   while (now < deadline) {
+    if (!is_decoded(d) && !address_of_host_place(d)) decode(d);  // its pointers are asked for
     memory_check->begins(*this, d);
     at = d;
     const Decoded* following = d->run.load(std::memory_order_acquire)(*this, d);

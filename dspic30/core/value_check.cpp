@@ -88,15 +88,18 @@ void MemoryCheck::depends(Use use, const Origin& origin, unsigned pc) {
 
 void MemoryCheck::before(const Cpu& cpu, const Decoded* d) {
   if (address_of_host_place(d)) return;
-  if (!cpu.is_decoded(d)) return;  // it runs for the first time
   const unsigned pc = cpu.address_of(d);
   // an address: told once, then it counts as written
-  for (unsigned left = unwritten_ & cpu.registers_of(d).uses; left != 0; left &= left - 1) {
+  const Shape& shape = shape_of(cpu, pc);
+  constexpr unsigned kWithIndex = 6;  // [Ws+Wb]
+  const bool has_index = shape.f.g >= kWithIndex || shape.f.h >= kWithIndex;
+  const unsigned uses = cpu.registers_of(d).uses | (has_index ? 1u << shape.f.w : 0u);
+  for (unsigned left = unwritten_ & uses; left != 0; left &= left - 1) {
     const auto n = static_cast<unsigned>(__builtin_ctz(left));
     depends(Use::Address, origins_[n], pc);
     set_register(n, 0, false, {});
   }
-  if (flags_unwritten_ && shape_of(cpu, pc).group == Shape::Group::Branch) {
+  if (flags_unwritten_ && shape.group == Shape::Group::Branch) {
     depends(Use::Branch, flags_origin_, pc);
     flags_unwritten_ = false;
   }
