@@ -254,17 +254,17 @@ const MemoryReports::Object* MemoryReports::owner(unsigned address, unsigned byt
     const unsigned gap = address + bytes <= o.begin     ? o.begin - (address + bytes) + 1
                          : address >= o.begin + o.bytes ? address - (o.begin + o.bytes) + 1
                                                         : 0u;
-    if (gap >= nearest) return;
+    if (gap >= nearest) return false;
     nearest = gap;
     best = &o;
     name = called;
+    return true;
   };
   if (is_heap(address)) {
     name = "the heap";
     for (const auto& [at, of_heap] : heap_) {
       const Object o{at, of_heap.bytes, ""};
-      offer(o, "a heap block");
-      if (best != &o) continue;
+      if (!offer(o, "a heap block")) continue;
       block = o;
       best = &block;
     }
