@@ -20,34 +20,22 @@ void tp_image_assert(const char *file, int line, const char *text)
   tp_reset();
 }
 
-/* to the UART that the program has set up. One that is off is switched on at its highest rate, FCY / 16 = 921,600 baud, as
- * XC16's write() does: no character is lost, but who listens at another rate reads nonsense, and the run says so */
+/* to the UART, which the program has set up; one that is off loses what it is given, and would never be ready for more */
 void tp_console(const char *bytes, tp_i64 length, tp_i64 uart)
 {
   int n = (int)length;
-  if ((int)uart == 2) {
-    if (!U2MODEbits.UARTEN) {
-      U2BRG = 0;
-      U2MODEbits.UARTEN = 1;
-    }
-    U2STAbits.UTXEN = 1;
-    for (; n > 0; n--, bytes++) {
-      while (U2STAbits.UTXBF) {
+  for (; n > 0; n--, bytes++)
+    if ((int)uart == 2) {
+      while (U2MODEbits.UARTEN && U2STAbits.UTXBF) {
       }
       U2TXREG = (unsigned char)*bytes;
+      if (!U2MODEbits.UARTEN) return;
+    } else {
+      while (U1MODEbits.UARTEN && U1STAbits.UTXBF) {
+      }
+      U1TXREG = (unsigned char)*bytes;
+      if (!U1MODEbits.UARTEN) return;
     }
-    return;
-  }
-  if (!U1MODEbits.UARTEN) {
-    U1BRG = 0;
-    U1MODEbits.UARTEN = 1;
-  }
-  U1STAbits.UTXEN = 1;
-  for (; n > 0; n--, bytes++) {
-    while (U1STAbits.UTXBF) {
-    }
-    U1TXREG = (unsigned char)*bytes;
-  }
 }
 
 /* the example of the C standard (7.20.2.2), which XC16's library uses as well */

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -32,10 +33,16 @@ std::string not_addable(const std::string& file, const std::string& error) {
   return file + ": --coverage: " + error + "; remove the file, or give another one, to count anew";
 }
 
+/// A device or a pipe is written to, and holds nothing.
+bool is_regular(const std::string& file) {
+  struct stat info;
+  return ::stat(file.c_str(), &info) == 0 && S_ISREG(info.st_mode);
+}
+
 /// The counts that the file holds so far; none if there is no such file.
 bool read_counts(const std::string& file, chip::Lcov& counts, std::vector<std::string>& problems) {
   std::string text, error;
-  if (::access(file.c_str(), F_OK) != 0) return true;
+  if (!is_regular(file)) return true;
   if (const std::string wrong = sim::read_input_file(file, kLongestCoverage, text); !wrong.empty())
     problems.push_back(file + ": --coverage: " + wrong);
   else if (!counts.read(text, error))
@@ -45,7 +52,9 @@ bool read_counts(const std::string& file, chip::Lcov& counts, std::vector<std::s
   return false;
 }
 
-bool write_all(int file, const std::string& text) {
+/// In the place of what the file holds.
+bool write_whole(int file, const std::string& text) {
+  if (::lseek(file, 0, SEEK_SET) == 0 && ::ftruncate(file, 0) != 0 && errno != EINVAL) return false;
   for (std::size_t at = 0; at < text.size();) {
     const ssize_t wrote = ::write(file, text.data() + at, text.size() - at);
     if (wrote < 0 && errno == EINTR) continue;
@@ -118,10 +127,14 @@ void CoverageRun::finish(std::vector<std::string>& problems) {
   const int file = ::open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
   chip::Lcov sum;
   if (file >= 0 && ::flock(file, LOCK_EX) == 0 && read_counts(file_, sum, problems)) {
-    if (!sum.add(all, error))
+    const std::string before = sum.text();
+    if (!sum.add(all, error)) {
       problems.push_back(not_addable(file_, error));
-    else if (::ftruncate(file, 0) != 0 || !write_all(file, sum.text()))
+    } else if (!write_whole(file, sum.text())) {
       problems.push_back(file_ + ": --coverage: cannot be written: " + std::strerror(errno));
+      // on a full disk there is room for what was there
+      if (is_regular(file_)) write_whole(file, before);
+    }
   } else if (problems.empty()) {
     problems.push_back(file_ + ": --coverage: cannot be written: " + std::strerror(errno));
   }

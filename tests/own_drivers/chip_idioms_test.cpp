@@ -15,8 +15,9 @@ TEST_F(OwnDrivers, printf_goes_to_the_uart_that_c30_uart_names) {
 #include <libpic30.h>
 int main(void)
 {
-  U2BRG = 7;
-  U2MODEbits.UARTEN = 1;  /* and UTXEN by the first character; UART 1 altogether */
+  U1BRG = U2BRG = 7;
+  U1MODEbits.UARTEN = U2MODEbits.UARTEN = 1;
+  U1STAbits.UTXEN = U2STAbits.UTXEN = 1;
   printf("one %d\n", 1);
   __C30_UART = 2;
   printf("two %d\n", 2);
