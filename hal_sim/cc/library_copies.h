@@ -15,8 +15,7 @@ struct LibraryCopies {
   std::vector<std::filesystem::path> kept;      ///< sources to compile, in the order given
   std::vector<std::filesystem::path> replaced;  ///< sources that are left out
   std::vector<std::filesystem::path> roots;     ///< folders that hold a copy in the library's own folders
-  std::vector<std::filesystem::path>
-      replaced_whole;  ///< register way: drivers that are ours, half assembler there
+  std::vector<std::filesystem::path> replaced_whole;  ///< drivers that are ours, half assembler there
 };
 
 /// Splits a project's sources. Left out are files that lie below the project's folder where the library has

@@ -263,7 +263,7 @@ bool lower_statement(Unit& unit, IRBuilder<>& b, StringRef text, Registers& w_re
   return true;
 }
 
-void refuse(Unit& unit, IRBuilder<>& b, CallBase* call, StringRef line) {
+void refuse(Unit& unit, CallBase* call, StringRef line) {
   const std::string got = ("inline assembler: got \"" + line + "\"").str();
   const char* const expected =
       ", expected nop, reset, clrwdt, pwrsav #0, pwrsav #1, disi #n, repeat #n, one of clr, setm, inc, dec, "
@@ -300,7 +300,7 @@ void lower_assembler(Unit& unit) {
       line = line.split(';').first.trim();  // what follows is a comment
       if (line.empty()) continue;
       if (refused == call->getFunction() || lower_statement(unit, b, line, w_registers)) continue;
-      refuse(unit, b, call, line);
+      refuse(unit, call, line);
       if (!unit.failed) refused = call->getFunction();
     }
     if (!call->getType()->isVoidTy()) call->replaceAllUsesWith(UndefValue::get(call->getType()));

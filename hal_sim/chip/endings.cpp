@@ -158,16 +158,7 @@ unsigned Endings::called_main(unsigned reset_at) const {
   unsigned behind = reset_at;
   while (behind > 2 && does_nothing(program_.read(behind - 2)) && !places_.call_before(behind)) behind -= 2;
   const unsigned call = places_.call_before(behind);
-  if (call == 0) return 0;
-  const std::uint32_t word = program_.read(call);
-  const dspic::Row* row = dspic::find_row(word);
-  if (!row) return 0;
-  const dspic::Fields f = dspic::fields_of(*row, word);
-  unsigned to = 0;
-  if (row->id == dspic::Insn::Call_Expr)
-    to = (program_.read(call + 2) & 0x7F) << 16 | f.n << 1;
-  else if (row->id == dspic::Insn::Rcall_Expr)
-    to = (call + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+  const unsigned to = call ? places_.target(call) : 0;
   if (to == 0) return 0;
   if (const auto* main_function = file_.code.function_named("main"))
     return main_function->begin == to ? to : 0;

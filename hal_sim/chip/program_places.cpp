@@ -115,7 +115,6 @@ unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
   return address;
 }
 
-/// Where the call or jump at an address leads, if it says so itself; else 0.
 unsigned ProgramPlaces::target(unsigned at) const {
   const dspic::Row* row = dspic::find_row(program_.read(at));
   if (!row) return 0;

@@ -50,6 +50,8 @@ class ProgramPlaces final {
   unsigned stack_word(unsigned address) const;
   /// The call that stands in front of an address; 0: there is none.
   unsigned call_before(unsigned address) const;
+  /// Where the call or jump at an address leads, if it says so itself; else 0.
+  unsigned target(unsigned at) const;
   /// The calls in the program's own code that led to `own` from `address`, which runs now, the innermost
   /// first; `own` itself is none of them. Up to the frame of an interrupt; at most `most`.
   std::vector<unsigned> callers(unsigned address, unsigned own, std::size_t most) const;
@@ -57,7 +59,6 @@ class ProgramPlaces final {
  private:
   bool has_alternate_table() const;
   unsigned last_jump(unsigned call, unsigned to) const;
-  unsigned target(unsigned at) const;
   bool is_handler_code(unsigned address) const;
 
   const dspic::FirmwareFile& file_;
