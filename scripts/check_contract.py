@@ -77,6 +77,8 @@ DEFINITION = re.compile(r"^(?!static\b|typedef\b|struct\s+\w+\s*\{)(?:[A-Za-z_]\
 def definitions(source, contract):
     """Linker names defined by one file of the API: [(linker name, line)]."""
     raw = source.read_text()
+    if source.suffix == ".s":  # assembler: the names it makes global, without the underscore of C
+        return [(match.group(1), raw.count("\n", 0, match.start()) + 1) for match in re.finditer(r"^\s*\.global\s+_(\w+)", raw, re.M)]
     # drivers written once for two units lie in a header beside their files
     own = [source.parent / name for name in re.findall(r'^#\s*include\s+"([\w.]+)"', raw, flags=re.M)]
     raw += "".join("\n" + header.read_text() for header in own if header.is_file())
@@ -111,7 +113,7 @@ def main():
                 declared.setdefault(prefix + name, header)
     problems = []
     ways = [("native way", sorted(COMMON.glob("*.c")) + sorted(API.glob("*.c")), ("webots/", "device/")),
-            ("chip", sorted(COMMON.glob("*.c")) + sorted(CHIP.rglob("*.c")), ("webots/", "device/", "twinpuck/"))]
+            ("chip", sorted(COMMON.glob("*.c")) + sorted(CHIP.rglob("*.[cs]")), ("webots/", "device/", "twinpuck/"))]
     counts = []
     for way, sources, not_asked in ways:
         defined = collections.defaultdict(list)
