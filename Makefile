@@ -25,7 +25,7 @@ help:
 	@echo
 	@echo "  variables: FW=controller (folder of firmware/)  WORLD=world (file of worlds/)  T=filter  ARGS=options"
 
-## setup: install the packages that building and testing need; PACKAGES=debug installs gdb
+## setup: install the packages that building and testing need
 setup:
 	@scripts/setup.sh $(PACKAGES)
 

@@ -75,14 +75,14 @@ bool measure_waits(int rounds) {
   const double maze_s = median_s(rounds, nothing, [&] { run_maze("600"); });
   bool kept = row("twinpuck run worlds/maze.toml --for 600", 1e3 * maze_s, 1e3 * kMazeSeconds / kMazeSpeed);
   std::printf("  %.0f times real time\n", kMazeSeconds / maze_s);
-  // on the chip way a run's time is its own
+  // with the robot's own drivers
   const auto run_chip = [&] {
-    run_command({command, "run", maze, "--fw", "*=obstacle", "--way", "chip", "--for", "60", "-q"});
+    run_command({command, "run", maze, "--fw", "*=obstacle", "--hal", "dspic", "--for", "60", "-q"});
   };
   run_chip();
   constexpr double kChipSeconds = 60, kChipSpeed = 100;
   const double chip_s = median_s(rounds, nothing, run_chip);
-  kept &= row("twinpuck run maze --fw obstacle --way chip --for 60", 1e3 * chip_s,
+  kept &= row("twinpuck run maze --fw obstacle --hal dspic --for 60", 1e3 * chip_s,
               1e3 * kChipSeconds / kChipSpeed);
   std::printf("  %.0f times real time\n", kChipSeconds / chip_s);
   kept &= row("twinpuck run worlds/maze.toml --for 0.01, built before",

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * What firmware/library asks of the chip: LEDs, coils, samples, delays, each on registers. The native way answers the same
- * questions in hal_sim/api/hal.h.
+ * What firmware/library asks of the chip: LEDs, coils, samples, delays, each on registers.
  *
  * A pin is set by an instruction on its one bit, never by reading, changing and writing the port: an interrupt between
  * would lose what it wrote. So values that are not constants go through a branch.

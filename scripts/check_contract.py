@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Holds firmware/include (the contract) against what implements it: firmware/library with hal_sim/api (the native way), and
-firmware/library with hal_dspic (the chip).
+"""Holds firmware/include (the contract) against what implements it: firmware/library with hal_dspic.
 
-    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition in each way
+    scripts/check_contract.py            exit 1 unless every prototype has exactly one definition
 
 A prototype's linker name is its own name, or that with the prefix its header gives it (TP_VARIANT). A definition
 takes the linker name of the first header that its file includes and that declares it, as the compiler does. What
@@ -19,8 +18,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 INCLUDE = ROOT / "firmware/include"
 COMMON = ROOT / "firmware/library"
-API = ROOT / "hal_sim/api"
-CHIP = ROOT / "hal_dspic"
+HAL = ROOT / "hal_dspic"
 CONTROLLER = ROOT / "build/libcontroller.so"  # what programs of the PC link with
 
 # headers without prototypes of the contract, or that only include others
@@ -43,7 +41,7 @@ def plain(text):
     return re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
 
 
-PROTOTYPE = re.compile(r"(?:^|[;}])\s*(?:TP_POLL\s+|extern\s+)*(?:[A-Za-z_]\w*[\s*]+)+?(\w+)\s*"
+PROTOTYPE = re.compile(r"(?:^|[;}])\s*(?:extern\s+)*(?:[A-Za-z_]\w*[\s*]+)+?(\w+)\s*"
                        r"(\((?:[^()]|\([^()]*\))*\))\s*(?:(TP_\w+)\s*\(\s*(\w+)\s*(?:,\s*\w+\s*)?\)\s*)?(?=;)")
 
 
@@ -112,24 +110,20 @@ def main():
             for prefix in choices.values():
                 declared.setdefault(prefix + name, header)
     problems = []
-    ways = [("native way", sorted(COMMON.glob("*.c")) + sorted(API.glob("*.c")), ("webots/", "device/")),
-            ("chip", sorted(COMMON.glob("*.c")) + sorted(CHIP.rglob("*.[cs]")), ("webots/", "device/", "twinpuck/"))]
-    counts = []
-    for way, sources, not_asked in ways:
-        defined = collections.defaultdict(list)
-        for source in sources:
-            for name, line in definitions(source, contract):
-                defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
-        asked = {name: header for name, header in declared.items()
-                 if name not in ONLY_DECLARED | VENDORS_LIBRARY and not header.startswith(not_asked)}
-        for name, header in sorted(asked.items()):
-            if not defined[name]:
-                problems.append("firmware/include/%s: %s: declared, but nothing of the %s defines it" % (header, name, way))
-        for name, places in sorted(defined.items()):
-            # two drivers of one unit each have a handler; a program links one of them
-            if len(places) > 1 and name in declared:
-                problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
-        counts.append("%s %d of %d" % (way, sum(1 for name in asked if defined[name]), len(asked)))
+    defined = collections.defaultdict(list)
+    for source in sorted(COMMON.glob("*.c")) + sorted(HAL.rglob("*.[cs]")):
+        for name, line in definitions(source, contract):
+            defined[name].append("%s:%d" % (source.relative_to(ROOT), line))
+    asked = {name: header for name, header in declared.items()
+             if name not in ONLY_DECLARED | VENDORS_LIBRARY and not header.startswith(("webots/", "device/", "twinpuck/"))}
+    for name, header in sorted(asked.items()):
+        if not defined[name]:
+            problems.append("firmware/include/%s: %s: declared, but nothing of hal_dspic defines it" % (header, name))
+    for name, places in sorted(defined.items()):
+        # two drivers of one unit each have a handler; a program links one of them
+        if len(places) > 1 and name in declared:
+            problems.append("%s: %s: defined again, first in %s" % (places[1], name, places[0]))
+    counts = ["chip %d of %d" % (sum(1 for name in asked if defined[name]), len(asked))]
     if CONTROLLER.exists():  # its functions come from macros, too: only the compiler knows them
         listing = subprocess.run(["nm", "-D", "--defined-only", CONTROLLER], capture_output=True, text=True, check=True)
         exported = {line.split()[-1] for line in listing.stdout.splitlines()}

@@ -63,11 +63,7 @@ HEAD = """\
 #define _XDATA(alignment) __attribute__((space(xmemory), aligned(alignment)))
 #define _YBSS(alignment) __attribute__((space(ymemory), aligned(alignment)))
 #define _YDATA(alignment) __attribute__((space(ymemory), aligned(alignment)))
-#ifdef __TWINPUCK_PC__
-#define _EEDATA(alignment) __attribute__((section("tpeedata"), aligned(alignment)))
-#else
 #define _EEDATA(alignment) __attribute__((space(eedata), aligned(alignment)))
-#endif
 
 /* --- single instructions -------------------------------------------------------------------------------- */
 #define Nop() { __asm__ volatile("nop"); }
@@ -88,17 +84,6 @@ HEAD = """\
   ((volatile unsigned char *)&OSCCON)[1] = 0x9A; ((volatile unsigned char *)&OSCCON)[1] = (value); } while (0)
 #define __builtin_write_NVM() do { NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; __builtin_nop(); \\
   __builtin_nop(); } while (0)
-#ifdef __TWINPUCK_PC__
-/* table instructions reach the data EEPROM, pages 0x7F */
-#define __builtin_tblrdl(offset) tp_image_table_read((unsigned long)TBLPAG << 16 | (unsigned)(offset))
-#define __builtin_tblwtl(offset, value) \\
-  tp_table_write((long long)TBLPAG << 16 | (unsigned)(offset), (unsigned)(value))
-#define __builtin_tblrdlb(offset) (__builtin_tblrdl((offset) & ~1u) >> ((offset) & 1u ? 8 : 0) & 0xFFu)
-/* the third byte of an instruction word: none in the EEPROM, 0 beside a constant */
-#define __builtin_tblrdh(offset) ((void)(offset), 0u)
-#define __builtin_tblrdhb(offset) ((void)(offset), 0u)
-#define __builtin_tblwth(offset, value) ((void)(offset), (void)(value))
-#endif
 #define __builtin_readsfr(address) (*(volatile unsigned *)(address))
 #define __builtin_writesfr(address, value) (*(volatile unsigned *)(address) = (value))
 
@@ -107,18 +92,9 @@ HEAD = """\
 #define SET_AND_SAVE_CPU_IPL(save_to, ipl) { save_to = SRbits.IPL; SRbits.IPL = (ipl); }
 #define RESTORE_CPU_IPL(saved_to) { SRbits.IPL = (saved_to); }
 
-/* --- configuration words. _FWDT switches the watchdog on and sets its postscalers (register way); an _FOSC
+/* --- configuration words. _FWDT switches the watchdog on and sets its postscalers; an _FOSC
  *     that does not give 14.7456 million instructions a second from the robot's crystal stops the robot with a
  *     message. The others are accepted, checked for known names, and have no effect. --------------------- */
-#ifdef __TWINPUCK_PC__
-#define _FOSC(value) __attribute__((weak)) const unsigned int tp_config_fosc = (value);
-#define _FWDT(value) __attribute__((weak)) const unsigned int tp_config_fwdt = (value);
-#define _FBORPOR(value) extern char tp_config_fborpor[sizeof(value)];
-#define _FBS(value) extern char tp_config_fbs[sizeof(value)];
-#define _FSS(value) extern char tp_config_fss[sizeof(value)];
-#define _FGS(value) extern char tp_config_fgs[sizeof(value)];
-#define _FICD(value) extern char tp_config_ficd[sizeof(value)];
-#else
 #define TP_CONFIGURATION(name, address, value) \\
   __attribute__((weak, used, section(".config@" address))) const unsigned int tp_config_##name = (value);
 #define _FOSC(value) TP_CONFIGURATION(fosc, "F80000", value)
@@ -128,7 +104,6 @@ HEAD = """\
 #define _FSS(value) TP_CONFIGURATION(fss, "F80008", value)
 #define _FGS(value) TP_CONFIGURATION(fgs, "F8000A", value)
 #define _FICD(value) TP_CONFIGURATION(ficd, "F8000C", value)
-#endif
 """
 
 # name, mask that clears what the choice clears (all ones elsewhere); FOSC = FCKSM 15:14, FOS 10:8, FPR 4:0

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what building and testing need on Debian 12, and says nothing when all is there.
 #
-#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, debug, view (make view),
+#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, view (make view),
 #                               browser (make test-view)
 #
 # Needs root or sudo only when something is missing.
@@ -10,14 +10,13 @@ set -eu
 
 build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
  llvm-14-dev libclang-14-dev clang-14
- libbox2d-dev libeigen3-dev libccd-dev libboost-context-dev
+ libbox2d-dev libeigen3-dev libccd-dev
  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libelf-dev libdw-dev libcairo2-dev
  libcivetweb-dev libvpx-dev libjpeg62-turbo-dev libpng-dev libgtest-dev libwebm-dev"
 check="clang-format clang-tidy"
 bench="libenki-dev libsimavr-dev"
 second="gcc-avr avr-libc simavr"
 fuzz="libclang-rt-14-dev"
-debug="gdb"
 view="esbuild nodejs"
 command -v npm >/dev/null || view="$view npm"  # other nodejs packages than Debian's bring it along
 browser="chromium"
@@ -29,11 +28,10 @@ case $group in
   bench) packages=$bench ;;
   second) packages=$second ;;
   fuzz) packages=$fuzz ;;
-  debug) packages=$debug ;;
   view) packages=$view ;;
   browser) packages=$browser ;;
   *)
-    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, debug, view or browser" >&2
+    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, view or browser" >&2
     exit 2
     ;;
 esac

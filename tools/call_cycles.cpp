@@ -379,7 +379,7 @@ std::vector<Taken> run(const std::string& level, int selector, std::vector<std::
   world.robots[0].firmware = folder.string();
   world.robots[0].own["selector"] = selector;
   twin::Options options;
-  options.way = "chip";
+  options.hal = "dspic";
   options.optimisation = level;
   const auto twin = twin::Twin::open(world, options, problems);
   if (!twin) return {};

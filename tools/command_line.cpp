@@ -32,22 +32,17 @@ CLI::Validator between(double least, double most) {
 
 CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }
 
-void add_way(CLI::App& verb, std::string& way, const std::string& text) {
-  const auto check = [](const std::string& got) -> std::string {
-    if (got == "native" || got == "chip") return "";
-    if (got == "register")
-      return "got register, which is gone: --hal dspic runs all drivers on the chip's registers";
-    return "got " + got + ", expected native or chip";
-  };
-  verb.add_option("--way", way, text)->check(CLI::Validator(check, ""));
-}
-
 void add_hal(CLI::App& verb, std::string& hal) {
   verb.add_option(
           "--hal", hal,
-          "controllers built from source become code of the robot's own processor: sim, whose busy "
-          "drivers are the simulator's, or dspic, the image that is flashed; goes before --way; default: sim")
+          "what controllers built from source are linked with: sim, whose busy drivers are the simulator's, "
+          "or dspic, the image that is flashed; default: the world's, else sim")
       ->check(CLI::IsMember({"sim", "dspic"}));
+  const auto gone = [](const std::string& way) {
+    throw CLI::ValidationError("--way", "got " + way + ", expected --hal sim or --hal dspic; native is --hal "
+                                        "sim now, chip is --hal dspic");
+  };
+  verb.add_option_function<std::string>("--way", gone)->group("");
 }
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {

@@ -30,10 +30,8 @@ void add_help(CLI::App& app);
 /// An option that may be given several times, each time with one value: so that what follows is not
 /// swallowed.
 CLI::Option* one_each(CLI::Option* option);
-/// "--hal sim|dspic" of a verb that builds or runs controllers.
+/// "--hal sim|dspic" of a verb that builds or runs controllers; --way, which came before it, says so.
 void add_hal(CLI::App& verb, std::string& hal);
-/// --way: native, or chip, which is --hal dspic; `text`: what help says of it.
-void add_way(CLI::App& verb, std::string& way, const std::string& text);
 
 /// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.
 bool split_choices(const std::vector<std::string>& words, const char* option,

@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: MIT
-// twinpuck debug: the debugger as a monitor on the terminal or as a DAP server for editors; or gdb, where a
-// program is the PC's code.
+// twinpuck debug: the debugger as a monitor on the terminal or as a DAP server for editors.
 #include <unistd.h>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 
-#include "hal_sim/cc/library_objects.h"
 #include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
 #include "tools/command_line.h"
@@ -29,23 +25,19 @@ namespace {
 namespace fs = std::filesystem;
 
 struct DebugArguments {
-  std::string world, robot, commands, way, hal, optimisation = "-O0";
+  std::string world, robot, commands, hal, optimisation;
   std::vector<std::string> firmware;
   double seconds = 1e6;
   long long seed = -1;
-  bool dap = false, gdb = false;
+  bool dap = false;
 };
 
 constexpr const char* kUsualHal = "sim";
-const std::vector<std::string> kWays{"native", "chip"}, kHals{"sim", "dspic"},
-    kLevels{"-O0", "-O1", "-O2", "-Os"};
+const std::vector<std::string> kHals{"sim", "dspic"}, kLevels{"-O0", "-O1", "-O2", "-Os"};
 
 bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
-
-/// Programs become code for the PC.
-bool is_of_pc(const DebugArguments& a) { return a.hal.empty() && a.way == "native"; }
 
 volatile std::sig_atomic_t pause_asked = 0;
 
@@ -57,9 +49,8 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
   if (a.seed >= 0) world->seed = static_cast<std::uint64_t>(a.seed);
   setup.world = std::move(*world);
   setup.options.world_folder = fs::path(setup.world.file).parent_path().string();
-  setup.options.way = a.way;
-  setup.options.hal = a.hal.empty() && a.way.empty() ? kUsualHal : a.hal;
-  if (is_of_pc(a)) setup.options.optimisation = a.optimisation;
+  setup.options.hal = a.hal.empty() ? kUsualHal : a.hal;
+  setup.options.optimisation = a.optimisation;
   setup.robot = a.robot;
   setup.seconds = a.seconds;
   return true;
@@ -87,11 +78,14 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   DebugArguments a;
   a.world = launch.value("world", "maze");
   a.robot = launch.value("robot", "");
-  a.way = launch.value("way", a.way);
+  if (launch.contains("way")) {
+    problems.push_back("launch: way: expected hal, \"sim\" or \"dspic\"; native is hal sim now");
+    return nullptr;
+  }
   a.optimisation = launch.value("opt", a.optimisation);
   a.hal = launch.value("hal", a.hal);
   for (const auto& [key, value, known] :
-       {std::tuple("hal", &a.hal, &kHals), std::tuple("way", &a.way, &kWays),
+       {std::tuple("hal", &a.hal, &kHals),
         std::tuple("opt", &a.optimisation, &kLevels)})
     if (!value->empty() && !is_one_of(*value, *known)) {
       problems.push_back(
@@ -138,26 +132,6 @@ int debug_in_terminal(const DebugArguments& a) {
   return kPass;
 }
 
-/// Becomes gdb, at main() of the first robot's program; returns only if there is none.
-int debug_with_gdb(const DebugArguments& a) {
-  std::vector<std::string> words{"gdb", "-q",
-                                 "-x",  (cc::source_root() / "scripts/firmware.gdb").string(),
-                                 "-ex", "set $stops_at_main = 1",
-                                 "-ex", "run"};
-  if (!a.commands.empty()) words.insert(words.end(), {"-batch", "-x", a.commands});
-  words.insert(words.end(), {"--args", fs::read_symlink("/proc/self/exe").string(), "run", a.world, "--way",
-                             a.way, "--opt", a.optimisation, "--for", fmt::format("{}", a.seconds)});
-  for (const std::string& firmware : a.firmware) words.insert(words.end(), {"--fw", firmware});
-  if (a.seed >= 0) words.insert(words.end(), {"--seed", std::to_string(a.seed)});
-  std::vector<char*> pointers;
-  for (std::string& word : words) pointers.push_back(word.data());
-  pointers.push_back(nullptr);
-  execvp(pointers[0], pointers.data());
-  complain({std::string("gdb: ") + std::strerror(errno) + ", expected gdb for --way " + a.way +
-            "; `make setup PACKAGES=debug` installs it"});
-  return kBadInput;
-}
-
 }  // namespace
 
 void add_debug(CLI::App& app, int& exit_code) {
@@ -165,9 +139,8 @@ void add_debug(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<DebugArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   one_each(verb->add_option(
-      "--fw", a->firmware, "[ROBOT=]FILE: a .elf, .hex or .so, a folder of C files, or a controller's name"));
+      "--fw", a->firmware, "[ROBOT=]FILE: an .elf or .hex, a folder of C files, or a controller's name"));
   add_hal(*verb, a->hal);
-  add_way(*verb, a->way, "native: the program as the PC's code; chip is --hal dspic");
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
@@ -176,20 +149,17 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
-  verb->add_flag("--gdb", a->gdb, "gdb instead, in the native way");
-  verb->add_option("--opt", a->optimisation, "of a native program that is built")
-      ->check(CLI::IsMember(kLevels))
-      ->capture_default_str();
+  verb->add_option("--opt", a->optimisation,
+                   "level for a program that is built, as run --opt; at -O0 every variable keeps its place")
+      ->check(CLI::IsMember(kLevels));
   verb->callback([a, world, &exit_code] {
-    if (a->gdb && (a->dap || !a->robot.empty() || !is_of_pc(*a)))
-      throw CLI::ValidationError("--gdb", "with --way native, and without --dap and --robot");
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
       exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");
-    exit_code = a->gdb ? debug_with_gdb(*a) : debug_in_terminal(*a);
+    exit_code = debug_in_terminal(*a);
   });
 }
 

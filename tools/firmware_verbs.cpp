@@ -82,18 +82,16 @@ bool may_replace(const fs::path& output) {
   return false;
 }
 
-int build(cc::BuildOptions options, const std::string& way) {
+int build(cc::BuildOptions options, bool counts_lines) {
   if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
   twin::Options of_run;
-  of_run.way = way;
   of_run.hal = options.hal;
   of_run.sanitize = options.sanitize;
-  if (options.coverage) {
+  if (counts_lines) {
     of_run.coverage = "run";  // as a run builds it that counts
     if (options.optimisation.empty()) options.optimisation = "-O0";
   }
-  options.coverage = false;
   std::vector<std::string> no_controller;
   const std::string found = twin::find_firmware(given, "", no_controller);
   options.hal = twin::hal_of(of_run, found);
@@ -109,18 +107,8 @@ int build(cc::BuildOptions options, const std::string& way) {
   complain(result.notes);
   complain(result.errors);
   if (!result.ok) return kTestFailed;
-  if (!options.hal.empty()) {
-    std::cout << fmt::format("{}: {} files compiled, {} unchanged, {:.2f} s\n{}", options.output.string(),
-                             result.compiled, result.reused, result.seconds, result.size_report);
-    return kPass;
-  }
-  const std::string bound =
-      result.recursive.empty() ? "" : fmt::format(" (no bound: {}() calls itself)", result.recursive);
-  std::cout << fmt::format(
-      "{}: {} bytes of data, about {} of stack{}, of 8192 on the chip; {} files compiled, {} unchanged, "
-      "{:.2f} s\n",
-      options.output.string(), result.ram_bytes, result.stack_bytes, bound, result.compiled, result.reused,
-      result.seconds);
+  std::cout << fmt::format("{}: {} files compiled, {} unchanged, {:.2f} s\n{}", options.output.string(),
+                           result.compiled, result.reused, result.seconds, result.size_report);
   return kPass;
 }
 
@@ -185,18 +173,17 @@ void add_build(CLI::App& app, int& exit_code) {
   verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name; Webots' too")
       ->required();
   verb->add_option("-o,--output", o->output,
-                   "the image to write, a .so (chip: .elf); without it, where runs keep theirs");
-  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: for the chip the project's, else -O1")
+                   "the image to write, an .elf; without it, where runs keep theirs");
+  verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: the project's, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
   one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
   verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
   add_hal(*verb, o->hal);
-  auto way = std::make_shared<std::string>();
-  add_way(*verb, *way, "native: for the PC, .so; chip is --hal dspic");
-  verb->add_flag("--sanitize", o->sanitize, "address and 16-bit overflow checks");
-  verb->add_flag("--coverage", o->coverage, "as run --coverage builds it: with -O0");
-  verb->callback([o, way, &exit_code] { exit_code = build(*o, *way); });
+  verb->add_flag("--sanitize", o->sanitize, "as run --sanitize builds it");
+  auto counts_lines = std::make_shared<bool>();
+  verb->add_flag("--coverage", *counts_lines, "as run --coverage builds it: with -O0");
+  verb->callback([o, counts_lines, &exit_code] { exit_code = build(*o, *counts_lines); });
 }
 
 void add_lint(CLI::App& app, int& exit_code) {

@@ -265,7 +265,6 @@ bool run_trial(const Trial& trial, Measures& measures, std::string& said,
   }
   twin::Options options;
   options.world_folder = std::filesystem::path(file).parent_path().string();
-  options.way = trial.way;
   options.hal = trial.hal;
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
   auto twin = twin::Twin::open(std::move(world), options, problems);

@@ -15,7 +15,7 @@ struct Trial {
   const LabStep* step = nullptr;
   std::string world;
   std::string image;       ///< of the firmware, built; empty: as the world says
-  std::string way, hal;    ///< of programs that the world names; empty: as the world says
+  std::string hal;         ///< of programs that the world names; empty: as the world says
   double noise_scale = 0;  ///< not a number: as the world says
   double seconds = 60;     ///< simulated, at most
   std::uint64_t seed = 1;

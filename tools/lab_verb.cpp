@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 struct LabArguments {
   std::vector<std::string> ids;
-  std::string table, csv, plot, mine, way, hal;
+  std::string table, csv, plot, mine, hal;
   int seeds = 0, jobs = 1;
   bool full = false, no_times = false, list = false;
 };
@@ -54,7 +54,7 @@ std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double second
   for (const std::string& world : step.worlds)
     for (double scale : scales)
       for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
-        all.push_back({{&step, world, image, a.way, a.hal, scale, seconds, static_cast<std::uint64_t>(seed)},
+        all.push_back({{&step, world, image, a.hal, scale, seconds, static_cast<std::uint64_t>(seed)},
                        false,
                        {},
                        "",
@@ -175,7 +175,6 @@ int lab(const LabArguments& a) {
     problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
   LabPrograms programs;
   twin::Options options;
-  options.way = a.way;
   options.hal = a.hal;
   std::ofstream csv;
   if (problems.empty() && !a.csv.empty()) {
@@ -249,8 +248,6 @@ void add_lab(CLI::App& app, int& exit_code) {
       "--mine", a->mine,
       "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
       "in the place of the lab's solutions");
-  add_way(*verb, a->way,
-          "native: all programs that are built from source run as code of the PC; else the worlds'");
   add_hal(*verb, a->hal);
   verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));

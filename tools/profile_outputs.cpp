@@ -13,8 +13,7 @@ void add_profile_options(CLI::App& verb, ProfileArguments& a) {
   verb.option_defaults()->group("Checks");
   verb.add_flag("--profile", a.profile,
                 "exact cycles of functions, interrupts, turns of the main loop and waits, and the deepest "
-                "stack, of robots "
-                "that run the chip way");
+                "stack");
   verb.add_option("--profile-json", a.file, "the same as a JSON file");
   verb.add_option("--budgets", a.budgets,
                   "TOML file of what functions and interrupts may take (docs/profile.md); exit code 1 when "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --profile and --budgets of a run: the chip way's exact times, shown or written, and held against budgets.
+// --profile and --budgets of a run: exact times, shown or written, and held against budgets.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -21,7 +21,7 @@ class ProfileOutputs {
  public:
   ProfileOutputs(ProfileArguments arguments, twin::Twin& twin)
       : arguments_(std::move(arguments)), twin_(twin), profiles_(twin) {}
-  /// False and one line per problem: no robot of the chip way, a bad file of budgets.
+  /// False and one line per problem: no robot that runs firmware, a bad file of budgets.
   bool open(std::vector<std::string>& problems);
   /// Text goes to stdout. False: a budget was not kept.
   bool finish(std::vector<std::string>& problems);

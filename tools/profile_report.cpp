@@ -62,7 +62,7 @@ void Profiles::begin(const std::string& option, std::vector<std::string>& proble
   }
   if (watched_.empty())
     problems.push_back("command line: " + option +
-                       ": got no robot that runs the chip way, expected one; add --way chip, or give a .elf");
+                       ": got no robot that runs firmware, expected one; give one with --fw");
 }
 
 Profiles::~Profiles() {

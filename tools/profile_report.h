@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// --profile: where the time of robots goes that run the chip way (hal_sim/chip/profile.h), as text and JSON.
+// --profile: where the time of robots goes (hal_sim/chip/profile.h), as text and JSON.
 #pragma once
 #include <memory>
 #include <string>
@@ -11,15 +11,15 @@
 
 namespace tools {
 
-/// A robot's runner if it runs the chip way, else null.
+/// A robot's runner if it runs firmware, else null.
 chip::ChipRunner* chip_runner(twin::Twin& twin, int robot);
 
-/// Profiles of all robots of a world that run the chip way.
+/// Profiles of all robots of a world that run firmware.
 class Profiles {
  public:
   explicit Profiles(twin::Twin& twin) : twin_(twin) {}
   ~Profiles();
-  /// From here on; a line in `problems` if no robot runs the chip way.
+  /// From here on; a line in `problems` if no robot runs firmware.
   void begin(const std::string& option, std::vector<std::string>& problems);
 
   struct Named {

@@ -16,7 +16,6 @@
 #include <thread>
 
 #include "hal_sim/cc/child_process.h"
-#include "hal_sim/host/faults.h"
 #include "sim_core/base/check.h"
 #include "tools/verbs.h"
 
@@ -112,11 +111,8 @@ std::string limit_text() {
   text += code == kHostTime
               ? "host time: got more than " + limit_text() + " s, expected at most " + limit_text() + " s"
               : "interrupted";
-  if (was_graceful) {
-    const std::string ran = host::halt_threads();
-    text += "; " + (ran.empty() ? std::string("the simulator did not come back from a step") : ran) +
-            "; recordings hold what was written";
-  }
+  if (was_graceful)
+    text += "; the simulator did not come back from a step; recordings hold what was written";
   tell((text + '\n').c_str());
   if (was_graceful && write_rest) write_rest();
   _exit(code);

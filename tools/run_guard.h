@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ends the process when the user (Ctrl-C, SIGTERM) or --host-limit wants it ended, whatever runs. A verb that
-// looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a program
-// or the simulator loops for ever, is ended by a thread of its own: that stops the other threads where they
-// are, says what ran, and leaves with the documented exit code.
+// looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a
+// supervisor or the simulator loops for ever, is ended by a thread of its own, with the documented exit code.
 //
 // Compilers and other children end at once.
 //
@@ -26,8 +25,7 @@ void limit_host_time(double seconds);
 /// Without one the process ends at once.
 class GracefulEnd {
  public:
-  /// `rescue` writes what is left of the output files; called by the guard's thread, with the simulation
-  /// stopped somewhere between two instructions of firmware.
+  /// `rescue` writes what is left of the output files; called by the guard's thread.
   explicit GracefulEnd(std::function<void()> rescue);
   ~GracefulEnd();
   GracefulEnd(const GracefulEnd&) = delete;

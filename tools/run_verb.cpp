@@ -45,7 +45,7 @@ struct RunArguments {
   long long seed = -1;
   int threads = 1;
   double host_limit_s = 0;
-  std::string optimisation, way, hal;
+  std::string optimisation, hal;
   bool sanitize = false, quiet = false, strict = false, live = false;
   OutputArguments outputs;
   ProfileArguments profile;
@@ -70,7 +70,6 @@ int run(const RunArguments& arguments) {
   twin::Options options;
   options.threads = arguments.threads;
   options.optimisation = arguments.optimisation;
-  options.way = arguments.way;
   options.hal = arguments.hal;
   options.externs = arguments.externs;
   options.sanitize = arguments.sanitize;
@@ -269,8 +268,6 @@ void add_run(CLI::App& app, int& exit_code) {
       verb->add_option("--fw", a->firmware,
                        "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
                        "every robot"));
-  add_way(*verb, a->way,
-          "native: all robots whose controller is built from source run code of the PC; else the world's");
   add_hal(*verb, a->hal);
   one_each(verb->add_option(
       "--uart", a->uart1,
@@ -307,11 +304,10 @@ void add_run(CLI::App& app, int& exit_code) {
       "--strict", a->strict,
       "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md), or "
       "its data and stack do not fit the chip");
-  verb->add_flag("--sanitize", a->sanitize, "build controllers with address and 16-bit overflow checks");
+  verb->add_flag("--sanitize", a->sanitize, "check every access of memory and 16-bit overflow in controllers built from source");
   verb->add_option(
           "--opt", a->optimisation,
-          "level for controllers built from source; without it, in the chip way, that of a program's project "
-          "file, else -O1")
+          "level for controllers built from source; without it, that of a program's project file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->add_flag("--live", a->live,
                  "show arena, robots, LEDs and serial text in this terminal (80 by 24), in real time unless "

@@ -75,7 +75,6 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     r.firmware = twin.image_path(i);
     r.program = twin.program(i);
     r.hal = twin.hal(i);
-    r.way = mind.runner() ? mind.runner()->way() : "none";
     const auto& pose = simulation.pose(i);
     r.x_m = pose.x_m;
     r.y_m = pose.y_m;
@@ -175,7 +174,6 @@ std::string to_json(const Summary& s) {
     robot["program"] =
         r.program.path.empty() ? "" : std::filesystem::absolute(r.program.path).lexically_normal().string();
     robot["files"] = r.program.files;
-    robot["way"] = r.way;
     robot["hal"] = r.hal.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(r.hal);
     robot["x_m"] = r.x_m;
     robot["y_m"] = r.y_m;

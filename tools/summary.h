@@ -10,7 +10,7 @@
 namespace tools {
 
 struct RobotSummary {
-  std::string name, firmware, way, hal;
+  std::string name, firmware, hal;
   twin::Program program;
   double x_m = 0, y_m = 0, heading_rad = 0, distance_m = 0;
   int collisions = 0;

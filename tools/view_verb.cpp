@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
-  std::string world, record, way, hal, optimisation;
+  std::string world, record, hal, optimisation;
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
   long long seed = -1;
@@ -40,7 +40,6 @@ int view(const ViewArguments& a) {
     return kBadInput;
   }
   opening.file = fs::absolute(opening.file).lexically_normal().string();
-  opening.options.way = a.way;
   opening.options.hal = a.hal;
   opening.options.optimisation = a.optimisation;
   opening.options.threads = a.threads;
@@ -76,8 +75,6 @@ void add_view(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option("--record-inputs", a->record,
                    "file for what the page does, with its ticks; run --replay does it again");
-  add_way(*verb, a->way,
-          "native: all robots whose controller is built from source run code of the PC; else the world's");
   add_hal(*verb, a->hal);
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
@@ -87,8 +84,7 @@ void add_view(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   verb->add_option(
           "--opt", a->optimisation,
-          "level for controllers built from source; without it, in the chip way, that of a program's project "
-          "file, else -O1")
+          "level for controllers built from source; without it, that of a program's project file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");
   verb->callback([a, &exit_code] { exit_code = view(*a); });

@@ -188,7 +188,6 @@ Json to_json(const Opening& o) {
           {"text", o.text},
           {"seed", o.seed},
           {"firmware", firmware},
-          {"way", o.options.way},
           {"hal", o.options.hal},
           {"opt", o.options.optimisation},
           {"supervisors", o.supervisors}};
@@ -230,8 +229,11 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
         o.file = line.at("file").get<std::string>();
         o.text = line.at("text").get<std::string>();
         o.seed = line.at("seed").get<std::uint64_t>();
-        o.options.way = line.at("way").get<std::string>();
         o.options.hal = line.value("hal", "");
+        // what recordings of before have beside it
+        const std::string way = line.value("way", "");
+        if (way == "native") refuse_input("way: got native, which is gone; record the inputs anew");
+        if (way == "chip" && o.options.hal.empty()) o.options.hal = "dspic";
         o.options.optimisation = line.at("opt").get<std::string>();
         o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
         for (const Json& choice : line.at("firmware"))
@@ -253,7 +255,6 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
 }
 
 void Replay::resume(twin::Options& options) const {
-  options.way = opening.options.way;
   options.hal = opening.options.hal;
   options.optimisation = opening.options.optimisation;
   options.firmware = opening.options.firmware;

@@ -196,7 +196,7 @@ Named variable(twin::Twin& twin, int robot, const std::string& expression) {
 /// A register of the chip, or one of its fields, as signals are called; only where there is a chip.
 Named chip_register(twin::Twin& twin, int robot, const std::string& name) {
   const host::Runner* program = mind(twin, robot).runner();
-  std::string error = "got a register of a robot without a chip, expected --way register or chip";
+  std::string error = "got a register of a robot without a chip, expected a robot that runs firmware";
   if (!program || !program->has_chip()) throw std::runtime_error(error);
   const auto signals = trace::find_signals(name, program, error);
   if (signals.size() != 1 || signals[0].source.kind != trace::Source::Register)

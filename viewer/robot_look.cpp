@@ -32,7 +32,6 @@ Json RobotLook::take() {
   if (const host::Runner* program = mind.runner()) {
     const host::Place place = program->place_now();
     look["place"] = {{"function", place.function}, {"file", place.file}, {"line", place.line}};
-    look["way"] = program->way();
     look["hal"] = twin_.hal(robot_);
   }
   Json parts = Json::array();

@@ -6,7 +6,6 @@
 
 #include <filesystem>
 
-#include "hal_sim/host/compiled_runner.h"
 #include "sim_core/load/world_loader.h"
 #include "viewer/events.h"
 #include "viewer/world_json.h"
@@ -27,15 +26,6 @@ constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
-
-/// Handlers begun since the robot was made.
-std::int64_t interrupts_served(const host::Runner& program) {
-  if (const auto* compiled = dynamic_cast<const host::CompiledRunner*>(&program))
-    return compiled->interrupts_served();
-  std::int64_t sum = 0;
-  for (int vector = 0; vector < TP_VECTORS; ++vector) sum += program.served(vector);
-  return sum;
-}
 
 }  // namespace
 
@@ -270,12 +260,12 @@ bool Session::step_interrupt(int robot) {
   sim::Simulation& simulation = twin_->simulation();
   const host::Runner* program = twin_->mind(robot).runner();
   if (!program) return false;
-  const auto served = interrupts_served(*program);
+  const auto served = program->interrupts_served();
   const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
-  while (interrupts_served(*program) == served && simulation.now() < end && !team_->has_ended())
+  while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended())
     simulation.step();
   after_ticks();
-  return interrupts_served(*program) != served;
+  return program->interrupts_served() != served;
 }
 
 void Session::play(bool on) {

@@ -273,11 +273,8 @@ void Session::build_program(Program& program) {
   twin::Options options = opening_.options;
   options.world_folder = fs::path(opening_.file).parent_path().string();
   const int robot = program.robots.empty() ? building_for_.front() : program.robots.front();
-  // with the HAL, or the way, that it runs with
-  if (options.hal.empty() && options.way.empty()) {
-    options.hal = twin_->hal(robot) == "own" ? "" : twin_->hal(robot);
-    if (options.hal.empty()) options.way = twin_->mind(robot).runner()->way();
-  }
+  // with the HAL that it runs with
+  if (options.hal.empty() && twin_->hal(robot) != "own") options.hal = twin_->hal(robot);
   options.webots_settings = twin::webots_settings_of(twin_->world());
   build_ = std::async(std::launch::async, [options, name = program.name]() mutable {
     Built built;

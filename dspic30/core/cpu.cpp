@@ -607,6 +607,7 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
   }
   if (ea < kDisicnt) {
     reads_core = true;
+    if (memory_check && ea < 2 * w.size()) memory_check->meets_null(*this, ea, bits, false);
     if (const Saved saved = saved_register(ea); saved.word && bits == 16) return this->*saved.word;
     const unsigned word = peek(ea & ~1u, t);
     if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));

@@ -114,4 +114,15 @@ bool MemoryCheck::look_at(const Cpu& cpu, unsigned ea, unsigned bytes, bool is_w
   return true;
 }
 
+void MemoryCheck::meets_null(const Cpu& cpu, unsigned ea, unsigned bits, bool is_write) {
+  if (is_away_) return;
+  MemoryFinding finding;
+  finding.kind = MemoryFinding::Kind::Null;
+  finding.address = ea;
+  finding.bytes = bits / 8;
+  finding.pc = cpu.address_of(cpu.at);
+  finding.writes = is_write;
+  findings_.found(finding);
+}
+
 }  // namespace dspic

@@ -24,7 +24,8 @@ struct MemoryFinding {
     Unwritten,  ///< what was read there decides something, and nobody wrote it
     Outside,    ///< an access to what belongs to nobody
     Freed,      ///< ... to what was given back
-    AboveStack  ///< ... beyond the top of the stack
+    AboveStack,  ///< ... beyond the top of the stack
+    Null         ///< ... through a null pointer: the W registers lie there
   };
   enum class Use : std::uint8_t { Branch, Address, Register };
   Kind kind = Kind::Outside;
@@ -75,9 +76,11 @@ class MemoryCheck {
   void reads(const Cpu& cpu, unsigned ea, unsigned bits);
   /// ... or of a register.
   void writes(const Cpu& cpu, unsigned ea, unsigned bits);
+  /// An access to a W register by its address, which no compiler makes but through a pointer.
+  void meets_null(const Cpu& cpu, unsigned ea, unsigned bits, bool is_write);
 
  private:
-  static constexpr unsigned kStart = 0x800, kBytes = 0x2000, kStackPointer = 15;
+  static constexpr unsigned kStart = 0x800, kBytes = 0x2000, kStackPointer = 15, kRegisterBytes = 32;
   struct Origin {
     unsigned pc = 0, address = 0;
   };

@@ -53,6 +53,8 @@ inline void MemoryCheck::writes(const Cpu& cpu, unsigned ea, unsigned bits) {
     top_ = std::max<unsigned>(top_, cpu.w[kStackPointer]);
     if (!is_plain(i, bits)) look_at(cpu, ea, bytes, true);
     bits == 16 ? std::memset(&bits_[i], 0, 2) : std::memset(&bits_[i], 0, 1);
+  } else if (ea < kRegisterBytes) {
+    meets_null(cpu, ea, bits, true);
   }
   if (writes_ < written_.size()) written_[writes_++] = {ea, bytes, 0, 0};
 }

@@ -34,7 +34,7 @@ struct ChipParts {
         bus(diagnostics, c.warn_uninitialised),
         interrupts(diagnostics),
         fabric{outside, bus, events, interrupts, ports, diagnostics, c.fcy_hz},
-        ports(fabric, c.synchronised_ports),
+        ports(fabric),
         timers(fabric),
         adc(fabric, timers),
         uarts{Uart(fabric, 1), Uart(fabric, 2)},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The dsPIC30F6014A without its processor core: all peripherals, their registers and the interrupt
-// controller, at one virtual time. Firmware that runs natively (the register way) and a model of the core
-// (the chip way) use it alike.
+// controller, at one virtual time. The core uses it (dspic30/core).
 //
 //   program --read/write--> SfrBus --> peripherals --flags--> interrupt controller --pending--> program
 //                                        |  ^
@@ -38,9 +37,6 @@ struct Configuration {
   std::uint16_t fosc = 0xFFE6;  ///< XT with PLL x8, no clock switching
   std::uint16_t fwdt = 0x7FFF;  ///< watchdog off, postscalers 1:512 and 1:16 when RCON.SWDTEN turns it on
   double fcy_hz = 14745600;     ///< instruction cycles a second: for times given in seconds, baud rates
-  /// True: a read of PORTx gives the levels of one cycle before, as on silicon (the chip way). False: those
-  /// of `now`; right when the instants of accesses are estimates.
-  bool synchronised_ports = false;
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
   /// The data EEPROM, which outlives the chip; null: its own, blank.
   EepromMemory* eeprom = nullptr;

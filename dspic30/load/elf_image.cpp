@@ -196,6 +196,24 @@ FileKind kind_of(const std::string& bytes) {
   return first != std::string::npos && bytes[first] == ':' ? FileKind::Hex : FileKind::Other;
 }
 
+namespace {
+
+bool is_coff(const std::string& bytes) { return bytes.compare(0, 2, "\x36\x12") == 0; }
+
+/// Of a file that is no image, for people.
+std::string what_is(const std::string& bytes) {
+  if (bytes.empty()) return "an empty file";
+  if (is_coff(bytes)) return "a COFF of the dsPIC, as MPLAB C30 made by default";
+  if (bytes.compare(0, 4, ELFMAG) != 0) return "a file that is neither Intel HEX nor ELF";
+  constexpr unsigned char kThisPc[] = {EM_X86_64, 0};
+  if (bytes.size() < 20) return "an ELF file that has been cut off";
+  if (static_cast<unsigned char>(bytes[18]) == kThisPc[0] && bytes[19] == 0) return "a program or library of this PC";
+  return "an ELF file of another machine (number " +
+         std::to_string(static_cast<unsigned char>(bytes[18]) | static_cast<unsigned char>(bytes[19]) << 8) + ")";
+}
+
+}  // namespace
+
 bool load_elf(const std::string& bytes, const std::string& name, FirmwareFile& file, std::string& error) {
   return ElfReader(name, file).read(bytes, error);
 }
@@ -210,8 +228,8 @@ bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFi
     case FileKind::Elf:
       return load_elf(bytes, name, file, error);
     default:
-      error = name + ": neither Intel HEX nor an ELF file of the dsPIC30F (machine " +
-              std::to_string(kMachine) + ")";
+      error = name + ": firmware image: got " + what_is(bytes) + ", expected the .hex or .elf of a dsPIC30F" +
+              (is_coff(bytes) ? "; take the .hex that was made beside it" : "; name the program's folder, or build it");
       return false;
   }
 }

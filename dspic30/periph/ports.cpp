@@ -99,7 +99,7 @@ std::uint16_t Ports::combine(Port port, std::uint16_t levels, std::uint16_t driv
 
 std::uint16_t Ports::pins(Port port, Cycle at) const {
   const State& s = state(port);
-  if (synchronised_ && at <= s.changed) return combine(port, s.old_levels, s.old_driven, at);
+  if (at <= s.changed) return combine(port, s.old_levels, s.old_driven, at);
   return combine(port, s.levels, s.driven, at);
 }
 
@@ -226,7 +226,7 @@ Cycle Ports::horizon(unsigned address, Cycle now) const {
   const Port port = port_of(address);
   if (address != kBases[static_cast<int>(port)] + PortPins) return kNever;
   const State& s = state(port);
-  if (synchronised_ && s.changed >= now) return s.changed + 1;
+  if (s.changed >= now) return s.changed + 1;
   if ((s.driven & s.implemented) == s.implemented) return kNever;
   return f_.outside.levels_horizon(port, 0xFFFF, now);
 }

@@ -7,7 +7,7 @@
 //
 // Modelled: implemented pins, outputs of peripherals that override LAT and TRIS, pins taken as inputs (open
 // drain) by a peripheral, pull-ups, analogue pins of port B that read 0, edges that the chip makes itself on
-// a pin which another peripheral watches, the one-cycle read synchroniser where asked for. Not modelled:
+// a pin which another peripheral watches, the one-cycle read synchroniser. Not modelled:
 // contention with the outside (the chip wins), levels of serial lines bit by bit (owned pins read high).
 // Source: [chip P1].
 #pragma once
@@ -28,7 +28,7 @@ class PinListener {
 
 class Ports final : public SfrOwner {
  public:
-  Ports(const Fabric& fabric, bool synchronised) : f_(fabric), synchronised_(synchronised) {}
+  explicit Ports(const Fabric& fabric) : f_(fabric) {}
   void attach();
   void reset(Cycle now);
   void watch(Pin pin, PinListener& listener);
@@ -131,7 +131,6 @@ class Ports final : public SfrOwner {
   std::uint16_t digital(Port port, std::uint16_t pins) const;
 
   const Fabric& f_;
-  bool synchronised_;
   std::array<State, kPorts> ports_{};
   std::uint16_t adpcfg_ = 0;
   std::uint16_t blind_told_ = 0;  // pins of port B whose analogue setting has been reported

@@ -49,7 +49,7 @@ class Probe : public FirmwareTest {
     Robot& robot = add_robot("asercom");
     run_for(2);
     for (const auto& trap : robot.traps())
-      if (trap.kind == TP_TRAP_UNSIMULATED) return trap.message;
+      if (trap.kind == host::kTrapUnsimulated) return trap.message;
     return "";
   }
   void TestBody() override {}

@@ -15,8 +15,8 @@ void SetSpeedLeft(int motor_speed);
 void SetSpeedRight(int motor_speed);
 
 /** Step counters, 16 bits, wrap after +-32767. */
-TP_POLL int GetStepsLeft(void);
-TP_POLL int GetStepsRight(void);
+int GetStepsLeft(void);
+int GetStepsRight(void);
 void SetStepsLeft(int set_steps);
 void SetStepsRight(int set_steps);
 

@@ -11,9 +11,9 @@
 void InitProx(void);
 
 /** Reflected light, counts, sensor 0 to 7. */
-TP_POLL int GetProx(unsigned int sensor_number);
+int GetProx(unsigned int sensor_number);
 
 /** Dark sample, counts 0 to 4095, lower with more light. */
-TP_POLL int GetAmbientLight(unsigned int sensor_number);
+int GetAmbientLight(unsigned int sensor_number);
 
 #endif

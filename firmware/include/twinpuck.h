@@ -9,15 +9,11 @@
 /** The library has two or three implementations of some functions under one name; on the robot the object
  *  file that is linked decides. Here the header decides: it gives the function the label of its variant. */
 #define TP_VARIANT(prefix, name) __asm__(#prefix #name)
-/** The function only reads, and waits for nothing: a loop that does nothing but call it may be jumped over
- *  until its answer can change. */
-#define TP_POLL __attribute__((annotate("tp_poll")))
 /** A second form of a function that had no argument in older versions of the library: both calls compile. */
 #define TP_OLDER_CALL static __inline__ __attribute__((overloadable, unused))
 #else
 /* the same labels with hal_dspic, as one archive of all variants; C names begin with an underscore in assembler */
 #define TP_VARIANT(prefix, name) __asm__("_" #prefix #name)
-#define TP_POLL
 #endif
 
 /* the program is one of the robot's chip, by either compiler: no simulator is behind it, and memory is 8 KB */

@@ -9,12 +9,12 @@
 
 /** UART 1, the Bluetooth module. Sending blocks while an earlier transmission is running. */
 void InitUart1(void);
-TP_POLL int GetcharUart1(char *car);
+int GetcharUart1(char *car);
 void SendUart1Char(char *buff, int lenght);
 
 /** UART 2, the RS232 plug. */
 void InitUart2(void);
-TP_POLL int GetcharUart2(char *car);
+int GetcharUart2(char *car);
 void SendUart2Char(char *buff, int lenght);
 
 #endif

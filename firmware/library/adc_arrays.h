@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * The ADC driver's public variables, shared by the files that fill them and those that read them. On the chip the
- * scan's interrupt writes them; hal.h says what the native way does instead.
+ * The ADC driver's public variables, shared by the files that fill them and those that read them. The scan's
+ * interrupt writes them; linked with hal_sim they are served like registers (hal_sim/api/scan_variables.h).
  */
 #ifndef HAL_COMMON_ADC_ARRAYS_H
 #define HAL_COMMON_ADC_ARRAYS_H

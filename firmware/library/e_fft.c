@@ -4,11 +4,7 @@
  */
 #include "fft/e_fft.h"
 
-#ifdef __TWINPUCK_PC__
-#define IN_PROGRAM_MEMORY
-#else
 #define IN_PROGRAM_MEMORY __attribute__((__space__(auto_psv), __aligned__(FFT_BLOCK_LENGTH * 2)))
-#endif
 
 extern const fractcomplex IN_PROGRAM_MEMORY twiddleFactors[FFT_BLOCK_LENGTH / 2];
 

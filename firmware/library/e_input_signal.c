@@ -3,9 +3,5 @@
  */
 #include "fft/e_fft.h"
 
-#ifdef __TWINPUCK_PC__
-__attribute__((weak)) fractcomplex sigCmpx[FFT_BLOCK_LENGTH];
-#else
 /* the DSP engine fetches from Y memory, and reverses bits of addresses that begin at a multiple of the size */
 fractcomplex sigCmpx[FFT_BLOCK_LENGTH] __attribute__((__space__(ymemory), __aligned__(FFT_BLOCK_LENGTH * 4)));
-#endif

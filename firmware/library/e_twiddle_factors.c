@@ -6,11 +6,7 @@
  */
 #include "fft/e_fft.h"
 
-#ifdef __TWINPUCK_PC__
-#define IN_PROGRAM_MEMORY
-#else
 #define IN_PROGRAM_MEMORY __attribute__((__space__(auto_psv), __aligned__(FFT_BLOCK_LENGTH * 2)))
-#endif
 
 const fractcomplex IN_PROGRAM_MEMORY twiddleFactors[FFT_BLOCK_LENGTH / 2] = {
     {32767, 0}, {32758, -804}, {32729, -1608}, {32679, -2411}, {32610, -3212}, {32522, -4011},

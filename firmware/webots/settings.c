@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
- * What a world's [webots] says, on the robot, where there is no world: the usual values. A run of the chip way links
- * its world's in place of this file.
+ * What a world's [webots] says, on the robot, where there is no world: the usual values. A run links its world's in
+ * place of this file.
  */
 #include "simulator.h"
 

@@ -6,11 +6,7 @@
 
 #include "hal.h"
 
-#ifdef __TWINPUCK_PC__
-#define IN_PROGRAM_MEMORY
-#else
 #define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))
-#endif
 
 /* two halves: the compiler's largest object is below 32 KB */
 static const int IN_PROGRAM_MEMORY first_half[HAL_BANK_SAMPLES / 2] = {
@@ -1181,15 +1177,6 @@ static const int IN_PROGRAM_MEMORY second_half[HAL_BANK_SAMPLES / 2] = {
     -380, -852, 752, 1348, 218, 962, -334, -936, 174, 122, -394, -288, -402,
 };
 
-#ifdef __TWINPUCK_PC__
-
-int hal_bank_sample(unsigned int index) {
-  if (index >= HAL_BANK_SAMPLES) return 0;
-  return index < HAL_BANK_SAMPLES / 2 ? first_half[index] : second_half[index - HAL_BANK_SAMPLES / 2];
-}
-
-#else
-
 /* an instruction word holds one sample in its lower 16 bits, and takes two addresses */
 int hal_bank_sample(unsigned int index) {
   unsigned long at;
@@ -1205,5 +1192,3 @@ int hal_bank_sample(unsigned int index) {
   TBLPAG = saved;
   return sample;
 }
-
-#endif

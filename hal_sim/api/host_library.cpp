@@ -53,10 +53,9 @@ HostLibrary::HostLibrary(board::Board& board, Served served)
     : board_(board),
       served_(served),
       cycles_(call_cycles(served.level)),
-      drivers_(std::make_unique<drivers::Drivers>(board, drivers::Drivers::Which::Busy)),
+      drivers_(std::make_unique<drivers::Drivers>(board)),
       variables_(drivers_->scan(), cycles_),
       rhythm_(cycles_) {
-  drivers_->leave_telling_to_others();
   agendas().leave_flag_to_others();
   agendas().set_costs(common_costs(served.level));
   begin(0);

@@ -148,8 +148,6 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     if (!((value ^ lat_[i]) & ~kEmitterMask[i])) return write_emitters(i, value, at);
   }
   if (index == kD) {
-    if (tris_[kD] & (kLeftCoils | kRightCoils))
-      note_vain_writes(kD, value ^ port_read('D', Register::Lat, at), at);
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : kRightCoilsBit)) & 15u;
       if (coils != this->coils(wheel, at)) stepper(wheel, at).energise(coils, at);
@@ -169,13 +167,12 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
   if (index == kC && pulses(at) & 16u) value = static_cast<std::uint16_t>(value & ~kNearLeds);
   if (value == lat_[i]) return;
   note_pulses(i, value, tris_[i], at);
-  note_vain_writes(i, value ^ lat_[i], at);
   lat_[i] = value;
   outputs_changed(at);
 }
 
 // a robot whose drivers are its own program, on the models of the chip
-bool Board::is_led_by_pins() const { return !watches_inputs_ && !driver_ && parts_.empty(); }
+bool Board::is_led_by_pins() const { return is_soldered_ && !driver_ && parts_.empty(); }
 
 void Board::write_coils(std::uint16_t value, Cycle at) {
   bool same_current = true;
@@ -514,7 +511,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   // every robot has a camera on its bus; it counts once a program films
   const bool films = camera_ && camera_->is_used();
   if (films || i2c_.devices().size() > (camera_ ? 1u : 0u))
-    add(i2c_.state_hash() + (driver_ ? driver_->bus_state() : 0));
+    add(i2c_.state_hash());
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The e-puck, electrically: everything between the processor's pins and the world, for one robot.
 //
-//   firmware -- e_* API -- host/pins.h ---.
-//   firmware -- registers - tp_sfr_* -----+--> Board --> wheel angles, LEDs, IR light      (to the world)
-//                                             Board <-- sim::sense_proximity, irradiance   (from the Scene)
+//   the chip's pins --------------.
+//   drivers known by heart -------+--> Board --> wheel angles, LEDs, IR light      (to the world)
+//                                      Board <-- sim::sense_proximity, irradiance  (from the Scene)
 //
 // Modelled: port latches, directions and pin levels; two steppers that follow their coils; IR circuit; LEDs;
 // selector; remote control's receiver; battery, fed by what is on. Motion sensors: accelerometer.h (before
@@ -134,7 +134,7 @@ class Board {
   void look_at(const sim::Scene* scene) {
     scene_ = scene;
     is_lit_ = scene && sim::has_light(*scene);
-    if (!watches_inputs_) find_sound();
+    if (is_soldered_) find_sound();
   }
   const sim::Scene* scene() const { return scene_; }
 
@@ -190,15 +190,12 @@ class Board {
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
   /// `at`, in no order. Costs nothing while nobody asks.
   std::vector<Diagnosis> diagnoses(Cycle at) const;
-  /// A function of the library was given what it does something else with: told once per cause, and per
-  /// `about` where the program may take it back.
-  void note_misuse(Diagnosis what, const void* about = nullptr);
-  void forget_misuse(const void* about);
-  /// Somebody else watches for latches of pins that are inputs (the models of the chip).
-  void leave_inputs_to_others() { watches_inputs_ = false; }
 
   // --- devices --------------------------------------------------------------------------------------------
 
+  /// A model of the chip is soldered on: its pins alone move the board's, and it asks for the microphones at
+  /// every conversion.
+  void solder() { is_soldered_ = true; }
   /// Whoever moves pins by itself; null: nobody. Outlives the board's use or takes itself away.
   void attach(PinDriver* driver) { driver_ = driver; }
   /// The motor itself, for a PinDriver.
@@ -321,7 +318,6 @@ class Board {
   void outputs_changed(Cycle at);
   /// Lines whose latch or direction changes from what they are now: how long have they been on?
   void note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at);
-  void note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at);
   /// Is the pin an output, and its latch 1?
   bool output_high(Pin pin) const;
   /// What everything that is on draws, A: the IR emitters, the motors, and all else.
@@ -342,7 +338,7 @@ class Board {
   bool is_lit_ = false;       // do lamps shine in the scene, or ambient light?
   bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
   bool has_wire_news_ = false;
-  bool watches_inputs_ = true;
+  bool is_soldered_ = false;
   bool may_hear_ =
       true;  // false: nothing sounds in the scene, found out once a tick for the models of the chip
 
@@ -359,16 +355,6 @@ class Board {
     Cycle longest = 0;
   };
   std::array<LongPulse, 4> long_pulses_{};
-  struct VainWrites {
-    std::array<std::int64_t, 16> count{};
-    std::array<Cycle, 16> first{};
-  };
-  std::unique_ptr<std::array<VainWrites, kPorts>> vain_writes_;  // null: there were none
-  struct Misuse {
-    Diagnosis what;
-    const void* about;
-  };
-  std::vector<Misuse> misuses_;
   double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_[2] = {0, 0},
          emitters_a_ = 0;  // as followed last
 

@@ -13,14 +13,6 @@ namespace board {
 
 namespace {
 
-// pins that lead to something on the board that a program drives
-constexpr std::uint16_t kDriven[kPorts] = {mask(kA, kRingLedPins),
-                                           0,
-                                           mask(kC, kFrontLedPin, kBodyLedPin, kCameraResetPin),
-                                           kLeftCoils | kRightCoils,
-                                           static_cast<std::uint16_t>(kCodecOnPin.mask() | kEmitterMask[kF]),
-                                           kEmitterMask[kG]};
-
 std::string text(const char* format, ...) __attribute__((format(printf, 1, 2)));
 std::string text(const char* format, ...) {
   char room[240];
@@ -60,32 +52,6 @@ void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t n
   }
 }
 
-void Board::note_vain_writes(std::size_t port, std::uint16_t changed, Cycle at) {
-  if (!watches_inputs_) return;
-  unsigned vain = changed & tris_[port] & kDriven[port];
-  for (; vain; vain &= vain - 1) {
-    const auto n = static_cast<std::size_t>(__builtin_ctz(vain));
-    if (!vain_writes_) vain_writes_ = std::make_unique<std::array<VainWrites, kPorts>>();
-    VainWrites& writes = (*vain_writes_)[port];
-    if (writes.count[n]++ == 0) writes.first[n] = at;
-  }
-}
-
-void Board::note_misuse(Diagnosis what, const void* about) {
-  for (Misuse& known : misuses_)
-    if (known.what.cause == what.cause && known.about == about) {
-      ++known.what.count;
-      return;
-    }
-  misuses_.push_back({std::move(what), about});
-}
-
-void Board::forget_misuse(const void* about) {
-  misuses_.erase(std::remove_if(misuses_.begin(), misuses_.end(),
-                                [about](const Misuse& known) { return known.about == about; }),
-                 misuses_.end());
-}
-
 std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   std::vector<Diagnosis> all;
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
@@ -122,24 +88,11 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                         line, ms(p.longest), 1000 * 2 * kIrEmitterA),
                    "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
   }
-  for (std::size_t port = 0; vain_writes_ && port < kPorts; ++port)
-    for (std::size_t n = 0; n < 16; ++n) {
-      const VainWrites& writes = (*vain_writes_)[port];
-      const std::int64_t count = writes.count[n];
-      if (count < kVainWrites) continue;
-      all.push_back({"input driven", text("TRIS%c%zu", kPortLetters[port], n),
-                     text("LAT%c%zu is written again and again, but TRIS%c%zu = 1 makes the pin an input: "
-                          "nothing reaches it",
-                          kPortLetters[port], n, kPortLetters[port], n),
-                     "clear the TRIS bit, or call e_init_port() first", writes.first[n], 0, count});
-    }
   if (i2c_.unstopped() > 0)
     all.push_back({"I2C bus not stopped", "I2CCON.PEN",
                    "a transfer begins although the one before was not ended by a stop condition",
                    "end each transfer with I2CCON.PEN (e_i2c_stop()), or go on with RSEN",
                    i2c_.first_unstopped(), 0, i2c_.unstopped()});
-  if (driver_) driver_->add_diagnoses(all, at);
-  for (const Misuse& misuse : misuses_) all.push_back(misuse.what);
   return all;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The robot's I2C bus as the processor's master module drives it: start, restart, byte, acknowledge, stop.
 //
-//   e_i2c_* -> tp_i2c_* (host/pins_i2c.h) -> I2cBus -> the devices that answer to the address
+//   e_i2c_* -> registers of the I2C module -> I2cBus -> the devices that answer to the address
 //
 // A byte is 9 bits of 164 cycles at the library's BRG of 150. A byte that nobody acknowledges is lost;
 // reading from nobody gives 0xFF, the level of the released line. Times are the caller's; nothing blocks. Not

@@ -4,7 +4,7 @@
 // Time is cut into quanta, and a sample's noise is a function of seed, robot, sensor, lamp (dark or lit) and
 // the number of the quantum in which the converter holds the input. Nobody counts samples. So it does not
 // matter who looks, how often and in what order; a program that drives the converter by itself finds the same
-// noise as the library's drivers; and two ways of running a program, whose samples lie some hundred cycles
+// noise as the library's drivers; and both HALs, whose samples lie some hundred cycles
 // apart, draw the same noise unless a quantum happens to end between the two.
 //
 // Modelled: noise that is independent from one quantum to the next. Not modelled: any change of it within a
@@ -20,13 +20,13 @@ namespace board {
 
 /// Quantum of phototransistors and accelerometer, 1.1 ms. Shorter than the time between two samples of one
 /// sensor in any of the library's drivers (9.8 ms and more), whose noise is therefore independent. Long
-/// beside the distance of equal samples in the native and in the register way: of obstacle's first two
+/// beside the distance of equal samples under the two HALs: of obstacle's first two
 /// seconds in the maze 400 to 4,700 cycles, so that six samples in seven have the same noise in both; of
 /// braitenberg_2a's up to 13,600 and five in eight.
 inline constexpr Cycle kSlowNoiseQuantum = 16384;  // [assumed: see above]
 /// Quantum of microphones. Shorter than any conversion (14 TAD of at least 334 ns, 69 cycles), so no two
-/// samples of a recording share their noise; the library's lie 450 or 965 cycles apart. Between the ways it
-/// differs.
+/// samples of a recording share their noise; the library's lie 450 or 965 cycles apart. Between the
+/// HALs it differs.
 inline constexpr Cycle kMicNoiseQuantum = 64;  // [assumed: see above]
 
 /// What draws: a first number, to which the sensor's own (0 to 7) is added.

@@ -4,9 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <optional>
-#include <vector>
 
-#include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/stepper.h"
 
 namespace board {
@@ -43,11 +41,8 @@ class PinDriver {
   virtual void exchange(Cycle at) = 0;
   virtual Cycle horizon(Cycle at) const = 0;
   virtual void processor_reset(Cycle at) = 0;
-  virtual void add_diagnoses(std::vector<Diagnosis>& all, Cycle at) const = 0;
   /// State at `at` as a sum of products, for a hash: the caller mixes it.
   virtual std::uint64_t state_sum(Cycle at) const = 0;
-  /// The same of its module at the I2C bus.
-  virtual std::uint64_t bus_state() const = 0;
 };
 
 }  // namespace board

@@ -62,7 +62,7 @@ AssemblerRole role_of(const fs::path& file, const fs::path& folder, const Progra
 /// that are named, in those of the program that hold such files.
 std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& program,
                                          const std::vector<fs::path>& own) {
-  std::vector<std::string> flags = {"--target=dspic30f6014a", "--project",
+  std::vector<std::string> flags = {"--project",
                                     fs::weakly_canonical(o.source_dir).string()};
   // those of .S files
   for (const auto& d : program.defines) flags.push_back("-D" + d);
@@ -106,16 +106,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
                        "-I" + (cc_dir / "libc/include").string(), "--fallback", contract.string(),
                        "--fallback", (cc_dir / "libc/include").string(), "--fallback", o.source_dir.string(),
                        "--project", fs::weakly_canonical(o.source_dir).string()});
-  for (const auto& r : copies.roots) {
-    user_include.push_back("--copy");
-    user_include.push_back(r.string());
-  }
-  if (o.chip_way) user_include.push_back("--target=dspic30f6014a");
 
   Plan p;
   std::vector<std::string> flags = {o.optimisation};
   if (o.sanitize) flags.push_back("--sanitize");
-  if (o.coverage) flags.push_back("--coverage");
   p.is_webots = names_webots(copies.kept, headers);
   if (p.is_webots) {
     flags.push_back("--webots");
@@ -131,24 +125,13 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
-    p.user.push_back({s, flags, salt, contract.string(), o.chip_way});
+    p.user.push_back({s, flags, salt, contract.string(), true});
 
-  if (o.chip_way)
-    for (const auto& s : program.assembler)
+  for (const auto& s : program.assembler)
       if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {
         p.assembler.push_back({s, assembler_flags(o, program, own), salt, contract.string()});
         if (role == AssemblerRole::Member) p.assembler_members.insert(s);
       }
-
-  std::string name =
-      o.name.empty() ? fs::absolute(o.source_dir).lexically_normal().filename().string() : o.name;
-  std::string image_flags = o.sanitize ? "sanitize" : "";
-  if (o.coverage) image_flags += image_flags.empty() ? "coverage" : " coverage";
-  p.runtime = {cc_dir / "runtime/image_runtime.c",
-               {"-O1", "-I" + root.string(), "-I" + (cc_dir / "libc/include").string(),
-                "-DTP_IMAGE_NAME=\"" + name + "\"", "-DTP_IMAGE_FLAGS=\"" + image_flags + "\""},
-               ""};
-  if (o.coverage) p.runtime.flags.push_back("-DTP_COVERAGE");
   return p;
 }
 

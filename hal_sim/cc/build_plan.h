@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a program's files are compiled with: which files, in which order they look for headers, for which way.
+// What a program's files are compiled with: which files, in which order they look for headers.
 #pragma once
 #include <filesystem>
 #include <set>
@@ -16,7 +16,6 @@ struct Plan {
   std::vector<CompileJob> user, assembler;
   std::set<std::filesystem::path> assembler_members;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
-  CompileJob runtime;
 };
 
 /// `lint`: what is told beyond what a build needs.

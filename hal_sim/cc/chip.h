@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The chip's half of twinpuck-cc (--target=dspic30f6014a): the same front end on the chip's own data layout,
-// the same kind of passes, and the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
+// From clang's syntax tree to the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
 //
 //   chip_target.cpp        what clang must know of the chip; XC16's attributes
 //   chip_accumulators.cpp  built-in functions of the DSP unit

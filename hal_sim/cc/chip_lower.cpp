@@ -171,10 +171,18 @@ void define_poison(Module& m) {
 
 /// A negative number becomes an unsigned one by way of the signed one of its width, an int by way of a long,
 /// as by XC16: gcc widens to 32 bits and calls __fixunssfsi, which wraps [gcc 4.5.1: expand_fix(), libgcc2.c;
-/// its cost in xc16-cycles/library_cost.csv is that of a comparison and __fixsfsi]. For LLVM it is undefined.
+/// its cost in xc16-cycles/library_cost.csv is that of a comparison and __fixsfsi]. A char is the low byte of
+/// an int. For LLVM both are undefined.
 void wrap_conversions(Module& m) {
   for (Function& f : m)
     for (Instruction& i : make_early_inc_range(instructions(f))) {
+      if (auto* to_char = dyn_cast<FPToSIInst>(&i); to_char && to_char->getType()->isIntegerTy(8)) {
+        IRBuilder<> b(to_char);
+        to_char->replaceAllUsesWith(
+            b.CreateTrunc(b.CreateFPToSI(to_char->getOperand(0), b.getInt32Ty()), to_char->getType()));
+        to_char->eraseFromParent();
+        continue;
+      }
       auto* to_unsigned = dyn_cast<FPToUIInst>(&i);
       if (!to_unsigned) continue;
       IRBuilder<> b(to_unsigned);

@@ -120,7 +120,7 @@ bool preprocess_assembler(const Options& options, std::string& text, std::vector
   ci.createDiagnostics(new TextDiagnosticPrinter(llvm::errs(), &invocation->getDiagnosticOpts()));
   ci.setFileManager(
       new FileManager(FileSystemOptions(),
-                      forgiving_file_system(options.fallback, options.project, options.copies, missing)));
+                      forgiving_file_system(options.fallback, options.project, missing)));
   ToText action(text, found);
   return ci.ExecuteAction(action);
 }

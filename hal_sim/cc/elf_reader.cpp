@@ -22,43 +22,15 @@ std::optional<T> at(const std::string& bytes, uint64_t offset) {
   return value;
 }
 
-// objects of the chip have the smaller kind of everything; it is read as the larger one
+std::optional<Elf32_Ehdr> file_header(const std::string& bytes) { return at<Elf32_Ehdr>(bytes, 0); }
 
-bool is_of_chip(const std::string& bytes) { return bytes.size() > EI_CLASS && bytes[EI_CLASS] == ELFCLASS32; }
-
-std::optional<Elf64_Ehdr> file_header(const std::string& bytes) {
-  if (!is_of_chip(bytes)) return at<Elf64_Ehdr>(bytes, 0);
-  const auto small = at<Elf32_Ehdr>(bytes, 0);
-  if (!small) return std::nullopt;
-  Elf64_Ehdr h{};
-  std::memcpy(h.e_ident, small->e_ident, sizeof h.e_ident);
-  h.e_shoff = small->e_shoff, h.e_shnum = small->e_shnum, h.e_shstrndx = small->e_shstrndx;
-  return h;
-}
-
-std::optional<Elf64_Shdr> section_header(const std::string& bytes, unsigned index) {
+std::optional<Elf32_Shdr> section_header(const std::string& bytes, unsigned index) {
   const auto head = file_header(bytes);
   if (!head || index >= head->e_shnum) return std::nullopt;
-  if (!is_of_chip(bytes)) return at<Elf64_Shdr>(bytes, head->e_shoff + uint64_t(index) * sizeof(Elf64_Shdr));
-  const auto small = at<Elf32_Shdr>(bytes, head->e_shoff + uint64_t(index) * sizeof(Elf32_Shdr));
-  if (!small) return std::nullopt;
-  Elf64_Shdr s{};
-  s.sh_name = small->sh_name, s.sh_type = small->sh_type, s.sh_link = small->sh_link;
-  s.sh_offset = small->sh_offset, s.sh_size = small->sh_size;
-  return s;
+  return at<Elf32_Shdr>(bytes, head->e_shoff + std::uint64_t{index} * sizeof(Elf32_Shdr));
 }
 
-std::optional<Elf64_Sym> symbol_at(const std::string& bytes, uint64_t offset) {
-  if (!is_of_chip(bytes)) return at<Elf64_Sym>(bytes, offset);
-  const auto small = at<Elf32_Sym>(bytes, offset);
-  if (!small) return std::nullopt;
-  Elf64_Sym s{};
-  s.st_name = small->st_name, s.st_value = small->st_value, s.st_size = small->st_size;
-  s.st_info = small->st_info, s.st_shndx = small->st_shndx;
-  return s;
-}
-
-std::string string_at(const std::string& bytes, const std::optional<Elf64_Shdr>& table, uint64_t offset) {
+std::string string_at(const std::string& bytes, const std::optional<Elf32_Shdr>& table, uint64_t offset) {
   if (!table || offset >= table->sh_size || table->sh_offset >= bytes.size() ||
       offset >= bytes.size() - table->sh_offset)
     return "";
@@ -88,25 +60,25 @@ ElfFile read_elf(const std::filesystem::path& path) {
   all << in.rdbuf();
   file.bytes = all.str();
   const auto head = file_header(file.bytes);
-  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0) return file;
-  const uint64_t symbol_bytes = is_of_chip(file.bytes) ? sizeof(Elf32_Sym) : sizeof(Elf64_Sym);
+  if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS32)
+    return file;
   file.ok = true;
   for (unsigned i = 0; i < head->e_shnum; ++i) {
     const auto table = section_header(file.bytes, i);
     if (!table || table->sh_type != SHT_SYMTAB) continue;
-    for (uint64_t offset = 0; offset + symbol_bytes <= table->sh_size; offset += symbol_bytes) {
-      const auto symbol = symbol_at(file.bytes, table->sh_offset + offset);
+    for (std::uint64_t offset = 0; offset + sizeof(Elf32_Sym) <= table->sh_size; offset += sizeof(Elf32_Sym)) {
+      const auto symbol = at<Elf32_Sym>(file.bytes, table->sh_offset + offset);
       if (!symbol) break;
       ElfSymbol s;
       s.name = string_at(file.bytes, section_header(file.bytes, table->sh_link), symbol->st_name);
-      // on the chip C's names have an underscore in front
-      if (is_of_chip(file.bytes) && s.name.size() > 1 && s.name[0] == '_') s.name.erase(0, 1);
+      // C's names have an underscore in front
+      if (s.name.size() > 1 && s.name[0] == '_') s.name.erase(0, 1);
       s.value = symbol->st_value, s.size = symbol->st_size;
       s.is_defined = symbol->st_shndx != SHN_UNDEF;
       s.is_common = symbol->st_shndx == SHN_COMMON;
-      s.is_function = ELF64_ST_TYPE(symbol->st_info) == STT_FUNC;
-      s.is_weak = ELF64_ST_BIND(symbol->st_info) == STB_WEAK;
-      s.is_global = ELF64_ST_BIND(symbol->st_info) != STB_LOCAL;
+      s.is_function = ELF32_ST_TYPE(symbol->st_info) == STT_FUNC;
+      s.is_weak = ELF32_ST_BIND(symbol->st_info) == STB_WEAK;
+      s.is_global = ELF32_ST_BIND(symbol->st_info) != STB_LOCAL;
       if (!s.name.empty()) file.symbols.push_back(std::move(s));
     }
   }

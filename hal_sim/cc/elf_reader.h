@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The little of ELF64 that the build needs: symbols and sections of objects and images.
+// The little of ELF that the build needs: symbols and sections of objects for the chip.
 #pragma once
 #include <cstdint>
 #include <filesystem>

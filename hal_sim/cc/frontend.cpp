@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// clang as a library, with the target's widths changed before the preprocessor exists. What XC16 accepts and
-// clang for x86 would refuse (the interrupt attribute above all) is neutralised here, token by token.
+// clang as a library, for the chip's target. What XC16 accepts and clang would refuse (the interrupt attribute
+// above all) is renamed here, token by token.
 #include "frontend.h"
 
 #include <cstdio>
@@ -42,35 +42,6 @@ namespace {
 
 using namespace clang;
 
-/// Integer kinds are protected in TargetInfo; a derived class may set them.
-struct ModelAccess : TargetInfo {
-  static void set(TargetInfo& target) {
-    auto& t = static_cast<ModelAccess&>(target);
-    t.SizeType = UnsignedInt;
-    t.PtrDiffType = SignedInt;
-    t.IntPtrType = SignedLongLong;
-    t.Int16Type = SignedInt;
-    t.Int64Type = SignedLongLong;
-    t.IntMaxType = SignedLongLong;
-    t.WCharType = UnsignedShort;
-    t.WIntType = UnsignedInt;
-    t.Char32Type = UnsignedLong;
-    t.SigAtomicType = SignedInt;
-  }
-};
-
-void set_robot_model(TargetInfo& t) {
-  ModelAccess::set(t);
-  t.IntWidth = 16, t.IntAlign = 16;
-  t.LongWidth = 32, t.LongAlign = 16;
-  t.LongLongWidth = 64, t.LongLongAlign = 16;
-  t.FloatAlign = 16;
-  t.DoubleWidth = 32, t.DoubleAlign = 16, t.DoubleFormat = &llvm::APFloat::IEEEsingle();
-  t.LongDoubleWidth = 64, t.LongDoubleAlign = 16, t.LongDoubleFormat = &llvm::APFloat::IEEEdouble();
-  t.PointerAlign = 16;
-  t.SuitableAlign = 16, t.DefaultAlignForAttributeAligned = 16;
-}
-
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
@@ -99,37 +70,24 @@ class IncludeWatch : public PPCallbacks {
   const Options& options_;
 };
 
-/// Collects what later stages need from declarations, and mends the one type the widths break.
-class FactConsumer : public ASTConsumer {
+/// Turns declarations into what the chip has of them.
+class DeclarationConsumer : public ASTConsumer {
  public:
-  FactConsumer(Facts& facts, const Options& options)
-      : facts_(facts),
-        for_chip_(options.chip),
-        checks_(options.chip && !options.library && !options.weak),
-        strict_(options.lint) {}
+  explicit DeclarationConsumer(const Options& options)
+      : checks_(!options.library && !options.weak), strict_(options.lint) {}
   void Initialize(ASTContext& context) override {
     context_ = &context;
-    if (for_chip_) return;
-    // the machine's va_list counts in 32 bits; "unsigned int" has only 16 of them now
-    if (auto* record = dyn_cast_or_null<RecordDecl>(context.getVaListTagDecl())) {
-      int index = 0;
-      for (auto* field : record->fields())
-        if (index++ < 2) field->setType(context.UnsignedLongTy);
-    }
   }
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     // an erroneous expression may have no type
     if (context_->getDiagnostics().hasErrorOccurred()) return true;
     for (Decl* decl : group) {
-      note(decl);
+      if (auto* var = dyn_cast<VarDecl>(decl)) make_register(var);
       compute_in_field_widths(decl, *context_);
       clear_unions(decl, *context_);
-      if (for_chip_)
-        note_accumulators(decl, *context_);
-      else if (auto* function = dyn_cast<FunctionDecl>(decl))
-        if (function->doesThisDeclarationHaveABody()) narrow_differences(function->getBody());
+      note_accumulators(decl, *context_);
     }
-    if (for_chip_) place_variables(*context_);
+    place_variables(*context_);
     return true;
   }
   void HandleTranslationUnit(ASTContext& context) override {
@@ -138,19 +96,6 @@ class FactConsumer : public ASTConsumer {
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
 
  private:
-  void note(Decl* decl) {
-    if (auto* var = dyn_cast<VarDecl>(decl)) {
-      make_register(var);
-      if (auto* label = var->getAttr<AsmLabelAttr>())
-        if (label->getLabel().startswith("tp_sfr_"))
-          facts_.register_names.emplace(label->getLabel().str(), var->getNameAsString());
-    } else if (auto* function = dyn_cast<FunctionDecl>(decl)) {
-      for (auto* note : function->specific_attrs<AnnotateAttr>()) {
-        if (note->getAnnotation() == "tp_poll") facts_.poll_safe.insert(function->getNameAsString());
-        if (note->getAnnotation() == "tp_interrupt") facts_.interrupts.insert(function->getNameAsString());
-      }
-    }
-  }
   /// A variable that the program puts into a register's place is that register.
   void make_register(VarDecl* var) {
     auto* section = var->getAttr<SectionAttr>();
@@ -159,38 +104,14 @@ class FactConsumer : public ASTConsumer {
     var->dropAttr<SectionAttr>();
     var->setStorageClass(SC_Extern);
   }
-  /// The code generator makes p - q and sizeof(int[n]) as wide as the PC's pointers, whatever ptrdiff_t is.
-  /// Say so in the tree, and narrow the result to the robot's int.
-  void narrow_differences(Stmt* statement) {
-    for (Stmt*& child : statement->children()) {
-      if (!child) continue;
-      narrow_differences(child);
-      auto* difference = dyn_cast<BinaryOperator>(child);
-      bool wide = difference && difference->getOpcode() == BO_Sub &&
-                  difference->getLHS()->getType()->isPointerType() &&
-                  difference->getRHS()->getType()->isPointerType();
-      auto* trait = dyn_cast<UnaryExprOrTypeTraitExpr>(child);
-      wide = wide ||
-             (trait && trait->getKind() == UETT_SizeOf && trait->getTypeOfArgument()->isVariableArrayType());
-      if (!wide) continue;
-      auto* expression = cast<Expr>(child);
-      QualType narrow = expression->getType();
-      expression->setType(trait ? context_->UnsignedLongLongTy : context_->LongLongTy);
-      child = ImplicitCastExpr::Create(*context_, narrow, CK_IntegralCast, expression, nullptr, VK_PRValue,
-                                       FPOptionsOverride());
-    }
-  }
-
-  Facts& facts_;
-  const bool for_chip_;         // whose pointers are as wide as its int
   const bool checks_, strict_;  // program_checks.h
   ASTContext* context_ = nullptr;
 };
 
-/// Inside __attribute__((...)) some names mean something else to x86 or need a special signature there.
+/// Inside __attribute__((...)) some names mean something else to clang or need a special signature there.
 class AttributeFilter {
  public:
-  AttributeFilter(Preprocessor& pp, bool for_chip) : pp_(pp), for_chip_(for_chip) {}
+  explicit AttributeFilter(Preprocessor& pp) : pp_(pp) {}
   void operator()(const Token& token) {
     if (token.is(tok::kw___attribute)) {
       armed_ = true;
@@ -206,8 +127,7 @@ class AttributeFilter {
     const IdentifierInfo* name = token.getIdentifierInfo();
     if (!name) return;
     const StringRef bare = name->getName().trim('_');
-    if (depth_ == 3 && bare == "eedata") return name_section(token);
-    if (depth_ == 3 && for_chip_)
+    if (depth_ == 3)
       for (const char* known : {"save", "preprologue", "irq", "altirq"})  // of an interrupt: "functions"
         if (bare == known) return rename(token, kAttributePrefix + bare.str());
     if (depth_ != 2) return;
@@ -218,7 +138,7 @@ class AttributeFilter {
           "preprologue", "fillupper",   "secure",  "boot",   "sfr",  "reverse", "eds",    "unordered",
           "auto_psv",    "no_auto_psv", "keep",    "update", "save", "irq",     "altirq", "context"})
       if (bare == known) {
-        rename(token, for_chip_ ? kAttributePrefix + bare.str() : "tp_ignored");
+        rename(token, kAttributePrefix + bare.str());
         return;
       }
   }
@@ -237,11 +157,9 @@ class AttributeFilter {
     return at;
   }
 
-  /// space(eedata) is a section of the image, sfr(0x2C4) and address(0x2C4) a register's; "" for other
-  /// attributes.
+  /// sfr(0x2C4) and address(0x2C4) are a register's; "" for other attributes.
   std::string section_for(StringRef attribute, const Token& token) const {
     const StringRef argument = text_behind(token);
-    if (attribute == "space") return argument.startswith("eedata") && !for_chip_ ? "\"tpeedata\"" : "";
     if (attribute != "sfr" && attribute != "address") return "";
     const unsigned long address = std::strtoul(argument.data(), nullptr, 0);
     if (address == 0 || address >= kRegistersEnd) return "";
@@ -262,7 +180,6 @@ class AttributeFilter {
 
   static constexpr unsigned long kRegistersEnd = 0x800;  // of special-function registers, bytes
   Preprocessor& pp_;
-  const bool for_chip_;
   bool armed_ = false;
   int depth_ = 0;
   std::string section_;  // of the attribute that is being read
@@ -305,25 +222,22 @@ class RobotAction : public EmitLLVMOnlyAction {
   RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
       : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
   bool BeginInvocation(CompilerInstance& ci) override {
-    if (options_.chip)
-      ci.setTarget(make_chip_target(ci.getInvocation().TargetOpts));
-    else
-      set_robot_model(ci.getTarget());
+    ci.setTarget(make_chip_target(ci.getInvocation().TargetOpts));
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
     pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
-    filter_ = std::make_shared<AttributeFilter>(pp, options_.chip);
+    filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
-    if (options_.chip && !options_.library)
+    if (!options_.library)
       ci.setExternalSemaSource(implicit_functions(options_.strict || options_.lint));
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
     std::vector<std::unique_ptr<ASTConsumer>> all;
-    all.push_back(std::make_unique<FactConsumer>(facts_, options_));
+    all.push_back(std::make_unique<DeclarationConsumer>(options_));
     all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
     return std::make_unique<MultiplexConsumer>(std::move(all));
   }
@@ -334,15 +248,6 @@ class RobotAction : public EmitLLVMOnlyAction {
   std::shared_ptr<AttributeFilter> filter_;
 };
 
-const std::vector<const char*> kForPc = {"--target=x86_64-pc-linux-gnu",
-                                         "-fno-omit-frame-pointer",
-                                         "-mno-omit-leaf-frame-pointer",
-                                         "-fPIC",
-                                         "-fvisibility=hidden",
-                                         "-fcf-protection=none",
-                                         "-fno-asynchronous-unwind-tables",
-                                         "-fmath-errno",
-                                         "-gdwarf-4"};
 // another chip of 16 bits for the driver; chip_target.cpp is what the compiler itself gets. DWARF 3: its
 // addresses are all absolute, so the linker can make program addresses of them
 const std::vector<const char*> kForChip = {"--target=msp430", "-ffreestanding", "-fno-builtin", "-gdwarf-3"};
@@ -391,9 +296,9 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-Wno-newline-eof",
                                 "-Wno-error=return-type",
                                 "-Wno-gnu-designator"};
-  for (const char* word : o.chip ? kForChip : kForPc) a.push_back(word);
-  if (o.chip) a.push_back("-funroll-loops");  // what the optimiser may, not what it does (chip_emit.cpp)
-  if (o.chip && o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
+  a.insert(a.end(), kForChip.begin(), kForChip.end());
+  a.push_back("-funroll-loops");  // what the optimiser may, not what it does (chip_emit.cpp)
+  if (o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
   a.push_back("-fgnu89-inline");
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");
   if (o.sanitize && !o.library) {
@@ -403,7 +308,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
     a.push_back("-fwrapv");
   }
   // what is a fault wherever it stands; the strict ones ask for more than old programs can give
-  if (o.chip && !o.library && !o.weak)
+  if (!o.library && !o.weak)
     for (const char* w :
          {"-Wuninitialized", "-Wsometimes-uninitialized", "-Winfinite-recursion", "-Warray-bounds",
           "-Wdivision-by-zero", "-Winteger-overflow", "-Wself-assign", "-Wparentheses", "-Wunused-comparison",
@@ -417,12 +322,6 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
           "-Wfloat-conversion", "-Wshorten-64-to-32", "-Wsign-compare", "-Wno-unused-parameter"})
       a.push_back(w);
   for (const char* d : kVendorMacros) a.push_back(std::string("-D") + d);
-  if (!o.chip) a.push_back("-D__TWINPUCK_PC__=1");
-  if (!o.chip)
-    for (const char* u : {"__x86_64__", "__x86_64", "__amd64__", "__amd64", "__linux__", "__linux", "linux",
-                          "__unix__", "__unix", "unix", "__gnu_linux__", "__LP64__", "_LP64", "__SSE__",
-                          "__SSE2__", "__MMX__", "__k8", "__k8__"})
-      a.push_back(std::string("-U") + u);
   for (const auto& p : o.passed_on) a.push_back(p);
   a.push_back(std::string("-I") + kFallbackRoot);
   return a;
@@ -504,7 +403,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
   std::set<std::string> missing;
   auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
-      forgiving_file_system(options.fallback, options.project, options.copies, missing));
+      forgiving_file_system(options.fallback, options.project, missing));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
@@ -514,7 +413,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   const bool is_done = ci.ExecuteAction(action);
   if (!options.depfile.empty()) note_missing(options.depfile + ".missing", missing);
   auto module = is_done ? action.takeModule() : nullptr;
-  if (module && options.chip) place_assembler(*module, ci.getSourceManager(), facts);
+  if (module) place_assembler(*module, ci.getSourceManager(), facts);
   return module;
 }
 

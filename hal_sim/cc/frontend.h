@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One C file in, one LLVM module out, with the robot's data model (16-bit int, 32-bit long, single-precision
-// double, host pointers) and with what old e-puck code expects of its compiler.
+// One C file in, one LLVM module out, with the chip's types (16-bit int and pointers, 32-bit long,
+// single-precision double) and with what old e-puck code expects of its compiler.
 #pragma once
 #include <map>
 #include <memory>
@@ -19,32 +19,25 @@ struct Options {
   std::vector<std::string> passed_on;  // -I, -D, -U, -W..., -include
   std::vector<std::string> fallback;   // folders searched by trailing path components, in order
   std::string project;                 // the controller's own folder, absolute; empty: none
-  std::vector<std::string> copies;     // folders in it that hold a copy of the library, absolute
   std::string standard;                // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
   std::string
       depfile;  // a rule with every file read; beside it .missing, names that were not there, a line each
-  std::string facts;        // chip: where what this file does with addresses is written (shared_variables.h)
-  bool has_shared = false;  // chip: `shared` says which loads are done where they stand
+  std::string facts;        // where what this file does with addresses is written (shared_variables.h)
+  bool has_shared = false;  // `shared` says which loads are done where they stand
   std::vector<std::string> shared;  // nodes of shared_variables.h
-  std::string cost_dump;            // block features for fitting the cost model
   int level = 1;                    // 0, 1, 2
   bool for_size = false;
-  bool sanitize = false, coverage = false, strict = false, lint = false, emit_ir = false;
-  bool uncounted = false;  // part of the runtime: costs no cycles
-  bool webots = false;     // chip: written for Webots' interfaces, in C of today
+  bool sanitize = false, strict = false, lint = false, emit_ir = false;
+  bool webots = false;     // written for Webots' interfaces, in C of today
   bool weak = false;       // a file of a copy of the library: of two definitions the first wins
-  bool chip = false;       // code for the dsPIC30F6014A instead of the PC
-  bool emit_text = false;  // chip: assembler text
+  bool emit_text = false;  // assembler text
   bool library = false;    // part of the API or libc: definitions are weak, the program's own win
 };
 
 /// What the syntax tree says and the module no longer does.
 struct Facts {
-  std::map<std::string, std::string> register_names;  // "tp_sfr_02C2" -> "LATA"
-  std::set<std::string> poll_safe;                    // functions with annotate("tp_poll")
-  std::set<std::string> interrupts;                   // functions with the interrupt attribute
   std::map<std::string, unsigned> configuration;      // "fosc", "fwdt": words given by #pragma config
-  std::vector<std::string> assembler_places;          // chip: "main.c:12:9" of a number in !srcloc, from 1
+  std::vector<std::string> assembler_places;          // "main.c:12:9" of a number in !srcloc, from 1
 };
 
 /// What XC16 v1.22 for this chip predefines.

@@ -55,12 +55,11 @@ std::string match_ignoring_case(std::string root, const std::vector<std::string>
 
 class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
  public:
-  ForgivingFileSystem(std::vector<std::string> folders, std::string project, std::vector<std::string> copies,
+  ForgivingFileSystem(std::vector<std::string> folders, std::string project,
                       std::set<std::string>& missing)
       : ProxyFileSystem(llvm::vfs::getRealFileSystem()),
         folders_(std::move(folders)),
         project_(std::move(project)),
-        copies_(std::move(copies)),
         missing_(missing) {}
 
   llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
@@ -95,7 +94,7 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   }
 
  private:
-  /// Our header for a copy of the library outside the project or in one of `copies_`, "" for anything else.
+  /// Our header for a copy of the library outside the project, "" for anything else.
   std::string replaced_copy(const std::string& path) const {
     if (project_.empty() || folders_.empty() || !StringRef(path).endswith_insensitive(".h")) return "";
     llvm::SmallString<256> plain(path);
@@ -104,9 +103,6 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
     if (plain.str().startswith(folders_.front() + "/")) return "";
     if (StringRef name = llvm::sys::path::filename(plain); name.startswith_insensitive("p30f"))
       return match_ignoring_case(folders_.front(), {name.str()}, 0);
-    for (const std::string& copy : copies_)
-      if (plain.str().startswith(copy + "/"))
-        return match_ignoring_case(folders_.front(), components(plain.str().substr(copy.size()).str()), 0);
     if (plain.str().startswith(project_ + "/")) return "";
     auto parts = components(plain.str().str());
     if (parts.size() < 2) return "";
@@ -150,7 +146,6 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
 
   std::vector<std::string> folders_;
   std::string project_;
-  std::vector<std::string> copies_;
   std::set<std::string>& missing_;
 };
 
@@ -158,9 +153,8 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
 
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders,
                                                                       std::string project,
-                                                                      std::vector<std::string> copies,
                                                                       std::set<std::string>& missing) {
-  return new ForgivingFileSystem(std::move(folders), std::move(project), std::move(copies), missing);
+  return new ForgivingFileSystem(std::move(folders), std::move(project), missing);
 }
 
 std::string header_like(const std::string& name, const std::vector<std::string>& folders) {

@@ -125,7 +125,7 @@ std::string driver_folder(const fs::path& source, const std::string& below) {
 void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& unlisted,
                             const std::vector<fs::path>& assembler, LibraryCopies& split) {
   std::vector<std::pair<fs::path, std::string>> folders;  // source, its driver
-  for (const fs::path& source : split.replaced)
+  for (const fs::path& source : split.members)
     folders.emplace_back(source, driver_folder(source, source.lexically_relative(project).generic_string()));
   std::set<std::string> ours;
   for (const HalfInAssembler& half : kHalves) {
@@ -161,20 +161,9 @@ void leave_out_half_drivers(const fs::path& project, const std::set<fs::path>& u
   }
   for (const auto& [source, folder] : folders) {
     if (!ours.count(folder)) continue;
-    split.replaced_whole.push_back(source);
-    split.replaced.erase(std::find(split.replaced.begin(), split.replaced.end(), source));
+    split.left_out.push_back(source);
+    split.members.erase(std::find(split.members.begin(), split.members.end(), source));
   }
-}
-
-/// Whether a flat copy does what only the chip can: see limits.md, "The processor".
-bool needs_the_chip(const std::string& name, const std::string& text) {
-  if (std::regex_match(name, camera_files()) && speaks_of_camera(text)) return true;
-  static const sim::Pattern kChip(
-      R"(\b(ADCON[1-3]|ADCHS|ADCSSL|ADCBUF[0-9A-F]|DCICON[1-3]|TSCON|RSCON|RXBUF[0-3]|TXBUF[0-3]|)"
-      R"(I2C(CON|STAT|TRN|RCV|BRG)|U[12](MODE|STA|BRG|TXREG|RXREG)|SPI[12](STAT|CON|BUF))(bits)?\b|)"
-      R"(\b__builtin_(tbl|psv)|\b(asm|__asm__)\s*(volatile\s*)?\(\s*"\s*(?!nop|reset|clrwdt|pwrsav|disi))",
-      std::regex::icase);
-  return std::regex_search(without_comments(text), kChip);
 }
 
 }  // namespace
@@ -186,47 +175,18 @@ std::string without_comments(const std::string& text) {
 
 std::string library_place(const fs::path& source) { return place_below(lower(source.generic_string())); }
 
-LibraryCopies find_library_copies(const fs::path& project, const std::vector<fs::path>& sources) {
-  LibraryCopies copies;
-  const fs::path folder = fs::weakly_canonical(project);
-  for (const auto& source : sources) {
-    const fs::path whole = fs::weakly_canonical(source);
-    const std::string below = whole.lexically_relative(folder).generic_string();
-    const std::string place = place_below(lower(below));
-    if (!place.empty()) {
-      std::string root = whole.string();
-      root.resize(root.size() - place.size());
-      while (root.size() > 1 && root.back() == '/') root.pop_back();
-      if (std::find(copies.roots.begin(), copies.roots.end(), fs::path(root)) == copies.roots.end())
-        copies.roots.push_back(root);
-      copies.replaced.push_back(source);
-      continue;
-    }
-    const std::string name = lower(whole.filename().string());
-    const bool left_out = has_library_name(name) && needs_the_chip(name, read_text(source));
-    (left_out ? copies.replaced : copies.kept).push_back(source);
-  }
-  // "utility/utility.c" alone may be anybody's
-  if (copies.replaced.size() == 1 && lower(copies.replaced.front().filename().string()) == "utility.c") {
-    copies.kept = sources;
-    copies.replaced.clear();
-    copies.roots.clear();
-  }
-  return copies;
-}
-
 LibraryCopies find_library_members(const fs::path& project, const std::vector<fs::path>& sources,
                                    const std::set<fs::path>& unlisted,
                                    const std::vector<fs::path>& assembler) {
   LibraryCopies split;
   for (const fs::path& source : sources)
-    (has_library_name(lower(source.filename().string())) ? split.replaced : split.kept).push_back(source);
+    (has_library_name(lower(source.filename().string())) ? split.members : split.kept).push_back(source);
   // a project that has nothing of its own is no project of copies
   static const sim::Pattern kMain(R"(\bmain\s*\()");
-  for (std::size_t i = 0; i < split.replaced.size();) {
-    if (std::regex_search(without_comments(read_text(split.replaced[i])), kMain)) {
-      split.kept.push_back(split.replaced[i]);
-      split.replaced.erase(split.replaced.begin() + static_cast<std::ptrdiff_t>(i));
+  for (std::size_t i = 0; i < split.members.size();) {
+    if (std::regex_search(without_comments(read_text(split.members[i])), kMain)) {
+      split.kept.push_back(split.members[i]);
+      split.members.erase(split.members.begin() + static_cast<std::ptrdiff_t>(i));
     } else {
       ++i;
     }
@@ -251,7 +211,7 @@ LibraryCopies find_library_members(const fs::path& project, const std::vector<fs
     const auto depth = std::count(below.begin(), below.end(), '/');
     return std::make_tuple(!is_wanted, !is_advanced, depth, below);
   };
-  std::sort(split.replaced.begin(), split.replaced.end(),
+  std::sort(split.members.begin(), split.members.end(),
             [&](const fs::path& a, const fs::path& b) { return rank(a) < rank(b); });
   return split;
 }
@@ -291,16 +251,10 @@ std::string shown(const fs::path& project, const std::vector<fs::path>& files) {
 }  // namespace
 
 std::string library_copies_message(const fs::path& project, const LibraryCopies& copies) {
-  const std::string where = project.string() + ": copy of the e-puck library: got ";
-  if (!copies.replaced_whole.empty())
-    return where + shown(project, copies.replaced_whole) +
-           ", drivers whose other half is assembler, which is not assembled here; Twinpuck's own drivers are "
-           "used in "
-           "their place, changes made in them have no effect";
-  if (copies.replaced.empty()) return "";
-  return where + shown(project, copies.replaced) +
-         ", expected no drivers of the hardware in the project; Twinpuck's own library is used in their "
-         "place, changes made in them have no effect";
+  if (copies.left_out.empty()) return "";
+  return project.string() + ": copy of the e-puck library: got " + shown(project, copies.left_out) +
+         ", drivers whose other half is assembler, which the project does not have; Twinpuck's own drivers are "
+         "used in their place, changes made in them have no effect";
 }
 
 }  // namespace cc

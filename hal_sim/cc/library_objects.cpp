@@ -30,17 +30,6 @@ fs::path include_root(const BuildOptions& o) {
   return o.include_root.empty() ? source_root() / "firmware/include" : o.include_root;
 }
 
-namespace {
-
-/// Files of the libc that read and write the program's strings and arrays: --sanitize checks those, too.
-bool takes_strings(const fs::path& file) {
-  const std::string name = file.filename().string();
-  return file.parent_path() == source_root() / "hal_sim/cc/libc/src" &&
-         (name == "string.c" || name == "printf.c" || name == "scanf.c" || name == "stdlib.c");
-}
-
-}  // namespace
-
 std::vector<fs::path> contract_folders(const fs::path& root) {
   std::vector<fs::path> folders = {root};
   for (const char* sub : {"motor_led/advance_one_timer", "motor_led", "a_d/advance_ad_scan", "a_d", "uart",
@@ -60,62 +49,42 @@ std::string names_of_headers(const std::vector<fs::path>& folders) {
 
 namespace {
 
-constexpr const char* kForChip = "--target=dspic30f6014a";
-
-/// Files of the libc that only a host can serve.
-bool is_for_host(const fs::path& file) {
-  return file.filename() == "image_support.c" || file.filename() == "program_memory.c";
-}
-
 /// What XC16 brings compiled, whose code is the same at every level of a program; the e-puck's library is
 /// compiled with the program.
-bool is_precompiled(const fs::path& source, const BuildOptions& o) {
+bool is_precompiled(const fs::path& source) {
   const fs::path folder = source.parent_path();
-  return o.chip_way &&
-         (folder == source_root() / "hal_dspic/runtime" || folder == source_root() / "hal_sim/cc/libc/src");
+  return folder == source_root() / "hal_dspic/runtime" || folder == source_root() / "hal_sim/cc/libc/src";
 }
 
 std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
   const fs::path root = source_root(), cc_dir = root / "hal_sim/cc", libc = cc_dir / "libc/include";
   const fs::path contract = include_root(o);
-  const fs::path api = o.api_dir.empty() ? root / (o.chip_way ? "hal_dspic" : "hal_sim/api") : o.api_dir;
+  const fs::path api = o.api_dir.empty() ? root / "hal_dspic" : o.api_dir;
   std::vector<std::string> flags = {o.optimisation, "--library"};
   for (const fs::path& folder : contract_folders(contract)) flags.push_back("-I" + folder.string());
   flags.insert(flags.end(), {"-include", (libc / "xc16_builtins.h").string(), "-I" + libc.string(),
                              "--fallback", contract.string(), "--fallback", libc.string(),
                              "-I" + root.string(), "-I" + api.string()});  // its hal.h, for firmware/library
-  if (o.chip_way) flags.push_back(kForChip);
 
   const std::string salt =
-      names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library", root / "hal_sim/host"});
+      names_of_headers({contract, cc_dir / "libc", api, root / "firmware/library"});
   std::vector<CompileJob> jobs;
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
     jobs.push_back({source, with, salt, root.string()});
-    if (is_precompiled(source, o)) jobs.back().flags.front() = "-O1";
+    if (is_precompiled(source)) jobs.back().flags.front() = "-O1";
     // what the drivers do with a program's variables and functions, those do not
-    jobs.back().has_facts = o.chip_way && !is_precompiled(source, o) && source.extension() == ".c";
+    jobs.back().has_facts = !is_precompiled(source) && source.extension() == ".c";
   };
   if (is_webots)
     for (const auto& s : files_below(root / "firmware/webots", ".c")) add(s, flags);
-  const std::initializer_list<const char*> c_sources = {".c"}, chip_sources = {".c", ".s"};
   std::vector<fs::path> folders = {api, cc_dir / "libc/src"};
+  if (!o.api_dir.empty()) folders.push_back(root / "hal_dspic/runtime");
   // the half of the library that needs no pins, for a HAL that has the other half
   if (fs::exists(api / "hal.h")) folders.push_back(root / "firmware/library");
-  const auto is_replaced = [&](const fs::path& file) {
-    const bool is_of_chip = file.parent_path() == root / "hal_dspic/runtime";
-    if (is_of_chip != o.chip_way && (is_of_chip || is_for_host(file))) return true;
-    return file.parent_path() == root / "hal_dspic/bootloader";  // a program of its own
-  };
   for (const auto& folder : folders)
-    for (const auto& s : files_below(folder, o.chip_way ? chip_sources : c_sources)) {
-      if (is_replaced(s)) continue;
-      add(s, flags);
-      if (o.sanitize && !o.chip_way && takes_strings(s)) jobs.back().flags.push_back("--sanitize");
-    }
-  if (o.sanitize && o.chip_way) add(cc_dir / "runtime/chip_checks.c", flags);
-  if (o.sanitize && !o.chip_way)
-    add(cc_dir / "runtime/image_sanitize.c",
-        {"-O1", "--uncounted", "-I" + root.string(), "-I" + libc.string()});
+    for (const auto& s : files_below(folder, {".c", ".s"}))
+      if (s.parent_path() != root / "hal_dspic/bootloader") add(s, flags);  // a program of its own
+  if (o.sanitize) add(cc_dir / "runtime/chip_checks.c", flags);
   return jobs;
 }
 
@@ -167,7 +136,7 @@ Library provide_library(const BuildOptions& o, bool is_webots) {
   for (const CompileOutcome& outcome : outcomes) {
     library.messages += outcome.messages;
     if (!outcome.facts.empty()) library.facts.push_back(outcome.facts);
-    if (o.chip_way && outcome.ok && outcome.source.extension() == ".s" && !is_precompiled(outcome.source, o))
+    if (outcome.ok && outcome.source.extension() == ".s" && !is_precompiled(outcome.source))
       library.facts.push_back(facts_of_assembler(outcome.object));
     library.ok = library.ok && outcome.ok;
     ++(outcome.reused ? library.reused : library.compiled);
@@ -182,16 +151,12 @@ Library provide_library(const BuildOptions& o, bool is_webots) {
 
 std::vector<Library> provide_usual_libraries(int jobs) {
   std::vector<Library> made;
-  const auto make = [&](bool chip_way, bool is_webots) {
+  for (const bool is_webots : {false, true}) {
     BuildOptions o;
-    o.chip_way = chip_way;
     o.jobs = jobs;
     o.optimisation = "-O1";
     made.push_back(provide_library(o, is_webots));
-  };
-  make(false, false);
-  make(true, false);
-  make(true, true);
+  }
   return made;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is linked behind every program: the e-puck library of one way, the firmware's libc, and for programs
-// of the chip that are written for Webots its interfaces. Its objects and archives lie beside the executable
+// What is linked behind every program: the e-puck library, the firmware's libc, and for programs that are
+// written for Webots its interfaces. Its objects and archives lie beside the executable
 // in library/; `make build` fills it, and whatever changes later is compiled when a build asks for it.
 #pragma once
 #include <filesystem>
@@ -28,7 +28,7 @@ struct Library {
   bool ok = false;
   std::filesystem::path archive;
   std::string messages;            ///< of compilers and archiver
-  std::vector<std::string> facts;  ///< chip: what the drivers do with addresses (shared_variables.h)
+  std::vector<std::string> facts;  ///< what the drivers do with addresses (shared_variables.h)
   int compiled = 0, reused = 0;
 };
 
@@ -45,7 +45,7 @@ struct Archive {
 /// Objects as an archive, made where it is not what it should be.
 Archive archive(const std::vector<CompileOutcome>& objects, const std::filesystem::path& folder);
 
-/// Every library that programs usually ask for, both ways, at -O1; for `make build`.
+/// Every library that programs usually ask for, at -O1; for `make build`.
 std::vector<Library> provide_usual_libraries(int jobs);
 
 }  // namespace cc

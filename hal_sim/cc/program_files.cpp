@@ -61,8 +61,6 @@ std::string no_program(const fs::path& folder) {
     return folder.string() + ": main(): got no definition, expected one; is this a controller's folder?";
   if (!files_below(folder, ".py").empty())
     return got + "a program in Python, expected one in C; Python runs on the PC alone";
-  if (!files_below(folder, ".s").empty())
-    return got + "assembler, expected C; only the chip way assembles: --way chip";
   return got + "no .c file, expected at least one";
 }
 

@@ -18,9 +18,9 @@ struct Program {
   std::vector<std::string> defines;
   std::string standard, level;              // "" unless given
   std::vector<std::string> library_places;  // of what it lists of the library and is not compiled from it
-  std::vector<std::filesystem::path> assembler;        // sources of its own that only the chip way assembles
+  std::vector<std::filesystem::path> assembler;        // sources of its own
   std::set<std::filesystem::path> unlisted_assembler;  // of those what a Makefile does not list
-  std::vector<std::filesystem::path> objects;  // and objects and archives that only the chip way links
+  std::vector<std::filesystem::path> objects;  // and objects and archives, of XC16
 
   /// The `own` first files to compile are the program's, the others members of a library: unlisted ones
   /// become the last of them. How many are own now.

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
-// twinpuck-cc -c x.c -o x.o: one C file to one object, for the PC, computing and costing as the robot does;
-// with
-// --target=dspic30f6014a for the robot itself.
+// twinpuck-cc -c x.c -o x.o: one C or assembler file to one object of the robot's dsPIC30F6014A. twinpuck-cc
+// --link: objects to an image.
 #include <cstring>
 
 #include "chip.h"
 #include "dspic30/llvm/link.h"
-#include "llvm/Analysis/TargetLibraryInfo.h"
-#include "llvm/IR/LegacyPassManager.h"
-#include "llvm/IR/Verifier.h"
-#include "llvm/MC/TargetRegistry.h"
 #include "llvm/Support/ErrorHandling.h"
-#include "llvm/Support/FileSystem.h"
-#include "llvm/Support/TargetSelect.h"
 #include "llvm/Support/raw_ostream.h"
-#include "llvm/Target/TargetMachine.h"
 #include "memory_limit.h"
 #include "passes.h"
 #include "twinpuck_paths.h"
@@ -41,14 +33,10 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.level = 2, o.for_size = true;
     else if (a == "--sanitize")
       o.sanitize = true;
-    else if (a == "--coverage")
-      o.coverage = true;
     else if (a == "--strict")
       o.strict = true;
     else if (a == "--lint")
       o.lint = true;
-    else if (a == "--target=dspic30f6014a")
-      o.chip = true;
     else if (a == "-S")
       o.emit_text = true;
     else if (a == "--webots")
@@ -57,20 +45,14 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.library = true;
     else if (a == "--weak")
       o.weak = true;
-    else if (a == "--uncounted")
-      o.uncounted = true;
     else if (a == "--emit-ir")
       o.emit_ir = true;
     else if (a == "--project")
       o.project = value();
-    else if (a == "--copy")
-      o.copies.push_back(value());
     else if (a.startswith("-std="))
       o.standard = a.substr(5).str();
     else if (a == "--depfile")
       o.depfile = value();
-    else if (a == "--cost-dump")
-      o.cost_dump = value();
     else if (a == "--facts")
       o.facts = value();
     else if (a.consume_front("--shared=")) {
@@ -96,44 +78,13 @@ bool parse(int argc, char** argv, cc::Options& o) {
       return false;
     }
   }
-  if (o.chip && o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
+  if (o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
     for (const char* folder : {"firmware/include", "hal_sim/cc/libc/include"})
       o.passed_on.push_back(std::string("-I" TWINPUCK_SOURCE_DIR "/") + folder);
   if (o.input.empty() || o.output.empty()) {
-    errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--coverage] "
-              "[--strict]\n";
+    errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--strict]\n";
     return false;
   }
-  return true;
-}
-
-bool emit(Module& m, const cc::Options& o) {
-  std::error_code ec;
-  raw_fd_ostream out(o.output, ec, sys::fs::OF_None);
-  if (ec) {
-    errs() << o.output << ": cannot write: " << ec.message() << "\n";
-    return false;
-  }
-  if (o.emit_ir) {
-    m.print(out, nullptr);
-    return true;
-  }
-  std::string message;
-  const Target* target = TargetRegistry::lookupTarget(m.getTargetTriple(), message);
-  TargetOptions options;
-  options.TrapUnreachable = true;  // on the chip the program runs on into whatever follows; here it is told
-  std::unique_ptr<TargetMachine> machine(target->createTargetMachine(m.getTargetTriple(), "x86-64", "",
-                                                                     options, Reloc::PIC_, CodeModel::Small,
-                                                                     o.level == 0   ? CodeGenOpt::None
-                                                                     : o.level == 1 ? CodeGenOpt::Less
-                                                                                    : CodeGenOpt::Default));
-  legacy::PassManager passes;
-  // floor() is a function of the firmware's libc here, not something the PC may know by name
-  TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
-  library.disableAllFunctions();
-  passes.add(new TargetLibraryInfoWrapperPass(library));
-  if (machine->addPassesToEmitFile(passes, out, nullptr, CGFT_ObjectFile)) return false;
-  passes.run(m);
   return true;
 }
 
@@ -224,22 +175,11 @@ int main(int argc, char** argv) {
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
   limit_memory(options.input);
-  if (options.chip && StringRef(options.input).endswith_insensitive(".s"))
-    return cc::assemble_for_chip(options);
-  InitializeNativeTarget();
-  InitializeNativeTargetAsmPrinter();
-  InitializeNativeTargetAsmParser();
+  if (StringRef(options.input).endswith_insensitive(".s")) return cc::assemble_for_chip(options);
   LLVMContext context;
   cc::Facts facts;
   auto module = cc::compile_to_module(options, context, facts);
   if (!module) return 1;
   cc::Unit unit{*module, options, facts};
-  if (options.chip) return cc::compile_for_chip(unit);
-  if (!cc::run_pipeline(unit)) return 1;
-  if (verifyModule(*module, &errs())) {
-    if (options.emit_ir) module->print(errs(), nullptr);
-    errs() << options.input << ": internal error: malformed code after the pipeline\n";
-    return 6;
-  }
-  return emit(*module, options) ? 0 : 1;
+  return cc::compile_for_chip(unit);
 }

@@ -36,7 +36,7 @@ std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 BoardOutside::BoardOutside(Board& board) : board_(board), selector_(board.selector()), camera_(board) {
   tris_.fill(0xFFFF);
-  board_.leave_inputs_to_others();
+  board_.solder();
 }
 
 bool BoardOutside::may_have_news() const {

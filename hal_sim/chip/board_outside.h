@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The board as the pins of the dsPIC30F6014A see it: dspic::Outside on one board::Board. Whoever runs the
-// models of the chip (the register way, later the chip way) puts this between chip and board.
+// The board as the pins of the dsPIC30F6014A see it: dspic::Outside on one board::Board.
 //
 //   pins_driven -> Board::port_write: coils, LEDs, IR emitters, codec and camera reset
 //   pin_levels  <- selector, battery detector, remote receiver, idle serial lines, camera clocks and data

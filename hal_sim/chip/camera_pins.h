@@ -7,8 +7,7 @@
 // All edges are closed forms of the sensor's clock, so nothing is ticked; a picture is rendered when its data
 // pins are read, lines at once. Modelled: frame, line and byte periods of the sensor's registers, the byte on
 // the pins at any cycle; which pictures the program made of what it read of a frame. Not modelled: VSYNC's
-// true width (half a line here), set-up times, the data between lines (0). Rendered lines are complete, so
-// pictures cost more than those of the native way.
+// true width (half a line here), set-up times, the data between lines (0). Rendered lines are complete.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -7,9 +7,8 @@
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/chip/translation.h"
-#include "hal_sim/host/endless_wait.h"
-#include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/oscillator.h"
+#include "hal_sim/chip/endless_wait.h"
+#include "hal_sim/chip/oscillator.h"
 #include "sim_core/base/hash.h"
 
 namespace chip {
@@ -55,7 +54,6 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   configuration.fosc = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart));
   configuration.fwdt = static_cast<std::uint16_t>(program_.read(dspic::kConfigurationStart + 2));
   configuration.fcy_hz = static_cast<double>(board::kFcyHz) * clock_factor;
-  configuration.synchronised_ports = true;
   configuration.program = &program_;
   chip_.power_up(configuration);
   if (const auto end = file_.marks.find(dspic::kServedEndSymbol); end != file_.marks.end()) {
@@ -79,9 +77,9 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   if (is_checked) check_memory();
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   // a source of clock that the robot has not: no instruction is ever executed
-  const std::string problem = host::clock_problem(configuration.fosc);
+  const std::string problem = chip::clock_problem(configuration.fosc);
   has_clock_ = problem.empty();
-  if (!has_clock_) report({TP_TRAP_UNSIMULATED, "Reset", problem, 0});
+  if (!has_clock_) report({host::kTrapUnsimulated, "Reset", problem, 0});
   if (start <= 0) return;
   end_ = start;
   processor_->wait_until(start);
@@ -95,7 +93,7 @@ void ChipRunner::check_memory() {
   memory_ = std::make_unique<MemoryReports>(
       file_, *processor_, *places_, [this](const std::string& message, unsigned place) {
         constexpr std::size_t kMostCallers = 16;
-        report(Ending{TP_TRAP_SANITIZER, "", message, place},
+        report(Ending{host::kTrapSanitizer, "", message, place},
                places_->callers(processor_->pc_of_access(), place, kMostCallers));
       });
   std::vector<std::uint32_t> addresses = image_->functions().addresses();
@@ -322,12 +320,17 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
     // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
     const unsigned here = processor_->pc(), own = places_->own(here);
     const host::Place place = place_of(own);
-    const auto find = [&] { return host::is_written_by_none(*this, place, by_name); };
+    const auto find = [&] { return chip::is_written_by_none(*this, place, by_name); };
     const std::string line = place.file + ":" + std::to_string(place.line);
     if (enabled ? own == here && image_->is_endless(line, enabled, find) : place.line > 0)
-      wait_ = host::endless_wait(*this, place, since);
+      wait_ = chip::endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);
+}
+
+unsigned ChipRunner::saved_by_heart() const {
+  if (!library_) return 0;
+  return 2 * static_cast<unsigned>(__builtin_popcount(library_->saved_registers()) + library_->saved_words());
 }
 
 std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }

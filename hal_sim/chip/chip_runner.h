@@ -46,8 +46,6 @@ class ChipRunner final : public host::Runner,
   ChipRunner(std::string name, std::shared_ptr<const ChipImage> image, double clock_factor,
              board::Board& board, Cycle start = 0, std::uint64_t seed = 0);
 
-  const char* way() const override { return "chip"; }
-
   void begin_window(Cycle now) override;
   void run_until(Cycle end) override;
   /// Whoever looks at each instruction sees those of waits, too.
@@ -106,6 +104,8 @@ class ChipRunner final : public host::Runner,
   const drivers::Drivers* closed_drivers() const override {
     return library_ ? &library_->drivers() : nullptr;
   }
+  /// Bytes that a handler known by heart saves on the stack behind the address that it returns to.
+  unsigned saved_by_heart() const;
   /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
   void watch_steps(StepWatch* watch, bool on);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "dspic30/core/instruction_table.h"
-#include "hal_sim/host/image_abi.h"
 #include "sim_core/base/did_you_mean.h"
 
 namespace chip {
@@ -25,13 +24,13 @@ bool does_nothing(std::uint32_t word) { return word == kNop || word == kHalt; }
 int kind_of(Trap trap) {
   switch (trap) {
     case Trap::AddressError:
-      return TP_TRAP_ADDRESS;
+      return host::kTrapAddress;
     case Trap::StackError:
-      return TP_TRAP_STACK;
+      return host::kTrapStack;
     case Trap::MathError:
-      return TP_TRAP_MATH;
+      return host::kTrapMath;
     default:
-      return TP_TRAP_INTERRUPT;
+      return host::kTrapInterrupt;
   }
 }
 
@@ -76,7 +75,7 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
                      "a second trap came before the first one's handler, so the processor resets");
     case dspic::ResetKind::IllegalOpcode: {
       const bool is_pointer = dspic::find_row(program_.read(here)) != nullptr;
-      return Ending{TP_TRAP_ILLEGAL, "Reset",
+      return Ending{host::kTrapIllegal, "Reset",
                     is_pointer
                         ? "an address in a register that was never written resets the processor"
                         : "an illegal opcode resets the processor: the program ran into what is no code",
@@ -123,7 +122,7 @@ std::optional<Ending> Endings::of_instruction(unsigned at) const {
 }
 
 Ending Endings::of_giving_up() const {
-  return {TP_TRAP_ABORT, "Reset", kGaveUp, places_.own(processor_.pc_of_access())};
+  return {host::kTrapAbort, "Reset", kGaveUp, places_.own(processor_.pc_of_access())};
 }
 
 /// What our C library does for abort(), a failed assert() and exit() with a failure.
@@ -133,9 +132,9 @@ std::optional<Ending> Endings::of_giving_up(unsigned at) const {
     return function && function->name == name;
   };
   const unsigned from = is_in(at, "tp_reset") ? places_.caller() : at;
-  const bool asserted = is_in(from, "tp_image_assert");
-  if (!asserted && !is_in(from, "tp_trap_message") && !is_in(from, "abort")) return std::nullopt;
-  return Ending{TP_TRAP_ABORT, "Reset", asserted ? "an assert() failed, so the processor resets" : kGaveUp,
+  const bool asserted = is_in(from, "tp_assert_failed");
+  if (!asserted && !is_in(from, "tp_give_up") && !is_in(from, "abort")) return std::nullopt;
+  return Ending{host::kTrapAbort, "Reset", asserted ? "an assert() failed, so the processor resets" : kGaveUp,
                 places_.own(at)};
 }
 
@@ -211,7 +210,7 @@ std::string Endings::handler_like(const std::string& wanted) const {
 
 Ending Endings::of_interrupt(int vector, unsigned place) const {
   const std::string name = dspic::vector_name(vector), wanted = places_.handler_name(vector);
-  Ending ending{TP_TRAP_INTERRUPT, name, "", place};
+  Ending ending{host::kTrapInterrupt, name, "", place};
   if (vector < dspic::kFirstIrqVector) ending.kind = kind_of(static_cast<Trap>(vector));
   ending.message = (vector < dspic::kFirstIrqVector ? "the trap " + name + " came"
                                                     : "the interrupt of " + name + " is enabled") +

@@ -19,7 +19,7 @@
 namespace chip {
 
 struct Ending {
-  int kind = 0;        ///< TP_TRAP_* (image_abi.h), as in host::TrapReport
+  int kind = 0;        ///< host::TrapKind
   std::string vector;  ///< "MathError", "T1", "Reset"
   std::string message;
   unsigned place = 0;  ///< the program's own instruction that led to it

@@ -13,7 +13,9 @@ namespace {
 
 using Kind = dspic::MemoryFinding::Kind;
 using State = dspic::MemoryCheck::State;
-constexpr std::size_t kMostTold = 1000;
+constexpr std::size_t kMostTold = 1000;  // places and kinds
+constexpr std::size_t kMostObjects = 4;
+constexpr int kMostLooks = 1000;
 constexpr unsigned kNear = 64;  // bytes beside a variable that are said to be beyond it
 constexpr std::size_t kLongestName = 60;
 
@@ -78,20 +80,29 @@ MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Proce
 
 /// What start-up code has left alone belongs to nobody, unless it is known to.
 void MemoryReports::find_gaps() {
-  std::vector<bool> is_free(dspic::Processor::kRamBytes, true);
-  const auto keep = [&](unsigned begin, unsigned end) {
-    for (unsigned at = std::max(begin, dspic::Processor::kRamStart);
-         at < std::min(end, dspic::Processor::kRamEnd); ++at)
-      is_free[at - dspic::Processor::kRamStart] = false;
-  };
-  const auto served = file_.marks.find(dspic::kServedEndSymbol);
-  keep(dspic::Processor::kRamStart, served == file_.marks.end() ? 0 : served->second);
-  keep(heap_begin_, heap_end_);
-  keep(stack_begin_, processor_.cpu().splim + 2u);
-  for (const Object& o : globals_) keep(o.begin, o.begin + (o.bytes ? o.bytes : 2));
-  for (unsigned at = dspic::Processor::kRamStart; at < dspic::Processor::kRamEnd; ++at)
-    if (is_free[at - dspic::Processor::kRamStart] && !check_.is_written(at))
-      check_.mark(at, at + 1, State::Outside);
+  using dspic::Processor;
+  // the same each time the program begins
+  const unsigned limit = processor_.cpu().splim + 2u;
+  if (gaps_limit_ != limit) {
+    gaps_limit_ = limit;
+    gaps_.clear();
+    const auto served = file_.marks.find(dspic::kServedEndSymbol);
+    std::vector<std::pair<unsigned, unsigned>> kept = {
+        {Processor::kRamStart, served == file_.marks.end() ? Processor::kRamStart : served->second},
+        {heap_begin_, heap_end_},
+        {stack_begin_, limit},
+        {Processor::kRamEnd, Processor::kRamEnd}};
+    for (const Object& o : globals_) kept.push_back({o.begin, o.begin + (o.bytes ? o.bytes : 2)});
+    std::sort(kept.begin(), kept.end());
+    unsigned at = Processor::kRamStart;
+    for (const auto& [begin, end] : kept) {
+      if (begin > at) gaps_.push_back({at, std::min(begin, Processor::kRamEnd)});
+      at = std::max(at, end);
+    }
+  }
+  for (const auto& [begin, end] : gaps_)
+    for (unsigned at = begin; at < end; ++at)
+      if (!check_.is_written(at)) check_.mark(at, at + 1, State::Outside);
 }
 
 std::vector<std::uint32_t> MemoryReports::addresses() const {
@@ -221,12 +232,15 @@ void MemoryReports::returned(std::uint16_t w0) {
 
 // --- findings
 
-/// Once for each place, kind and object.
+/// Once for each place, kind and object, and no more of a place that goes on and on.
 bool MemoryReports::is_told(const dspic::MemoryFinding& f, unsigned place) {
+  Told& told = told_[{place, 2 * static_cast<int>(f.kind) + f.writes}];
+  if (told.objects.size() >= kMostObjects || told.looked_at++ >= kMostLooks) return true;
+  if (f.kind == Kind::AboveStack || f.kind == Kind::Null) return !told.objects.insert(0).second;
   std::string name;
   Object block;
   const Object* const o = owner(f.address, f.bytes, name, block);
-  return !told_.insert({place, 2 * static_cast<int>(f.kind) + f.writes, o ? o->begin : f.address}).second;
+  return !told.objects.insert(o ? o->begin : f.address).second;
 }
 
 /// A variable that the debugger knows by its place in the frame of the function that runs.
@@ -299,6 +313,8 @@ std::string MemoryReports::what(const dspic::MemoryFinding& f) const {
     case Kind::AboveStack:
       return does + " beyond the top of the stack, at " + dspic::hex(f.address, 4) +
              ": a variable of a function that has returned";
+    case Kind::Null:
+      return does + " through a null pointer, at " + dspic::hex(f.address, 4);
     default:
       break;
   }

@@ -70,12 +70,18 @@ class MemoryReports final : private dspic::MemoryFindings {
   dspic::MemoryCheck check_;
   std::map<std::uint32_t, Entry> entries_;
   std::vector<Object> globals_;     // by address
+  std::vector<std::pair<unsigned, unsigned>> gaps_;  // RAM that is nobody's, for a stack up to ...
+  unsigned gaps_limit_ = 0;
   std::vector<Object> locals_;      // alive, the innermost last
   std::map<unsigned, Block> heap_;  // by address
   unsigned heap_begin_ = 0, heap_end_ = 0, stack_begin_ = 0;
   Function asked_ = Function::Malloc;  // of the heap, under way
   unsigned asked_bytes_ = 0, asked_block_ = 0;
-  std::set<std::tuple<unsigned, int, unsigned>> told_;  // place, kind, object
+  struct Told {
+    std::set<unsigned> objects;
+    int looked_at = 0;
+  };
+  std::map<std::pair<unsigned, int>, Told> told_;  // by place and kind
 };
 
 }  // namespace chip

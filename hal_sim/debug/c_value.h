@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "dspic30/load/debug_info.h"
-#include "hal_sim/debug/machine.h"
+#include "hal_sim/debug/code.h"
 
 namespace debug {
 
@@ -26,7 +26,6 @@ struct Part {
   dspic::DebugInfo::Found found;
   std::optional<Address> pointed;  ///< address that found.offset counts from; none: the variable's place
   std::uint32_t pc = 0;            ///< where the program would have to stand
-  bool is_elsewhere = false;       ///< it stands somewhere else: what cannot be read is 0
 };
 
 struct CValue {

@@ -3,6 +3,7 @@
 
 #include "dspic30/memory/program_memory.h"
 #include "dspic30/periph/vectors.h"
+#include "hal_sim/chip/program_places.h"
 
 namespace debug {
 
@@ -122,6 +123,29 @@ Code::Code(const dspic::FirmwareFile& file) : file_(file) {
       for (auto known = first; known != last; ++known) is_known |= known->second == v;
       if (!is_known) vectors_.emplace(word->second, v);
     }
+  for (const auto& function : file.code.functions)
+    if (const unsigned to = chip::goto_target(file, function.begin); dspic::is_host_place(to))
+      host_functions_.emplace(to, &function);
+}
+
+const dspic::CodeMap::Function* Code::function_at(std::uint32_t address) const {
+  static const dspic::CodeMap::Function kByHeart{dspic::kHostHandlerReturn, dspic::kHostEnd, "_T2Interrupt"};
+  if (address == kByHeart.begin) return &kByHeart;
+  if (!dspic::is_host_place(address)) return file_.code.function_at(address);
+  const auto found = host_functions_.find(address);
+  return found == host_functions_.end() ? nullptr : found->second;
+}
+
+std::string Code::describe(std::uint32_t address) const {
+  const auto* function = dspic::is_host_place(address) ? function_at(address) : nullptr;
+  return function ? function->name + "()" : file_.code.describe(address);
+}
+
+std::uint32_t Code::host_function_called(std::uint32_t address) const {
+  if (host_functions_.empty()) return 0;
+  const auto i = at(address);
+  if (!i || !i->target || !(i->is_call() || i->is_branch())) return 0;
+  return dspic::is_host_place(chip::goto_target(file_, *i->target)) ? *i->target : 0;
 }
 
 std::optional<Instruction> Code::at(std::uint32_t address) const {

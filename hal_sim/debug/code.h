@@ -10,9 +10,29 @@
 
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/load/firmware_file.h"
-#include "hal_sim/debug/machine.h"
+#include "dspic30/memory/cycle.h"
+#include "dspic30/memory/host_places.h"
 
 namespace debug {
+
+using dspic::Cycle;
+using Address = std::uint64_t;
+
+/// One level of calls.
+struct Frame {
+  std::uint32_t pc = 0;
+  std::uint32_t call = 0;  ///< of the instruction that is under way: pc, or the call before it
+  Address base = 0;        ///< grows with each call
+  const dspic::CodeMap::Function* function = nullptr;
+  bool is_handler = false;
+};
+
+/// A place in data.
+struct Data {
+  Address address = 0;
+  unsigned bytes = 2;
+  int bit = 0, width = 0;  ///< of a register's field or a bit-field; width 0: all of it
+};
 
 /// An instruction as far as it concerns its surroundings.
 struct Instruction {
@@ -50,6 +70,13 @@ class Code {
   bool is_handler(const dspic::CodeMap::Function& function) const {
     return !vectors_of(function.begin).empty();
   }
+  /// The function at an address; of one that the simulator plays, at its place beyond the flash. Null: none.
+  const dspic::CodeMap::Function* function_at(std::uint32_t address) const;
+  /// "drive() (main.c:42)", "e_set_speed_left()"
+  std::string describe(std::uint32_t address) const;
+  /// Does the instruction at `address` call a function that the simulator plays? Where that begins for the
+  /// program: the linker's handle; 0: it does not.
+  std::uint32_t host_function_called(std::uint32_t address) const;
 
   /// Bytes by which the stack has grown since the function began, found by following every way; none where
   /// no way leads.
@@ -63,21 +90,26 @@ class Code {
 
   const dspic::FirmwareFile& file_;
   std::multimap<std::uint32_t, int> vectors_;
+  std::map<std::uint32_t, const dspic::CodeMap::Function*> host_functions_;  // by their place
   std::map<std::uint32_t, std::map<std::uint32_t, Depth>> depths_;  // by function, by address
 };
 
-/// From the innermost outwards. `word`: a word of RAM at an address.
+/// From the innermost outwards. `word`: a word of RAM at an address; `saved_bytes`: what a handler that is
+/// known by heart saves behind the address that it returns to.
 template <typename ReadWord>
-std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, ReadWord word) {
+std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, unsigned saved_bytes, ReadWord word) {
   constexpr std::size_t kMostFrames = 64;
   constexpr unsigned kRamStart = 0x800;
   std::vector<Frame> frames;
   std::uint32_t call = pc;
   while (frames.size() < kMostFrames) {
-    const auto* function = code.file().code.function_at(pc);
-    const auto depth = code.stack_depth(pc);
+    const auto* function = code.function_at(pc);
+    const bool is_by_heart = pc == dspic::kHostHandlerReturn;  // it has called the function before it
+    const auto depth = is_by_heart                ? std::optional<int>(static_cast<int>(saved_bytes))
+                       : dspic::is_host_place(pc) ? std::optional<int>(0)
+                                                  : code.stack_depth(pc);
     Frame frame{pc, call, depth ? sp - static_cast<unsigned>(*depth) : 0, function,
-                function && code.is_handler(*function)};
+                is_by_heart || (function && code.is_handler(*function))};
     frames.push_back(frame);
     const auto first = code.at(0);  // what a reset jumps to was called by nobody
     if (!depth || frame.base < kRamStart + 4 ||
@@ -89,7 +121,7 @@ std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, ReadWor
     sp = base - 4;
     // a handler goes on with an instruction, a function behind one
     call = pc;
-    if (!frame.is_handler) {
+    if (!frame.is_handler && pc != dspic::kHostHandlerReturn) {
       const auto before = code.at(pc - 4);
       call = before && before->is_call() && before->row->words == 2 ? pc - 4 : pc - 2;
       const auto caller = code.at(call);

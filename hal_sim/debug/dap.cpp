@@ -339,7 +339,7 @@ nlohmann::json DapServer::told_source(std::size_t file) const {
 nlohmann::json DapServer::reference(const CValue& value) const {
   std::optional<Address> address;
   if (value.type.stars > 0 && !value.part && !value.data) address = value.raw;
-  if (const auto place = session_->place_of(value); place && !place->is_register) address = place->address;
+  if (const auto place = session_->place_of(value); place) address = place->address;
   return address ? Json(fmt::format("{:#x}", *address)) : Json();
 }
 
@@ -368,7 +368,7 @@ void DapServer::variables(const Json& request) {
         CValue known;
         std::string none;
         if (!session_->compute(name, Want::Place, known, none)) continue;
-        const Address at = session_->machine().data_base() + address;
+        const Address at = address;
         const auto value = session_->read({at, bytes->second});
         add(name, known.part ? session_->typed(*known.part) : fmt::format("{} ({:#x})", value, value),
             fmt::format("{:#x}", at));
@@ -455,11 +455,12 @@ void DapServer::read_memory(const Json& request) {
   if (!reference_of(arguments, address) || wanted < 0)
     return refuse(request, "readMemory: expected an address as a memoryReference, and a count of 0 or more");
   std::vector<std::uint8_t> bytes;
-  const Address last = session_->machine().address_mask();
+  const Address last = kAddressMask;
   for (std::int64_t i = 0; i < std::min(wanted, kMost) && address + i >= 0; ++i) {
     const auto at = static_cast<Address>(address + i);
     std::uint8_t byte = 0;
-    if (at > last || !session_->machine().read({at, 1}, &byte)) break;
+    if (at > last) break;
+    session_->machine().read({at, 1}, &byte);
     bytes.push_back(byte);
   }
   Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))}, {"data", base64(bytes)}};

@@ -144,7 +144,7 @@ class Expression {
       if (value.type.kind == ValueKind::Image && value.type.stars == 0)
         return refuse(from, "expected a number or a pointer behind the cast");
       CValue cast = converted(value, type);
-      if (type.stars > 0) cast.raw = cut(cast.raw, names_.pointer_bits(), false);
+      if (type.stars > 0) cast.raw = cut(cast.raw, kPointerBits, false);
       return cast;
     }
     return postfix();
@@ -379,7 +379,7 @@ class Expression {
   }
 
   unsigned bytes_of(const CType& type) const {
-    if (type.stars > 0) return names_.pointer_bits() / 8;
+    if (type.stars > 0) return kPointerBits / 8;
     if (type.kind == ValueKind::Image) return info().types[static_cast<std::size_t>(type.index)].bytes;
     if (type.kind == ValueKind::Unknown) return 0;
     return type.bits > 32 ? 8 : type.bits > 16 ? 4 : type.bits > 8 ? 2 : 1;
@@ -454,10 +454,9 @@ class Expression {
       Part part;
       part.found.type = type.index;
       part.pointed = to.raw;
-      part.is_elsewhere = is_tried_;
       value.part = part;
     } else {
-      value.data = Data{cut(to.raw, names_.pointer_bits(), false), bytes_of(type)};
+      value.data = Data{cut(to.raw, kPointerBits, false), bytes_of(type)};
     }
     return value;
   }
@@ -513,7 +512,7 @@ class Expression {
 
   CValue moved(CValue pointer, std::int64_t by) {
     const std::uint64_t way = static_cast<std::uint64_t>(by) * step_of(pointer.type);
-    pointer.raw = cut(pointer.raw + way, names_.pointer_bits(), false);
+    pointer.raw = cut(pointer.raw + way, kPointerBits, false);
     pointer.part.reset();
     pointer.data.reset();
     return pointer;
@@ -544,7 +543,7 @@ class Expression {
       if (op == "-" && first && !second) return moved(a, -static_cast<std::int64_t>(b.raw));
       if (op == "-" && first && second)
         return integer(kInt, static_cast<std::uint64_t>(
-                                 static_cast<std::int64_t>(cut(a.raw - b.raw, names_.pointer_bits(), true)) /
+                                 static_cast<std::int64_t>(cut(a.raw - b.raw, kPointerBits, true)) /
                                  static_cast<std::int64_t>(step_of(a.type))));
       return fail("got '" + std::string(begin_) + "', expected numbers beside '" + op + "'");
     }

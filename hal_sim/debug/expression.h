@@ -11,13 +11,13 @@
 
 namespace debug {
 
+inline constexpr unsigned kPointerBits = 16;
+
 /// What an expression asks of the program that is looked at.
 class Names {
  public:
   virtual ~Names() = default;
   virtual const dspic::DebugInfo& debug_info() const = 0;
-  /// Of the chip's pointers 16.
-  virtual unsigned pointer_bits() const = 0;
   /// A variable that is known where the program stands, or would.
   virtual bool find_variable(const std::string& name, Part& part) const = 0;
   /// A register, a symbol without a type, the debugger's own numbers; functions as addresses.

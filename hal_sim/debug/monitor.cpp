@@ -253,10 +253,11 @@ std::string Monitor::memory(const std::string& rest) {
   std::string text;
   for (int i = 0; i < words; ++i) {
     const Address here =
-        static_cast<Address>(address + 2 * i) & session_.machine().address_mask() & ~Address{1};
+        static_cast<Address>(address + 2 * i) & kAddressMask & ~Address{1};
     if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
     unsigned word = 0;
-    text += session_.machine().read({here, 2}, &word) ? fmt::format(" {:04x}", word) : " ????";
+    session_.machine().read({here, 2}, &word);
+    text += fmt::format(" {:04x}", word);
   }
   return text + "\n";
 }
@@ -265,7 +266,7 @@ std::string Monitor::memory(const std::string& rest) {
 
 std::string Monitor::where() {
   std::string text = fmt::format("{:.9f} s, cycle {}: {:#08x} {}\n", session_.seconds(), session_.now(),
-                                 session_.pc(), session_.file().code.describe(session_.pc()));
+                                 session_.pc(), session_.machine().code().describe(session_.pc()));
   if (const auto* line = session_.file().code.line_at(session_.pc()))
     text += source_line(session_.file().code.files[line->file], line->line);
   return text;
@@ -275,7 +276,7 @@ std::string Monitor::backtrace() {
   std::string text;
   int n = 0;
   for (const Frame& f : session_.frames())
-    text += fmt::format("#{} {:#08x} {}{}\n", n++, f.call, session_.file().code.describe(f.call),
+    text += fmt::format("#{} {:#08x} {}{}\n", n++, f.call, session_.machine().code().describe(f.call),
                         f.is_handler ? "  <-- interrupt" : "");
   return text;
 }

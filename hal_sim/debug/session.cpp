@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "hal_sim/debug/chip_machine.h"
-#include "hal_sim/debug/pc_machine.h"
 #include "sim_core/base/input_file.h"
 
 namespace debug {
@@ -13,17 +11,11 @@ namespace debug {
 namespace {
 
 constexpr auto kIdleEvery = std::chrono::milliseconds(20);
-constexpr Cycle kLookBackGrows = 30;
+// so many cycles before it are looked at first when it goes back; then ever more
+constexpr Cycle kFirstLookBack = 50'000, kLookBackGrows = 30;
 constexpr std::size_t kLongestSource = 4u << 20;  // bytes
-// a program may run beyond the window's end, to the end of a block
+// a program may run beyond the window's end, to the end of an instruction or a stretch
 constexpr Cycle kLongestBlock = 10'000;
-
-/// Null: this kind of program, or none, cannot be stopped.
-std::unique_ptr<Machine> machine_of(host::Runner* runner) {
-  if (auto* chip = dynamic_cast<chip::ChipRunner*>(runner)) return std::make_unique<ChipMachine>(*chip);
-  if (auto* pc = dynamic_cast<host::CompiledRunner*>(runner)) return std::make_unique<PcMachine>(*pc);
-  return nullptr;
-}
 
 /// May code that was made of `source` be of a file that lies at `path`? Not if both are there and differ.
 bool is_possibly(const std::string& source, const std::string& path) {
@@ -41,16 +33,9 @@ std::unique_ptr<Session> Session::open(Setup setup, std::vector<std::string>& pr
   session->setup_.options.threads = 1;
   if (!session->open_world(problems)) return nullptr;
   session->start(0);
-  std::string error;
-  if (session->machine_->begins_in_main())
-    if (const Breakpoint* main = session->add_breakpoint("main", "", error)) {
-      const int id = main->id;
-      session->resume(nullptr);
-      session->remove(id);
-      session->last_id_ = 0;
-      return session;
-    }
-  session->target_ = Moment{};
+  Moment beginning;
+  beginning.is_anywhere = true;
+  session->target_ = beginning;
   session->stop_.why = Stop::Why::Entry;
   session->resume(nullptr);
   return session;
@@ -75,9 +60,11 @@ bool Session::open_world(std::vector<std::string>& problems) {
           name);
       return false;
     }
-    machine_ = machine_of(twin_->mind(i).runner());
-    if (machine_) robot_ = i;
-    if (machine_) setup_.robot = name;
+    auto* const runner = dynamic_cast<chip::ChipRunner*>(twin_->mind(i).runner());
+    if (!runner) continue;  // it has no program
+    machine_ = std::make_unique<Machine>(*runner);
+    robot_ = i;
+    setup_.robot = name;
   }
   if (robot_ < 0) {
     problems.push_back(setup_.robot.empty()
@@ -107,7 +94,6 @@ void Session::start(Cycle fast_until) {
   next_poke_ = 0;
   watched_.clear();
   traps_ = 0;
-  stands_between_ = false;
   thread_ = std::thread([this] { run_world(); });
 }
 
@@ -130,18 +116,13 @@ void Session::run_world() {
   host::FirmwareMind& mind = twin_->mind(robot_);
   const sim::Clicks end = sim::from_seconds(setup_.seconds), tick = simulation.scene().tick_clicks();
   while (!abandoned_ && simulation.now() < end) {
-    machine_->watch(this, mind.cycle_at(simulation.now() + tick) + kLongestBlock >= quiet_until());
+    if (machine_->watch(this, mind.cycle_at(simulation.now() + tick) + kLongestBlock >= quiet_until()))
+      mind.wake();  // what it has passed over is to be seen
     simulation.advance(simulation.now());
     if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
     std::as_const(mind).runner();  // a robot that is idle has come as far as the world
-    if (abandoned_ || !machine_->stands_between()) continue;
-    stands_between_ = true;
-    apply_pokes();
-    if (wants_stop_between()) stand();
-    stands_between_ = false;
   }
   machine_->watch(this, false);
-  machine_->stands_between();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     state_ = State::Ended;
@@ -195,7 +176,9 @@ Stop Session::go_to_main(const std::function<bool()>& idle) {
 }
 
 Stop Session::go_to(Cycle cycle, const std::function<bool()>& idle) {
-  const Moment to{cycle};
+  Moment to;
+  to.at = cycle;
+  to.is_anywhere = true;
   if (cycle < now() || has_ended()) return repeat_to(to, cycle, idle);
   plan_ = Plan::GoTo;
   target_ = to;
@@ -225,10 +208,10 @@ Stop Session::repeat_to(const Moment& to, Cycle look_from, const std::function<b
 // runs again up to here, ever more of it instruction by instruction, for the latest moment that will do
 Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
   from_ = moment(now());
-  if (has_ended()) from_.where = Moment::Where::Anywhere;
+  from_.is_anywhere = has_ended();
   const Moment here = from_;
   plan_ = plan;
-  for (Cycle back = machine_->first_look_back();; back *= kLookBackGrows) {
+  for (Cycle back = kFirstLookBack;; back *= kLookBackGrows) {
     const Cycle look_from = std::max<Cycle>(0, here.at - back);
     latest_.reset();
     looks_back_ = true;
@@ -237,7 +220,9 @@ Stop Session::go_back(Plan plan, const std::function<bool()>& idle) {
     if (latest_ || look_from == 0 || pause_) break;
   }
   if (pause_) return {Stop::Why::Pause, 0, "paused"};
-  const Moment to = latest_.value_or(Moment{});
+  Moment beginning;
+  beginning.is_anywhere = true;
+  const Moment to = latest_.value_or(beginning);
   Stop stop = repeat_to(to, to.at, idle);
   if (!latest_) return {Stop::Why::Entry, 0, "the beginning of the run"};
   if (to.hit) stop = {Stop::Why::Breakpoint, to.hit, "breakpoint " + std::to_string(to.hit)};
@@ -308,7 +293,7 @@ bool Session::wants_stop(Cycle at) {
     stop_ =
         was_reset_ ? Stop{Stop::Why::Reset, 0, "the processor was reset"} : Stop{Stop::Why::Trap, 0, trap_};
     const auto& told = machine_->runner().traps();
-    if (was_reset_ && told.size() > traps_ && told.back().kind == 0) stop_.text += ": " + told.back().message;
+    if (was_reset_ && told.size() > traps_) stop_.text += ": " + told.back().message;
     was_reset_ = false;
     trap_.clear();
     return true;
@@ -317,6 +302,9 @@ bool Session::wants_stop(Cycle at) {
   if (comes_again || last_repeats_ || plan_ == Plan::GoTo) return false;
   if (const int id = hit_here(true)) {
     stop_ = {Stop::Why::Breakpoint, id, "breakpoint " + std::to_string(id)};
+    if (const std::uint32_t called = marks_host_ ? machine_->code().host_function_called(pc()) : 0;
+        called && marks_[called])
+      stop_.text += ", calls " + machine_->code().function_at(called)->name + "()";
     const auto b =
         std::find_if(breakpoints_.begin(), breakpoints_.end(), [&](const auto& x) { return x.id == id; });
     if (b->once) {
@@ -359,16 +347,14 @@ bool Session::is_way_back(const Moment& here) {
   if (plan_ == Plan::BackContinue) return here.hit != 0;
   if (here.nesting > from_.nesting || last_repeats_) return false;
   if (plan_ == Plan::BackInstruction) return true;
-  return here.base <= from_.base && begins_line(here.pc) &&
+  // behind a reset there is no function to stay in
+  return (here.base <= from_.base || from_.base == 0) && begins_line(here.pc) &&
          (here.base != from_.base || !is_same_line(here.pc, from_.pc));
 }
 
 bool Session::begins_line(std::uint32_t at) const {
   const auto* line = file().code.line_at(at);
-  if (!line || line->address != at || !line->is_statement) return false;
-  // not before its parameters have their places
-  const auto* function = file().code.function_at(at);
-  return !function || function->begin != at || machine_->body_of(at) == at;
+  return line && line->address == at && line->is_statement;
 }
 
 bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
@@ -377,63 +363,24 @@ bool Session::is_same_line(std::uint32_t a, std::uint32_t b) const {
 }
 
 Session::Moment Session::moment(Cycle at) {
-  using Where = Moment::Where;
-  return {at,
-          pc(),
-          machine_->base(),
-          machine_->nesting(),
-          0,
-          stands_between_ ? Where::Between : Where::Instruction};
+  return {at, pc(), machine_->base(), machine_->nesting(), 0, false};
 }
 
 bool Session::is_reached(const Moment& moment) const {
-  using Where = Moment::Where;
-  if (stands_between_) return moment.where != Where::Instruction && now() >= moment.at;
-  if (moment.where == Where::Between) return false;
-  if (moment.where == Where::Anywhere || now() != moment.at) return now() >= moment.at;
+  if (moment.is_anywhere || now() != moment.at) return now() >= moment.at;
   return pc() == moment.pc && machine_->base() == moment.base;
-}
-
-// a wait, or a program that has stopped: between two windows
-bool Session::wants_stop_between() {
-  const host::Runner& runner = machine_->runner();
-  const std::size_t traps = runner.traps().size();
-  if (target_) return is_reached(*target_) || (pause_ && !is_repeating_);
-  if (pause_) {
-    stop_ = {Stop::Why::Pause, 0, "paused"};
-    return true;
-  }
-  if (traps <= traps_) return false;
-  traps_ = traps;
-  const host::TrapReport& last = runner.traps().back();
-  stop_ = {last.kind == 0 ? Stop::Why::Reset : Stop::Why::Trap, 0,
-           std::string(host::trap_name(last.kind)) + ": " + last.message + ", at " +
-               host::to_string(last.place) + ", cycle " + std::to_string(last.cycle)};
-  return true;
-}
-
-Look Session::look() {
-  if (abandoned_) return Look::Nothing;
-  const bool watches = std::any_of(breakpoints_.begin(), breakpoints_.end(),
-                                   [](const Breakpoint& b) { return b.data.bytes > 0; });
-  if (watches || pause_ || next_poke_ < pokes_.size()) return Look::Everything;
-  if (looks_back_ && plan_ == Plan::BackContinue && now() < target_->at - kLongestBlock)
-    return Look::Breakpoints;
-  if (target_ || is_repeating_) return Look::Everything;
-  if (plan_ == Plan::Continue) return Look::Breakpoints;
-  if (plan_ == Plan::AnyInstruction) return Look::Everything;
-  const Moment here = moment(now());
-  const bool is_handler = here.nesting > from_.nesting;
-  const bool is_over = plan_ == Plan::NextInstruction || plan_ == Plan::NextLine;
-  if (is_handler || plan_ == Plan::Finish || (is_over && here.base > from_.base)) return Look::Leaving;
-  return Look::Everything;
 }
 
 // --- breakpoints
 
 int Session::hit_here(bool count) {
-  const std::uint32_t here = pc();
-  if (here >= marks_.size() || !marks_[here]) return 0;
+  std::uint32_t here = pc();
+  if (here >= marks_.size()) return 0;
+  // a function that the simulator plays is met where it is called
+  if (const std::uint32_t called = marks_host_ ? machine_->code().host_function_called(here) : 0;
+      called && marks_[called])
+    here = called;
+  if (!marks_[here]) return 0;
   for (Breakpoint& b : breakpoints_) {
     if (std::find(b.addresses.begin(), b.addresses.end(), here) == b.addresses.end() || !holds(b)) continue;
     if (count) ++b.hits;
@@ -493,7 +440,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
     else
       b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
-    b.addresses = {machine_->body_of(label->second)};
+    b.addresses = {label->second};
     b.what = where;
   } else {
     std::int64_t address = 0;
@@ -561,10 +508,9 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
     b.data.bytes = std::min(data->bytes, 8u);
   } else if (!what.empty() && what[0] == '*') {  // a word at an address
     if (!evaluate(what.substr(1), value, error)) return nullptr;
-    b.data = {static_cast<Address>(value) & machine_->address_mask(), 2};
+    b.data = {static_cast<Address>(value) & kAddressMask, 2};
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
-    if (find_sfr(what)) error += "; the native way has no registers of the chip, --hal sim has";
     return nullptr;
   }
   if (!condition.empty() && !evaluate(condition, value, error)) return nullptr;
@@ -598,14 +544,13 @@ const Breakpoint* Session::find(int id) const {
 }
 
 void Session::set_marks() {
-  marks_.assign(machine_->code_end(), 0);
-  std::vector<std::uint32_t> all;
+  marks_.assign(Machine::code_end(), 0);
+  marks_host_ = false;
   for (const Breakpoint& b : breakpoints_)
     for (const std::uint32_t a : b.addresses) {
       marks_[a] = 1;
-      all.push_back(a);
+      marks_host_ |= dspic::is_host_place(chip::goto_target(file(), a));
     }
-  machine_->mark(all);
 }
 
 // --- data

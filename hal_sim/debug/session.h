@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The debugger's core: a world in which one robot stops where it is told to, whatever way it runs.
+// The debugger's core: a world in which one robot stops where it is told to.
 //
 //   face (monitor, DAP) --run(Plan)--> Session --world's thread--> Twin, Machine --before(cycle)--> stop?
 //
@@ -58,7 +58,7 @@ struct Breakpoint {
   std::int64_t hits = 0;
 };
 
-class Session final : private Watcher {
+class Session final : private chip::StepWatch {
  public:
   struct Setup {
     sim::WorldDesc world;
@@ -69,8 +69,7 @@ class Session final : private Watcher {
     std::function<void()> ticked;             ///< after each tick that is not a repetition
     std::function<void()> repeated;           ///< after a repetition
   };
-  /// Stopped before the program's first instruction, or in main() where nothing before it is the program's.
-  /// Null with lines in `problems`.
+  /// Stopped before the program's first instruction. Null with lines in `problems`.
   static std::unique_ptr<Session> open(Setup setup, std::vector<std::string>& problems);
   ~Session() override;
 
@@ -140,13 +139,12 @@ class Session final : private Watcher {
   std::optional<std::uint64_t> raw_value(const Part& part) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
-    enum class Where { Anywhere, Instruction, Between };
     Cycle at = 0;
     std::uint32_t pc = 0;
     Address base = 0;
     int nesting = 0;
-    int hit = 0;                    // id of the breakpoint that would stop here
-    Where where = Where::Anywhere;  // of its cycle; of the chip one instruction has it
+    int hit = 0;               // id of the breakpoint that would stop here
+    bool is_anywhere = false;  // of its cycle
   };
   struct Poke {
     Moment when;
@@ -167,9 +165,7 @@ class Session final : private Watcher {
   void before(Cycle at) override;
   void after(const chip::Step& step) override;
   void was_reset(Cycle at) override;
-  Look look() override;
   bool is_reached(const Moment& moment) const;
-  bool wants_stop_between();
   bool wants_stop(Cycle at);
   bool is_step_over(Cycle at);
   bool is_way_back(const Moment& here);
@@ -204,8 +200,7 @@ class Session final : private Watcher {
   std::optional<Moment> target_;
   Stop stop_;
   std::string trap_;       // seen in the step before
-  std::size_t traps_ = 0;  // of the program that have been told, where it does not see them itself
-  bool stands_between_ = false;
+  std::size_t traps_ = 0;  // of the program when this run began
   bool was_reset_ = false;
   std::uint32_t last_pc_ = 0;  // of the step before
   bool last_repeats_ = false;  // it was an iteration of a REPEAT
@@ -221,6 +216,7 @@ class Session final : private Watcher {
 
   std::vector<Breakpoint> breakpoints_;
   std::vector<char> marks_;             // by address: is there a breakpoint?
+  bool marks_host_ = false;             // at a function that the simulator plays?
   std::vector<std::uint64_t> watched_;  // values of watchpoints, in their order
   int last_id_ = 0;
   std::vector<Poke> pokes_;

@@ -57,13 +57,12 @@ std::string number_text(const CValue& value) {
 class Session::SeenNames final : public Names {
  public:
   SeenNames(const Session& session, std::optional<std::uint32_t> pc)
-      : session_(session), pc_(pc.value_or(session.pc())), is_elsewhere_(pc.has_value()) {}
+      : session_(session), pc_(pc.value_or(session.pc())) {}
 
   const dspic::DebugInfo& debug_info() const override { return session_.file().debug.info(); }
-  unsigned pointer_bits() const override { return session_.machine().address_mask() == 0xFFFF ? 16 : 64; }
   bool find_variable(const std::string& name, Part& part) const override {
     std::string none;
-    part = {{}, {}, pc_, is_elsewhere_};
+    part = {{}, {}, pc_};
     return debug_info().find(name, pc_, part.found, none);
   }
   bool find_other(const std::string& name, CValue& value) const override {
@@ -90,15 +89,13 @@ class Session::SeenNames final : public Names {
   std::optional<Address> address_of(const Part& part) const override { return session_.address_of(part); }
   std::optional<std::uint64_t> raw_value(const Part& part) const override { return session_.raw_value(part); }
   std::optional<std::uint64_t> raw_value(const Data& data) const override {
-    std::uint64_t value = 0;
-    if (data.bytes > 8 || (!session_.machine().read(data, &value) && !is_elsewhere_)) return {};
+    if (data.bytes > 8) return {};
     return session_.read(data);
   }
 
  private:
   const Session& session_;
   const std::uint32_t pc_;
-  const bool is_elsewhere_;
 };
 
 bool Session::compute(const std::string& expression, Want want, CValue& value, std::string& error,
@@ -122,21 +119,16 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
 
 // registers are data, too
 std::optional<Address> Session::address_of(const Part& part) const {
-  const Address mask = machine_->address_mask();
-  if (part.pointed) return (*part.pointed + part.found.offset) & mask;
+  if (part.pointed) return (*part.pointed + part.found.offset) & kAddressMask;
   const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
   if (!place || place->in == In::Value) return {};
   Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
   if (place->in == In::Frame) {
     base += machine_->register_value(place->base);
-  } else if (place->in == In::Memory) {
-    base += machine_->data_base();
-  } else {
-    const auto data = machine_->register_data(place->value);
-    if (!data) return {};
-    base = data->address;
+  } else if (place->in != In::Memory) {
+    base = Machine::register_data(place->value).address;
   }
-  return (base + part.found.offset) & mask;
+  return (base + part.found.offset) & kAddressMask;
 }
 
 /// Its bits, from the lowest on; none: it is kept nowhere, or no number.
@@ -145,7 +137,7 @@ std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    if (!machine_->read({*address, bytes_of(type, part.found)}, &raw) && !part.is_elsewhere) return {};
+    machine_->read({*address, bytes_of(type, part.found)}, &raw);
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
@@ -207,7 +199,7 @@ std::string Session::locals() const {
   std::string text;
   for (const auto& variable : file().debug.info().variables)
     if (pc() >= variable.begin && pc() < variable.end)
-      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc(), false}) + "\n";
+      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc()}) + "\n";
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
@@ -233,7 +225,7 @@ std::optional<Data> Session::find_data(const std::string& name) const {
 std::optional<Data> Session::find_untyped(const std::string& name) const {
   if (const auto object = file().objects.find(name); object != file().objects.end()) {
     const auto bytes = file().object_bytes.find(name);
-    return Data{machine_->data_base() + object->second,
+    return Data{object->second,
                 bytes == file().object_bytes.end() ? 2u : bytes->second};
   }
   return machine_->find_register(name);
@@ -243,7 +235,7 @@ std::uint64_t Session::read(const Data& data) const {
   std::uint64_t value = 0;
   Data some = data;
   some.bytes = std::min(data.bytes, 8u);
-  if (!machine_->read(some, &value)) return 0;
+  machine_->read(some, &value);
   return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 
@@ -268,7 +260,6 @@ bool Session::assign(const std::string& name, const std::string& expression, std
   }
   if (write(*data, raw)) return true;
   error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
-  if (data->is_register) error += "; here, only where a line of the program begins, and not NVMCON";
   return false;
 }
 

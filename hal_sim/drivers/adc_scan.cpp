@@ -104,7 +104,6 @@ void AdcScan::release(Cycle at) {
   if (lost <= 0) return;
   settle(since);
   run_.origin = at - run_.sequence();
-  if (lost_ == 0) first_lost_ = at;
   lost_ += lost;
 }
 
@@ -142,15 +141,6 @@ void AdcScan::reset(Cycle at) {
 
 int AdcScan::pair_of_lit(std::int64_t period) const {
   return static_cast<int>((pair_base_ + (period - period_base_) % pairs_ + pairs_) % pairs_);
-}
-
-std::uint64_t AdcScan::share_q32() const {
-  if (!on_) return 0;
-  const auto q32 = [](Cycle cycles, Cycle of) {
-    return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(of);
-  };
-  return run_.micro_only ? q32(kScanMicroIsrCycles, kScanMicroFrameCycles)
-                         : q32(kScanRoundIsrCycles, run_.round);
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {

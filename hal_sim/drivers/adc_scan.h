@@ -42,7 +42,7 @@ class AdcScan {
 
   /// e_init_ad_scan(): converter and interrupt start. `five_pairs`: selector 10.
   void start(bool micro_only, bool five_pairs, Cycle at);
-  /// What 65 frames take from `at` on; of MICRO_ONLY they take what they take. Without it, as natively.
+  /// What 65 frames take from `at` on; of MICRO_ONLY they take what they take.
   void set_round(Cycle round, Cycle at);
   Cycle round() const { return run_.round; }
   Cycle full_round() const { return full_round_; }
@@ -60,9 +60,8 @@ class AdcScan {
   Cycle held_since() const { return held_since_; }
   /// The first interrupt after `after`, also of a converter that nobody serves; kNever: it is off.
   Cycle interrupt_after(Cycle after) const;
-  /// Frames that were lost so since the reset, and the first loss's cycle.
+  /// Frames that were lost so since the reset.
   std::int64_t lost_frames() const { return lost_; }
-  Cycle first_lost() const { return first_lost_; }
 
   /// Calls of start() since the last reset.
   int starts() const { return starts_; }
@@ -79,8 +78,6 @@ class AdcScan {
   Cycle next_interrupt(Cycle at) const { return interrupt_cycle(interrupts(at) + 1); }
   /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
   Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : kNever; }
-  /// What the handler takes of each cycle, as a fraction of 2^32.
-  std::uint64_t share_q32() const;
 
   /// When a program sees first, from `at` on, that the accelerometer index is 49: e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
@@ -205,7 +202,6 @@ class AdcScan {
   Samples dark_{};                       // in darkness nobody looks at them
   int starts_ = 0;
   std::int64_t lost_ = 0;
-  Cycle first_lost_ = 0;
   std::int64_t period_base_ = 0;  // from this period on ...
   int pair_base_ = 0;             // ... pairs count from here
   std::vector<Run> runs_;         // those over that the last 100 microphone samples come from

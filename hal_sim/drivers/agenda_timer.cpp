@@ -16,7 +16,7 @@ constexpr int kDone = 1;      // EXIT_OK of the library, AG_ALREADY_CREATED too
 constexpr int kNotFound = 2;  // AG_NOT_FOUND
 constexpr std::uint32_t kBeforeAll = UINT32_MAX;
 constexpr std::uint64_t kAllTicks = std::uint64_t{1} << 32;
-constexpr AgendaCosts kNativeCosts;
+constexpr AgendaCosts kNoCosts;
 
 std::int64_t floor_div(std::int64_t a, std::int64_t b) {
   const std::int64_t q = a / b;
@@ -25,7 +25,7 @@ std::int64_t floor_div(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
-    : costs_(&kNativeCosts), steppers_{&left, &right}, motors_{AgendaMotor(-1), AgendaMotor(+1)} {
+    : costs_(&kNoCosts), steppers_{&left, &right}, motors_{AgendaMotor(-1), AgendaMotor(+1)} {
   nodes_.reserve(4);
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
@@ -57,7 +57,7 @@ void AgendaTimer::start(Cycle at) {
   line_.late_cycle = line_.cycle_of(tick);
   line_.late_tick = walking_ ? tick : -1;
   line_.origin = at - tick * kAgendaTickCycles;
-  running_ = enabled_ = true;
+  running_ = true;
   shares_known_ = 0;
   for (AgendaMotor& m : motors_) m.disturb();
   find_next_fire();
@@ -83,14 +83,13 @@ void AgendaTimer::reset(Cycle at) {
   }
   nodes_.clear();
   line_ = TickLine{};
-  running_ = enabled_ = walking_ = in_callback_ = false;
+  running_ = walking_ = in_callback_ = false;
   shares_known_ = 0;
   stopped_tick_ = 0;
   next_fire_ = -1;
   last_serial_ = 0;
   held_since_ = -1;
   lost_ticks_ = 0;
-  first_speed_ = -1;
 }
 
 void AgendaTimer::forget(Cycle at) {
@@ -268,7 +267,6 @@ void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at
   if (coils_off_at == at) stepper(wheel).set_coils_only(0);
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
-  if (speed != 0 && first_speed_ < 0) first_speed_ = at;
   if (has_node_[static_cast<int>(wheel)]) m.set_cycle(m.step_ticks());
   shares_known_ &= ~((m.count.counts() == counted ? 0 : kTicks) | 1u << static_cast<unsigned>(wheel));
   // a motor that runs, or stands without a cycle, needs no interrupt
@@ -457,7 +455,6 @@ void AgendaTimer::lose(std::int64_t ticks, Cycle at) {
   line_.origin += ticks * kAgendaTickCycles;
   for (AgendaMotor& m : motors_) m.disturb();
   if (ticks <= 0) return;
-  if (lost_ticks_ == 0) first_lost_ = at;
   lost_ticks_ += ticks;
 }
 

@@ -6,7 +6,7 @@
 //
 // Between two firings of user agendas nothing but counting and the motors' own firings can happen, and both
 // have a closed form. So only ticks at which a user agenda fires become interrupts (next_interrupt()); the
-// handler in the image then walks the list with begin / next / finish and calls what next() names.
+// handler then walks the list with begin / next / finish, and what next() names is called.
 // A handler that takes longer than a tick delays the following tick to its end and loses the others, as the
 // processor with its single pending flag does; motors lose them too. So does a program that masks the handler
 // (hold()). Motors' pins change at their nominal ticks.
@@ -29,16 +29,15 @@ namespace drivers {
 using board::Stepper;
 using board::Wheel;
 
-/// What the handler takes, in processor cycles.
+/// What the handler takes, in processor cycles; all 0 where no program's time is counted.
 struct AgendaCosts {
   // a tick that calls nothing, entry and RETFIE included: without agendas, with some beside the nodes' own
-  Cycle empty = kAgendaIsrCycles, list = kAgendaIsrCycles + kAgendaListCycles;
+  Cycle empty = 0, list = 0;
   // each node of a walk that is paused, has no cycle, counts
-  Cycle paused = kAgendaNodeCycles, resting = kAgendaNodeCycles,
-        counts = kAgendaNodeCycles + kAgendaCountCycles;
+  Cycle paused = 0, resting = 0, counts = 0;
   // of a walk: a node whose function is called, which has returned, whose node it has destroyed
-  Cycle fires = counts, after = 0, after_destroyed = 0;
-  Cycle motor_half = kMotorHalfStepCycles, motor_off = kMotorOffCycles, motor_step = kMotorStepCycles;
+  Cycle fires = 0, after = 0, after_destroyed = 0;
+  Cycle motor_half = 0, motor_off = 0, motor_step = 0;
 };
 
 class AgendaTimer {
@@ -48,7 +47,7 @@ class AgendaTimer {
 
   /// The board's motors, left and right; they outlive this.
   explicit AgendaTimer(board::Stepper& left, board::Stepper& right);
-  /// What the handler takes from now on; without it, as the native way charges. They outlive this.
+  /// What the handler takes from now on; without it, nothing. They outlive this.
   void set_costs(const AgendaCosts& costs) {
     costs_ = &costs;
     shares_known_ = 0;
@@ -62,8 +61,6 @@ class AgendaTimer {
   /// Timer 2 stops; nothing counts until the next start.
   void stop(Cycle at);
   bool is_running() const { return running_; }
-  /// Has it ever been started since the last reset: is its interrupt enabled?
-  bool is_enabled() const { return enabled_; }
   /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
   /// current.
   void reset(Cycle at);
@@ -83,10 +80,8 @@ class AgendaTimer {
   void release(Cycle at, bool pending);
   /// The first tick after `after`, whatever it finds; kNever: the timer stands.
   Cycle tick_after(Cycle after) const;
-  /// Ticks that were lost because the handler was busy or masked for longer than a tick, since the reset; the
-  /// first one's cycle.
+  /// Ticks that were lost because the handler was busy or masked for longer than a tick, since the reset.
   std::int64_t lost_ticks() const { return lost_ticks_; }
-  Cycle first_lost() const { return first_lost_; }
 
   // --- the list; results as the C functions return them (1 done, 2 not found) ----------------------------
   int activate(Function function, int cycle, Cycle at);
@@ -108,10 +103,6 @@ class AgendaTimer {
   bool switches_off(Wheel wheel, Cycle at) const {
     return motor_at(wheel, at).phase_on && motor(wheel).saves_power();
   }
-  /// When a speed other than 0 was set for the first time since the reset; -1: never.
-  Cycle first_speed() const { return first_speed_; }
-  /// Has e_init_motors() put this motor into the list?
-  bool has(Wheel wheel) const { return has_node_[static_cast<int>(wheel)]; }
   /// steps/s
   int speed(Wheel wheel) const { return motor(wheel).speed(); }
   /// The driver's step counter, not wrapped.
@@ -243,7 +234,7 @@ class AgendaTimer {
   std::int64_t held_done_ = 0;   // ticks processed then
   std::int64_t walk_tick_ = 0;
   std::uint32_t walk_serial_ = 0;  // node being processed; those above are done
-  bool running_ = false, enabled_ = false, walking_ = false, in_callback_ = false;
+  bool running_ = false, walking_ = false, in_callback_ = false;
   bool has_no_flag_ = false, has_node_[2] = {false, false};
   std::uint32_t motor_serial_[2] = {0, 0};
   std::vector<Node> nodes_;  // oldest first; the list is walked from the back
@@ -263,7 +254,6 @@ class AgendaTimer {
   std::uint32_t last_serial_ = 0;
   std::int64_t stopped_tick_ = 0;  // ticks processed while not running
   std::int64_t lost_ticks_ = 0;
-  Cycle first_lost_ = 0, first_speed_ = -1;
 };
 
 }  // namespace drivers

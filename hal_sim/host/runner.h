@@ -2,9 +2,9 @@
 // What executes one robot's firmware, as everybody else sees it: the mind that gives it time, and traces,
 // supervisors, tools and tests that look at the program.
 //
-//   FirmwareMind --begin_window, run_until--> Runner --e_* calls or registers--> Board
+//   FirmwareMind --begin_window, run_until--> Runner --pins--> Board
 //
-// Runners: CompiledRunner, code compiled for the PC (native way).
+// Runners: chip::ChipRunner, the robot's own code; programs::ProgramRunner, a process of the PC.
 //
 // Time: a Cycle is an instruction cycle of the robot's own clock since power-up. The mind gives windows, one
 // a tick of the world, each from the end of the one before to a later end; a runner never looks beyond its
@@ -20,7 +20,8 @@
 
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/host/observer.h"
-#include "hal_sim/host/symbols.h"
+#include "hal_sim/host/place.h"
+#include "hal_sim/host/variables.h"
 
 namespace board {
 class Board;
@@ -31,14 +32,25 @@ class Drivers;
 
 namespace host {
 
-/// Kind of a TrapReport: a program of the PC ended by a signal, or with a status that says so.
-inline constexpr int kProgramEnded = 9;
+/// Kind of a TrapReport.
+enum TrapKind : int {
+  kUnexpectedReset = 0,  ///< the robot went on
+  kTrapMath,             ///< division by zero, accumulator overflow
+  kTrapAddress,          ///< null, wild or odd address
+  kTrapStack,            ///< beyond SPLIM
+  kTrapAbort,            ///< abort(), failed assert(), exit() with a failure
+  kTrapInterrupt,        ///< an enabled interrupt without a handler, or the oscillator's trap
+  kTrapIllegal,          ///< illegal instruction
+  kTrapSanitizer,        ///< --sanitize found it
+  kTrapUnsimulated,      ///< a device, or a source of clock, that the robot has not
+  kProgramEnded,         ///< a program of the PC ended by a signal, or with a status that says so
+};
 
 /// Why a robot stopped or restarted, for reports.
 struct TrapReport {
   std::string robot;
-  int kind = 0;                  ///< TP_TRAP_* (image_abi.h); 0: an unexpected reset (the robot went on)
-  std::string vector;            ///< "MathError", "T1"; "Reset": of none; empty: not the chip way
+  int kind = kUnexpectedReset;   ///< TrapKind
+  std::string vector;            ///< "MathError", "T1"; "Reset": of none; empty: of a program of the PC
   std::string message;           ///< one sentence
   Place place;                   ///< where in the firmware
   Cycle cycle = 0;               ///< cycles since power-up
@@ -59,8 +71,6 @@ class Runner {
 
   /// The robot's, for messages.
   const std::string& name() const { return name_; }
-  /// "native", "chip" ...
-  virtual const char* way() const = 0;
 
   // --- time
   /// A window begins at `now`, after Board::exchange(): what came from outside is on its way. Windows that

@@ -10,7 +10,7 @@
 //   TX1, RX1, TX2, RX2                  the byte on the wire, and whether there is one
 //   anything else                       a variable of the firmware (hal_sim/host/variables.h)
 //
-// Ports are the chip's where there is one, and so are all registers; the native way has ports only.
+// Ports and registers are the chip's.
 #pragma once
 #include <cstdint>
 #include <string>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From what a user calls a firmware to an image file: a .so as it is, a folder or a controller's name built
+// From what a user calls a firmware to an image file: a file as it is, a folder or a controller's name built
 // first.
 #include <unistd.h>
 
@@ -103,10 +103,7 @@ std::string build_folder() {
 std::string hal_of(const Options& options, const std::string& path) {
   constexpr const char* kUsual = "sim";
   if (!options.hal.empty()) return options.hal;
-  if (options.way == "chip") return "dspic";
-  // what only code for the PC has
-  const bool is_of_pc = !options.way.empty();
-  return is_of_pc || programs::is_pc_program(path) ? "" : kUsual;
+  return programs::is_pc_program(path) ? "" : kUsual;
 }
 
 std::string image_file(const std::string& folder, const Options& options) {
@@ -118,13 +115,13 @@ std::string image_file(const std::string& folder, const Options& options) {
   const std::string hal = hal_of(options, folder);
   if (!hal.empty()) kind += "-" + hal;
   // the same program has another image in a world that says something else
-  if (!hal.empty() && !options.webots_settings.empty() && programs::is_pc_program(folder)) {
+  if (!options.webots_settings.empty() && programs::is_pc_program(folder)) {
     std::uint64_t of_world = 0;
     for (unsigned char c : options.webots_settings) of_world = sim::mix64(of_world ^ c);
     std::snprintf(tag + 9, sizeof tag - 9, "-%06x", static_cast<unsigned>(of_world & 0xffffff));
   }
   return (fs::path(build_folder()) / "controllers" /
-          (fs::path(folder).filename().string() + tag + kind + (hal.empty() ? ".so" : ".elf")))
+          (fs::path(folder).filename().string() + tag + kind + ".elf"))
       .string();
 }
 
@@ -177,7 +174,7 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
   if (!fs::exists(path, none)) {
     const std::string guess = sim::did_you_mean(name, controller_names());
     problems.push_back(name +
-                       ": firmware: got a name that is neither a file nor a controller, expected a .so, a "
+                       ": firmware: got a name that is neither a file nor a controller, expected an image, a "
                        "folder with C files, a program of the PC "
                        "or a folder under firmware/" +
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));

@@ -13,8 +13,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
 #include "hal_sim/chip/chip_runner.h"
-#include "hal_sim/host/compiled_runner.h"
-#include "hal_sim/host/oscillator.h"
+#include "hal_sim/chip/oscillator.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
@@ -94,28 +93,32 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
   return setup;
 }
 
-/// What a robot runs, loaded once for all that run it: code for the PC, or the chip's own.
-struct Firmware {
-  std::shared_ptr<host::Image> image;
-  std::shared_ptr<const chip::ChipImage> chip;
-  std::shared_ptr<const programs::Launch> program;  // or a program of the PC
-  std::string hal = "";                             // of the chip's: sim, dspic or own
+/// An image with its debug information takes some hundred KB.
+constexpr std::size_t kLongestImage = 256 << 20;  // bytes
 
-  bool is_open() const { return image || chip || program; }
+/// What a robot runs, loaded once for all that run it.
+struct Firmware {
+  std::shared_ptr<const chip::ChipImage> image;
+  std::shared_ptr<const programs::Launch> program;  // or a program of the PC
+  std::string hal = "";                             // of the image: sim, dspic or own
+
+  bool is_open() const { return image || program; }
 };
 
 Firmware open_firmware(const std::string& path, const Options& options, std::string& error) {
   if (programs::is_pc_program(path)) {
     auto launch = std::make_shared<programs::Launch>();
     std::vector<std::string> problems;
-    if (provide_launch(path, "", options, problems, *launch)) return {nullptr, nullptr, launch, ""};
+    if (provide_launch(path, "", options, problems, *launch)) return {nullptr, launch, ""};
     for (const std::string& problem : problems) error += (error.empty() ? "" : "\n") + problem;
     return {};
   }
   std::string bytes;
-  if (!host::Image::read(path, bytes, error)) return {};
-  if (dspic::kind_of(bytes) == dspic::FileKind::Other)
-    return {host::Image::open(path, std::move(bytes), error), nullptr, nullptr, ""};
+  const std::string wrong = sim::read_input_file(path, kLongestImage, bytes);
+  if (!wrong.empty()) {
+    error = path + ": firmware image: " + wrong + "; build it, or name the program's folder";
+    return {};
+  }
   dspic::FirmwareFile file;
   if (!dspic::load_firmware(bytes, path, file, error)) return {};
   const std::string hal = dspic::hal_of(file);
@@ -124,7 +127,7 @@ Firmware open_firmware(const std::string& path, const Options& options, std::str
         path + ": image: got one linked with another hal_sim, expected one of this twinpuck; build it again";
     return {};
   }
-  return {nullptr, std::make_shared<chip::ChipImage>(std::move(file)), nullptr, hal};
+  return {std::make_shared<chip::ChipImage>(std::move(file)), nullptr, hal};
 }
 
 std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
@@ -132,30 +135,18 @@ std::uint16_t fosc_of(const dspic::FirmwareFile& file) {
   return word == file.words.end() ? dspic::Configuration{}.fosc : static_cast<std::uint16_t>(word->second);
 }
 
-/// What executes a program on a board, of whose thread's share it is, powered up at `start`. The program's
-/// configuration words make the clock of the robot that is set up.
-host::RunnerFactory runner_for(const Firmware& program, std::size_t share, board::Setup& setup,
-                               host::Cycle start, const std::shared_ptr<programs::Seat>& seat) {
+/// What executes a program on a board, powered up at `start`. The program's configuration words make the
+/// clock of the robot that is set up.
+host::RunnerFactory runner_for(const Firmware& program, board::Setup& setup, host::Cycle start,
+                               const std::shared_ptr<programs::Seat>& seat) {
   if (program.program)
     return [=, name = setup.name](board::Board& board) {
       return std::make_unique<programs::ProgramRunner>(name, seat, board, start);
     };
-  if (program.chip) {
-    const std::uint16_t fosc = fosc_of(program.chip->file());
-    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, fosc);
-    return [=, name = setup.name, seed = setup.seed, image = program.chip](board::Board& board) {
-      return std::make_unique<chip::ChipRunner>(name, image, host::clock_factor(fosc), board, start, seed);
-    };
-  }
-  const tp_image& image = program.image->copy(share).description();
-  if (image.fosc)
-    setup.clock_ppm = host::clock_ppm(setup.clock_ppm, *static_cast<const std::uint16_t*>(image.fosc));
-  host::CompiledSettings settings;
-  settings.name = setup.name;
-  settings.seed = setup.seed;
-  settings.start = start;
-  return [=, shared = program.image](board::Board& board) {
-    return std::make_unique<host::CompiledRunner>(settings, shared, share, board);
+  const std::uint16_t fosc = fosc_of(program.image->file());
+  setup.clock_ppm = chip::clock_ppm(setup.clock_ppm, fosc);
+  return [=, name = setup.name, seed = setup.seed, image = program.image](board::Board& board) {
+    return std::make_unique<chip::ChipRunner>(name, image, chip::clock_factor(fosc), board, start, seed);
   };
 }
 
@@ -247,12 +238,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       if (outside == robot.name || outside == "*") name = kExtern;
     Options of_robot = options;
     of_robot.webots_settings = webots_settings_of(world);
-    if (of_robot.way.empty() && of_robot.hal.empty()) {
-      const sim::OwnSettings own = own_settings(world, robot);
-      if (robot.own.count("hal")) of_robot.hal = own.text("hal");
-      if (robot.own.count("way")) of_robot.way = own.text("way");
-    }
-    const std::string key = name.empty() ? name : of_robot.hal + "/" + of_robot.way + ":" + name;
+    if (of_robot.hal.empty() && robot.own.count("hal"))
+      of_robot.hal = own_settings(world, robot).text("hal");
+    const std::string key = name.empty() ? name : of_robot.hal + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
     if (name.empty() || paths.count(key)) continue;
@@ -275,22 +263,16 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   std::unique_ptr<Twin> twin(new Twin);
   twin->options_ = options;
   const std::size_t n = world.robots.size();
-  const std::size_t shares =
-      std::max<std::size_t>(1, std::min(n, static_cast<std::size_t>(std::max(1, options.threads))));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
-  std::size_t share = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    // robots that one thread runs share a copy of their image, as Simulation divides them
-    while (i >= n * (share + 1) / shares) ++share;
     const auto& robot = world.robots[i];
     board::Setup setup = setup_of(world, static_cast<int>(i));
     host::RunnerFactory make_runner;
     twin->seats_.push_back(std::make_shared<programs::Seat>());
     twin->launches_.push_back(firmware[i].empty() ? nullptr : images[firmware[i]].program);
     if (!firmware[i].empty())
-      make_runner = runner_for(images[firmware[i]], share, setup, 0, twin->seats_.back());
+      make_runner = runner_for(images[firmware[i]], setup, 0, twin->seats_.back());
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
-    twin->copies_.push_back(share);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(
         {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
@@ -319,8 +301,6 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     minds.push_back(std::move(mind));
   }
   if (problems.size() != problems_before) return nullptr;
-  for (auto& [name, program] : images)
-    if (program.image) twin->images_.push_back(program.image);
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
@@ -339,7 +319,7 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
       return where + (program.program ? "got a program of the PC in firmware's place; restart the run"
                                       : "got firmware in the place of a program of the PC; restart the run");
     board::Setup setup = setup_of(world(), robot);
-    const auto make_runner = runner_for(program, copies_[r], setup, minds_[r]->now(), seats_[r]);
+    const auto make_runner = runner_for(program, setup, minds_[r]->now(), seats_[r]);
     if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)
       return where + "got a program with another clock in its configuration words; restart the run";
     minds_[r]->flash(make_runner);
@@ -349,7 +329,6 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
     programs_[r] = {path, "", 0};
     simulation_->note_intervention(r);
   }
-  if (program.image) images_.push_back(program.image);
   return "";
 }
 

@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/host/image.h"
 #include "hal_sim/host/mind.h"
 #include "programs/build/build.h"
 #include "programs/puck/program_runner.h"
@@ -35,24 +34,22 @@ struct Choice {
 
 struct Options {
   std::vector<Choice>
-      firmware;  ///< value: a .so, a folder with C files, or the name of a controller under firmware/
+      firmware;  ///< value: an image, a folder with C files, or the name of a controller under firmware/
   std::vector<Choice> uart1;  ///< value: none, -, pty, pty:LINK, tcp:PORT or file:PATH
   std::vector<Choice> uart2;
   int threads = 1;  ///< 1 or more; results do not depend on it
   std::string
       world_folder;  ///< where relative firmware paths of the world file start; empty: the current folder
-  /// Of controllers built from source, all robots: native, code for the PC; chip is hal dspic;
-  /// empty: the world's. Programs for Webots' interfaces are programs of the PC but with chip, or with a hal.
-  std::string way;
   /// Of controllers built from source, all robots, for the robot's own processor: sim or dspic
-  /// (cc::BuildOptions); goes before any way. Empty: the way says, or the world; sim if none does.
+  /// (cc::BuildOptions). Empty: what the world says; sim if it says nothing. A program for Webots' interfaces
+  /// is a process of the PC unless one of them says so.
   std::string hal;
   /// Robots whose program comes from outside; "*": all.
   std::vector<std::string> externs;
   std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
   /// Of the world, for programs of Webots' interfaces on the chip (cc::BuildOptions); Twin::open() sets it.
   std::string webots_settings;
-  bool sanitize = false;  ///< ... with address and 16-bit overflow checks
+  bool sanitize = false;  ///< ... with checks of every access and of 16-bit overflow
   /// File that counts of lines are added to (coverage_run.h, which whoever opens the twin makes); empty:
   /// none. Controllers are built for it with -O0, unless `optimisation` says otherwise.
   std::string coverage;
@@ -62,8 +59,8 @@ struct Options {
   std::function<void()> no_room;
 };
 
-/// Which HAL a controller is linked with that is built with these options: sim or dspic; empty: it becomes
-/// code for the PC. `path`: its folder; a program of the PC is one unless the options say otherwise.
+/// Which HAL a controller is linked with that is built with these options: sim or dspic; empty: `path`, its
+/// folder, holds a program of the PC, and the options do not say otherwise.
 std::string hal_of(const Options& options, const std::string& path);
 
 /// The folder of a controller of the project: firmware/NAME, else firmware/lab/NAME (a solution of the lab,
@@ -82,7 +79,7 @@ struct Program {
 /// "./obstacle, 2 files; not /usr/share/twinpuck/firmware/lab/obstacle, which has that name, too"
 std::string said(const Program& program);
 
-/// The .so, file or folder that `name` means: a path (relative ones begin in `from_folder`, then here), or
+/// The file or folder that `name` means: a path (relative ones begin in `from_folder`, then here), or
 /// else a controller of the project. Empty, with a line in `problems`, when there is none. `other`: the next
 /// of these places that holds another one.
 std::string find_firmware(const std::string& name, const std::string& from_folder,
@@ -139,7 +136,6 @@ class Twin {
   void begin_again(int robot);
   /// All traps and unexpected resets so far, robot by robot.
   std::vector<host::TrapReport> traps() const;
-  const std::vector<std::shared_ptr<host::Image>>& images() const { return images_; }
   /// The radio channel; null when no robot has a radio.
   const sim::RadioMedium* radio() const { return radio_; }
   /// The channels of emitters and receivers; supervisors add their own end.
@@ -159,9 +155,7 @@ class Twin {
   std::vector<std::shared_ptr<const programs::Launch>> launches_;
   std::vector<std::shared_ptr<programs::Seat>> seats_;
   Options options_;                  // as it was opened with
-  std::vector<std::size_t> copies_;  // of its image, that each robot lives in
   std::vector<std::array<std::string, 2>> uart_choices_;
-  std::vector<std::shared_ptr<host::Image>> images_;
   sim::PacketMedium* packets_ = nullptr;                            // the simulation's
   const sim::RadioMedium* radio_ = nullptr;                         // the simulation's
   std::vector<std::shared_ptr<board::BluetoothModule>> bluetooth_;  // one per robot; its UART 1 holds it too

@@ -11,9 +11,6 @@ std::vector<sim::RobotModel> robot_models() {
   model.keys.push_back({"hal", sim::OwnKeyType::Choice, "", 0, 0, "sim|dspic", "\"sim\"",
                         "firmware built from source runs as the robot's own code, linked with this HAL: its "
                         "busy drivers are the simulator's, or the image is the one that is flashed"});
-  model.keys.push_back(
-      {"way", sim::OwnKeyType::Choice, "", 0, 0, "native", "",
-       "it runs as code of the PC instead, and reaches the hardware by the library's functions"});
   return {std::move(model)};
 }
 

@@ -57,7 +57,6 @@ class ProgramRunner final : public host::Runner {
   void fail(host::TrapReport report);
 
   // --- host::Runner
-  const char* way() const override { return "own"; }
   void begin_window(Cycle now) override { end_ = std::max(end_, now); }
   void run_until(Cycle end) override;
   Cycle idle_until() const override;

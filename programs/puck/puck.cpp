@@ -90,9 +90,9 @@ std::string text_of(const link_record& record, int number) {
 }  // namespace
 
 Puck::Puck(board::Board& board, Cycle start)
-    : board_(board), drivers_(board), wheels_(board, drivers_.agendas()) {
+    : board_(board), drivers_(board), capture_(board.camera()), speaker_(board.codec()), wheels_(board, drivers_.agendas()) {
   drivers_.agendas().count_from(start);
-  drivers_.init_ports(start);
+  board_.init_ports(start);
   wheels_.start(start);
   drivers_.scan().start(false, false, start);
   board_.follow_power(start);
@@ -106,7 +106,7 @@ Puck::Puck(board::Board& board, Cycle start)
     write_register(bus, board::kLsmGyroAddress, 0x21, 0x20, start);
     write_register(bus, board::kLsmGyroAddress, 0x23, 0x00, start);  // +-250 degrees a second
   }
-  if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, drivers_.camera());
+  if (board_.camera()) camera_ = std::make_unique<PuckCamera>(board_, capture_);
 }
 
 sim::Vec3 Puck::in_world_axes(const sim::Vec3& v) const { return in_axes(board_, v); }
@@ -322,7 +322,7 @@ std::string Puck::command(const link_record& record, Cycle at) {
       if (!is({Kind::Speaker})) return wrong();
       again_ = false;
       sound_ = -1;
-      drivers_.sound().stop(at);
+      speaker_.stop(at);
       return "";
     case LINK_RECOGNISE:
       if (!is({Kind::Camera})) return wrong();
@@ -361,15 +361,15 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
     // as e_init_sound() does
     const board::Pin power = board::kCodecOnPin;
     board_.latch_bit(power.letter(), power.bit, true, at);
-    drivers_.sound().start(at);
-    drivers_.sound().codec().configure();
+    speaker_.start(at);
+    speaker_.codec().configure();
   }
   sound_ = static_cast<int>(found - std::begin(kSounds));
   again_ = again;
   playing_ = sound;
-  drivers_.sound().play(found->offset, found->samples, at);
+  speaker_.play(found->offset, found->samples, at);
   sound_until_ =
-      drivers_.sound().next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
+      speaker_.next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
   return "";
 }
 
@@ -608,8 +608,8 @@ void Puck::run(Cycle at) {
     if (camera_) camera_->run(next);
     if (again_ && sound_until_ <= next) {
       const StoredSound& sound = kSounds[sound_];
-      drivers_.sound().play(sound.offset, sound.samples, next);
-      sound_until_ = drivers_.sound().next_group(next) +
+      speaker_.play(sound.offset, sound.samples, next);
+      sound_until_ = speaker_.next_group(next) +
                      sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
     }
   }
@@ -634,7 +634,7 @@ void Puck::adopt(const Kept& kept, Cycle at) {
 void Puck::stop(Cycle at) {
   wheels_.stop(at);
   again_ = false;
-  if (speaks_) drivers_.sound().stop(at);
+  if (speaks_) speaker_.stop(at);
   for (Device& device : devices_) device.period_ms = 0;
 }
 

@@ -17,7 +17,9 @@
 #include <vector>
 
 #include "hal_sim/board/board.h"
+#include "hal_sim/drivers/camera_capture.h"
 #include "hal_sim/drivers/drivers.h"
+#include "hal_sim/drivers/sound_driver.h"
 #include "programs/link/packet.h"
 #include "programs/puck/camera.h"
 #include "programs/puck/wheels.h"
@@ -126,6 +128,8 @@ class Puck {
 
   board::Board& board_;
   drivers::Drivers drivers_;
+  drivers::CameraCapture capture_;
+  drivers::SoundDriver speaker_;
   Wheels wheels_;
   std::unique_ptr<PuckCamera> camera_;
   std::vector<Device> devices_;

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "programs/team/names.h"
 
-#include <cxxabi.h>
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <cstring>
 
-#include "hal_sim/host/symbols.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/world/variation.h"
 
@@ -64,21 +61,6 @@ std::uint64_t seed_of(const sim::WorldDesc& world, int robot, const std::string&
   std::uint64_t h = world.seed;
   for (const char c : name) h = sim::mix64(h ^ static_cast<unsigned char>(c));
   return h;
-}
-
-host::Place place_of_crash(const link_record& record) {
-  const std::string file(record.texts[0].bytes, record.texts[0].size),
-      function(record.texts[1].bytes, record.texts[1].size);
-  const host::Symbols symbols(file);
-  host::Place place = symbols.find(static_cast<std::uintptr_t>(record.ints[1]));
-  if (place.function.empty()) place.function = function;
-  // as the program writes it
-  int wrong = 0;
-  if (char* readable = abi::__cxa_demangle(place.function.c_str(), nullptr, nullptr, &wrong)) {
-    place.function = readable;
-    std::free(readable);
-  }
-  return place;
 }
 
 Partner::Sent send_in_pieces(Partner& partner, const link_packet& packet) {

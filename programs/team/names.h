@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/host/symbols.h"
+#include "hal_sim/host/place.h"
 #include "programs/link/packet.h"
 #include "programs/process/partner.h"
 #include "sim_core/world/world_desc.h"

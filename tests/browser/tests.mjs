@@ -352,10 +352,12 @@ export const tests = {
     const isTold = () => /math error.*main.c:3/.test(document.querySelector("#pane-problems").textContent);
     await page.waitForFunction(isTold);
     assert.equal(await page.textContent("#stopped"), "");  // the chip goes on behind it
-    const [, other] = await start(browser, live, kWorld, programs, ["--way", "native"]);  // the PC's code stands
+    // a source of clock that the robot has not: it never begins
+    const clock = { drive: "#include <p30F6014A.h>\n_FOSC(CSW_FSCM_OFF & EC_PLL8);\nint main(void) {\n  while (1);\n}\n" };
+    const [, other] = await start(browser, live, kWorld, clock);
     await other.click("#play");
-    await other.waitForFunction(isTold);
-    assert.equal(await other.textContent("#stopped"), "1 stopped");
+    await other.waitForFunction(() => document.querySelector("#stopped").textContent === "1 stopped");
+    assert.match(await other.textContent("#pane-problems"), /FOSC/);
   },
 
   // closed, reloaded or killed: the run is that of the same inputs
@@ -500,7 +502,8 @@ int main(void) {
     await page.evaluate(() => { const b = document.getElementById("battery"); b.value = "3.2"; b.dispatchEvent(new Event("change")); });
     await until(page, "(app) => app.values.get('puck.battery') < 3.3");
     // registers: only where there is a chip
-    const [, bare] = await start(browser, live, kWorld, { drive: remote }, ["--way", "native"]);
+    const controller = "#include <webots/robot.h>\nint main(void) {\n  wb_robot_init();\n  while (wb_robot_step(32) != -1);\n  return 0;\n}\n";
+    const [, bare] = await start(browser, live, kWorld, { drive: controller });
     assert.match(await ask(bare, "(app) => app.connection.ask('subscribe', { names: ['puck.reg:T2CON'] }).catch((e) => e.message)"), /without a chip/);
     const [, other] = await start(browser, live, kWorld, { drive: remote }, ["--hal", "dspic"]);
     await other.fill("#watch", "reg:T2CON");
@@ -632,13 +635,12 @@ int main(void) {
   return 0;
 }
 `;
-    for (const way of ["native", "chip"]) {
-      const source = way === "native" ? waits.replace("  TMR3 = 0;\n", "").replace("IFS0bits.T3IF = 0; ", "").replace("#include <p30F6014A.h>\n", "") : waits;
-      const [, page] = await start(browser, live, kWorld, { drive: source }, ["--way", way]);
+    for (const hal of ["sim", "dspic"]) {
+      const [, page] = await start(browser, live, kWorld, { drive: waits }, ["--hal", hal]);
       await page.click("#play");
       await page.waitForFunction(() => /endless wait/.test(document.querySelector("#pane-problems").textContent));
-      const told = await page.textContent("#pane-problems"), line = way === "native" ? 8 : 10;
-      assert.match(told, new RegExp(`main\\.c:${line}.*waits here for .flag.; nothing will ever set it: only _T3Interrupt\\(\\) \\(main.c:${way === "native" ? 4 : 5}\\) could, and its interrupt is not enabled`), way);
+      const told = await page.textContent("#pane-problems");
+      assert.match(told, /main\.c:10.*waits here for .flag.; nothing will ever set it: only _T3Interrupt\(\) \(main.c:5\) could, and its interrupt is not enabled/, hal);
       await page.context().close();
     }
   },

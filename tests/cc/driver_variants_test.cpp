@@ -6,30 +6,23 @@
 #include <iterator>
 #include <regex>
 
-#include "fake_host.h"
-#include "hal_sim/cc/elf_reader.h"
+#include "tests/cc/bench.h"
 
-using namespace fake;
+using namespace cc_test;
 
 namespace {
 
-cc::BuildResult build_as(const Folder& folder, bool for_chip) {
+cc::BuildResult build_it(const Folder& folder) {
   cc::BuildOptions options;
   options.source_dir = folder.path / "prog";
-  options.output = folder.path / (for_chip ? "out.elf" : "out.so");
-  options.chip_way = for_chip;
+  options.output = folder.path / "out.elf";
   return cc::build_image(options);
 }
 
-bool has_function(const Folder& folder, const std::string& name, bool for_chip = false) {
-  if (for_chip) {
-    std::ifstream in(folder.path / "out.map");
-    const std::string map{std::istreambuf_iterator<char>(in), {}};
-    return std::regex_search(map, std::regex("\\b_" + name + "\\b"));
-  }
-  for (const auto& s : cc::read_elf(folder.path / "out.so").symbols)
-    if (s.name == name && s.is_defined && s.is_function) return true;
-  return false;
+bool has_function(const Folder& folder, const std::string& name) {
+  std::ifstream in(folder.path / "out.map");
+  const std::string map{std::istreambuf_iterator<char>(in), {}};
+  return std::regex_search(map, std::regex("\\b_" + name + "\\b"));
 }
 
 std::string mcp(const std::string& files) {
@@ -44,24 +37,24 @@ const std::string kDrive = "int main(void) { e_init_motors(); e_set_speed_left(1
 
 // the library's sources lie in no folder here: their listing is enough
 TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
-  for (const bool for_chip : {false, true}) {
+  {
     Folder folder;
     folder.file("prog/main.c", kBasicHeader + kDrive);
     folder.file(
         "prog/a.mcp",
         mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
-    auto built = build_as(folder, for_chip);
+    auto built = build_it(folder);
     ASSERT_TRUE(built.ok) << text_of(built);
-    EXPECT_TRUE(has_function(folder, "e_set_speed_left", for_chip)) << for_chip;
-    EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left", for_chip)) << for_chip;
+    EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
+    EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
 
     Folder other;
     other.file("prog/main.c", kAgendaHeader + kDrive);
     other.file("prog/a.mcp", mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\e_motors.c\r\n"));
-    built = build_as(other, for_chip);
+    built = build_it(other);
     ASSERT_TRUE(built.ok) << text_of(built);
-    EXPECT_TRUE(has_function(other, "tpbasic_e_set_speed_left", for_chip)) << for_chip;
-    EXPECT_FALSE(has_function(other, "e_set_speed_left", for_chip)) << for_chip;
+    EXPECT_TRUE(has_function(other, "tpbasic_e_set_speed_left"));
+    EXPECT_FALSE(has_function(other, "e_set_speed_left"));
   }
 }
 
@@ -69,12 +62,12 @@ TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
 TEST(driver_variants, a_driver_that_is_not_linked_owns_no_timer) {
   Folder folder;
   folder.file("prog/main.c", kBasicHeader + "#include <camera/fast_2_timer/e_poxxxx.h>\n" + kDrive);
-  auto built = build_as(folder, true);
+  auto built = build_it(folder);
   ASSERT_EQ(built.conflicts.size(), 2u);
   EXPECT_NE(built.conflicts[0].find("Timer 4: got two owners"), std::string::npos) << built.conflicts[0];
   folder.file("prog/a.mcp",
               mcp("file_000=main.c\r\nfile_001=C:\\lib\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
-  built = build_as(folder, true);
+  built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(built.conflicts.empty());
 }
@@ -84,7 +77,7 @@ TEST(driver_variants, files_that_include_headers_of_two_forms_share_one_driver) 
   folder.file("prog/main.c",
               kAgendaHeader + "void other(void);\nint main(void) { e_init_motors(); other(); return 0; }");
   folder.file("prog/other.c", kBasicHeader + "void other(void) { e_set_speed_left(100); }");
-  auto built = build_as(folder, false);
+  auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
   EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
@@ -99,24 +92,23 @@ TEST(driver_variants, a_function_of_the_programs_own_is_called_whatever_header_d
   folder.file("prog/main.c", kBasicHeader + kDrive);
   folder.file("prog/drive.c",
               "int own; void e_init_motors(void) { own = 1; } void e_set_speed_left(int v) { own = v; }");
-  auto built = build_as(folder, false);
+  auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
 }
 
 TEST(driver_variants, functions_of_a_form_link_without_a_header) {
-  for (const bool for_chip : {false, true})
-    for (const std::string calls :
+  for (const std::string calls :
          {"e_init_ad(); e_read_ad(3);", "e_init_prox(); e_get_prox(0); e_stop_prox();", "e_init_acc();",
           "e_init_micro();", "e_start_timer_processing(1); e_configure_timer(1);"}) {
       Folder folder;
       folder.file("prog/main.c", "int main() { " + calls + " return 0; }");
-      auto built = build_as(folder, for_chip);
+      auto built = build_it(folder);
       EXPECT_TRUE(built.ok) << calls << text_of(built);
       // one driver, not the beginning of one and the rest of another
       if (calls.find("prox") != std::string::npos) {
-        EXPECT_TRUE(has_function(folder, "tpbasic_e_get_prox", for_chip)) << for_chip;
-        EXPECT_FALSE(has_function(folder, "e_get_prox", for_chip)) << for_chip;
+        EXPECT_TRUE(has_function(folder, "tpbasic_e_get_prox"));
+        EXPECT_FALSE(has_function(folder, "e_get_prox"));
       }
     }
 }
@@ -129,7 +121,7 @@ TEST(driver_variants, forms_with_other_arguments_are_not_exchanged) {
               "int main(void) { int x, y, z; e_get_acc(&x, &y, &z); return other(); }");
   folder.file("prog/other.c",
               "#include <a_d/advance_ad_scan/e_acc.h>\nint other(void) { return e_get_acc(0); }");
-  auto built = build_as(folder, false);
+  auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_get_acc"));
   EXPECT_TRUE(has_function(folder, "tpbasic_e_get_acc"));

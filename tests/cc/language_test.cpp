@@ -5,10 +5,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "fake_host.h"
+#include "tests/cc/bench.h"
 #include "twinpuck_paths.h"
 
-using namespace fake;
+using namespace cc_test;
 
 namespace {
 std::string torture() {
@@ -21,10 +21,10 @@ std::string torture() {
 
 TEST(language, two_hundred_expressions_have_the_robots_values) {
   for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
-    auto run = run_c(torture(), level);
-    EXPECT_EQ(run.console.substr(0, 3), "ok ") << level << "\n" << run.console;
-    if (run.console.size() > 3) {
-      EXPECT_GE(std::stoi(run.console.substr(3)), 200);
+    const std::string printed = printed_by(torture(), level);
+    EXPECT_EQ(printed.substr(0, 3), "ok ") << level << "\n" << printed;
+    if (printed.size() > 3) {
+      EXPECT_GE(std::stoi(printed.substr(3)), 200);
     }
   }
 }
@@ -42,7 +42,7 @@ TEST(language, wide_bit_fields_compute_in_their_own_width) {
       "x.u /= minus3; i /= x.u; printf(\"%ld %d %ld\", (long)x.u, i, v[x.w + 2]); return 0; }";
   // x.u = -349525 in 20 bits: 699051, so i = 1048575 / 699051; v[0xFFFFFFFFFF + 2 in 40 bits] is v[1]
   for (const char* level : {"-O0", "-O1", "-O2"})
-    EXPECT_EQ(run_c(text, level).console, "0 -524288 1 -349525 0 4 699051 1 2") << level;
+    EXPECT_EQ(printed_by(text, level), "0 -524288 1 -349525 0 4 699051 1 2") << level;
 }
 
 TEST(language, variable_arguments_have_the_robots_widths) {
@@ -53,7 +53,7 @@ TEST(language, variable_arguments_have_the_robots_widths) {
       "  s += va_arg(b, int); va_end(a); va_end(b); return s; }\n"
       "int main(void) { printf(\"%ld\", sum(4, -1, 100000L, 1.5, 2, -3L, 2.5, 3, 4L, 3.5, (char)-4, 5L, "
       "4.5f)); return 0; }";
-  for (const char* level : {"-O0", "-O1", "-O2"}) EXPECT_EQ(run_c(text, level).console, "100015") << level;
+  for (const char* level : {"-O0", "-O1", "-O2"}) EXPECT_EQ(printed_by(text, level), "100015") << level;
 }
 
 TEST(language, structures_and_narrow_values_pass_between_files) {
@@ -70,34 +70,5 @@ TEST(language, structures_and_narrow_values_pass_between_files) {
       "int main(void) { struct s v = {100, 20000, 100000L, 1.25f}; v = twice(v);\n"
       "printf(\"%d %d %ld %.2f %d %.1f\", v.a, v.b, v.c, v.d, narrow(-100, 250, 1), half(7)); return 0; }");
   ASSERT_TRUE(built.ok) << text_of(built);
-  Image image(folder.path / "prog.so");
-  ASSERT_EQ(image.error, "");
-  EXPECT_EQ(image.run().console, "-56 -25536 200000 2.50 -105 3.5");
-}
-
-TEST(language, image_describes_itself) {
-  Folder folder;
-  auto built = build(
-      folder,
-      "int value = 7; int table[100]; const int fixed[3] = {1, 2, 3}; void _T1Interrupt(void) { value++; }\n"
-      "void _MathError(void) {} int main(void) { return table[value] + fixed[1]; }");
-  ASSERT_TRUE(built.ok) << text_of(built);
-  EXPECT_GE(built.ram_bytes, 202);
-  EXPECT_LE(built.ram_bytes, 220);
-  Image image(folder.path / "prog.so");
-  ASSERT_EQ(image.error, "");
-  EXPECT_EQ(image->magic, TP_IMAGE_MAGIC);
-  EXPECT_EQ(image->abi, TP_IMAGE_ABI);
-  EXPECT_STREQ(image->name, "prog");
-  EXPECT_NE(image->vectors[3], nullptr);
-  EXPECT_EQ(image->vectors[6], nullptr);
-  EXPECT_NE(image->trap_vectors[3], nullptr);
-  EXPECT_GE(image->data_end - image->data_begin, 200);
-  EXPECT_LT(image->data_end - image->data_begin, 8192);
-  const char* control = reinterpret_cast<const char*>(image->control);
-  EXPECT_TRUE(control < image->data_begin || control >= image->data_end) << "the budget is not a robot's own";
-  bool has_main = false;
-  for (const auto* f = image->functions; f != image->functions_end; ++f)
-    has_main = has_main || std::string(f->name) == "main";
-  EXPECT_TRUE(has_main);
+  EXPECT_EQ(output_of(folder.image()), "-56 -25536 200000 2.50 -105 3.5");
 }

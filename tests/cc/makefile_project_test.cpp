@@ -4,22 +4,21 @@
 
 #include <ctime>
 
-#include "fake_host.h"
+#include "tests/cc/bench.h"
 #include "hal_sim/cc/makefile_project.h"
 
-using namespace fake;
+using namespace cc_test;
 
 namespace {
 
-cc::BuildResult build_folder(const Folder& folder, bool for_chip = false) {
+cc::BuildResult build_folder(const Folder& folder) {
   cc::BuildOptions options;
-  options.chip_way = for_chip;
   options.source_dir = folder.path / "controllers/prog";
-  options.output = folder.path / "out.so";
+  options.output = folder.path / "out.elf";
   return cc::build_image(options);
 }
 
-std::string said(const Folder& folder) { return Image(folder.path / "out.so").run().console; }
+std::string said(const Folder& folder) { return output_of(folder.path / "out.elf"); }
 
 const char* kMain =
     "#include <stdio.h>\n#include \"part.h\"\nint part(void);\n"
@@ -108,7 +107,7 @@ TEST(makefile_project, a_makefile_of_webots_names_all_sources) {
   folder.file("controllers/prog/prog.c", head + "int main(void) { return not_to_be_compiled; }");
   folder.file("controllers/shared/part.c", "int part(void) { return 0; }");
   folder.file("controllers/prog/Makefile", "C_SOURCES = start.c part.c\nVPATH = ../shared\n");
-  auto built = build_folder(folder, true);
+  auto built = build_folder(folder);
   EXPECT_TRUE(built.ok) << text_of(built);
 }
 

@@ -11,12 +11,12 @@
 #include <mutex>
 #include <thread>
 
-#include "fake_host.h"
+#include "tests/cc/bench.h"
 #include "hal_sim/cc/build_record.h"
 #include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
-using namespace fake;
+using namespace cc_test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -27,7 +27,7 @@ class Rebuild : public ::testing::Test {
   cc::BuildResult build_again() {
     cc::BuildOptions o = options;
     o.source_dir = folder.path / "prog";
-    o.output = folder.path / "prog.so";
+    o.output = folder.image();
     o.cache_dir = folder.path / "cache";
     return cc::build_image(o);
   }
@@ -47,18 +47,18 @@ class Rebuild : public ::testing::Test {
   }
   /// An image ends with its stamp; half of one does not open.
   bool bytes_are_whole() const {
-    const std::string bytes = cc::bytes_of(folder.path / "prog.so");
+    const std::string bytes = cc::bytes_of(folder.image());
     return bytes.rfind(
                "\x7F"
                "ELF",
                0) == 0 &&
            bytes.size() > 4096;
   }
-  std::string console() { return Image(folder.path / "prog.so").run().console; }
+  std::string console() { return output_of(folder.image()); }
   void main_c(const std::string& text) { folder.file("prog/main.c", text); }
   ino_t number() const {
     struct stat s {};
-    stat((folder.path / "prog.so").c_str(), &s);
+    stat((folder.image()).c_str(), &s);
     return s.st_ino;
   }
 
@@ -73,7 +73,7 @@ TEST_F(Rebuild, nothing_is_done_when_nothing_has_changed) {
   main_c("int main(void) { int unused; return 70000; }");
   const auto first = build_again();
   ASSERT_TRUE(first.ok);
-  EXPECT_EQ(first.compiled, 2) << "the program and the image's own part: the library is there";
+  EXPECT_EQ(first.compiled, 1) << "the program: the library is there";
   build_and_settle();
   const auto again = build_again();
   EXPECT_TRUE(again.ok);
@@ -210,7 +210,8 @@ TEST_F(Rebuild, a_source_or_header_of_the_library_is_a_change) {
   const fs::path ours = TWINPUCK_SOURCE_DIR;
   options.api_dir = folder.path / "api";
   options.include_root = folder.path / "include";
-  fs::copy(ours / "hal_sim/api", options.api_dir, fs::copy_options::recursive);
+  fs::copy(ours / "hal_dspic", options.api_dir, fs::copy_options::recursive);
+  for (const char* other : {"runtime", "bootloader"}) fs::remove_all(options.api_dir / other);
   fs::copy(ours / "firmware/include", options.include_root, fs::copy_options::recursive);
   folder.file("api/number.c", "int number(void) { return 1; }");
   main_c(
@@ -232,10 +233,10 @@ TEST_F(Rebuild, a_source_or_header_of_the_library_is_a_change) {
 TEST_F(Rebuild, an_image_that_was_replaced_or_removed_is_made_again) {
   main_c("int main(void) { return 0; }");
   build_and_settle();
-  std::ofstream(folder.path / "prog.so", std::ios::app) << "x";
+  std::ofstream(folder.image(), std::ios::app) << "x";
   EXPECT_TRUE(is_made_anew());
   build_and_settle();
-  fs::remove(folder.path / "prog.so");
+  fs::remove(folder.image());
   EXPECT_TRUE(is_made_anew());
 }
 
@@ -248,15 +249,15 @@ TEST_F(Rebuild, a_failed_build_is_tried_again) {
 }
 
 // what cannot be exchanged under a test is at least among what is compared
-TEST_F(Rebuild, compiler_and_linker_script_are_compared) {
+TEST_F(Rebuild, compiler_and_library_are_compared) {
   main_c("int main(void) { return 0; }");
   build_and_settle();
   std::string record;
   for (const auto& entry : fs::directory_iterator(folder.path / "cache"))
     if (entry.path().extension() == ".record") record = cc::bytes_of(entry.path());
   for (const std::string path :
-       {TWINPUCK_BUILD_DIR "/twinpuck-cc", TWINPUCK_SOURCE_DIR "/hal_sim/cc/runtime/image.ld",
-        TWINPUCK_SOURCE_DIR "/hal_sim/cc/runtime/image_runtime.c"})
+       {TWINPUCK_BUILD_DIR "/twinpuck-cc", TWINPUCK_SOURCE_DIR "/hal_dspic/runtime/libc_calls.c",
+        TWINPUCK_SOURCE_DIR "/hal_dspic/motor_led/e_motors.c"})
     EXPECT_NE(record.find('\0' + path + '\0'), std::string::npos) << path;
 }
 
@@ -265,7 +266,7 @@ TEST(build_inputs, a_file_that_changes_in_the_same_instant_is_told_by_its_conten
   const fs::path file = folder.file("a.h", "1");
   cc::BuildOptions o;
   o.cache_dir = folder.path;
-  o.output = folder.path / "x.so";
+  o.output = folder.path / "x.elf";
   const cc::BuildRecord record(o);
   cc::BuildInputs inputs;
   inputs.look_at(file);

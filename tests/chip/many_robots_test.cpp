@@ -17,7 +17,7 @@ struct ManyRobots : ChipTest {
   using ChipTest::runner;
   void TestBody() override {}
   void add(int robots) {
-    options.way = "chip";
+    options.hal = "dspic";
     for (int i = 0; i < robots; ++i)
       add_robot("bench_braitenberg", "r" + std::to_string(i)).at(0.3 * (i % 40), 0.3 * (i / 40));  // NOLINT
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // --sanitize: what programs do to memory, told by line and variable under both HALs; and programs that do
 // right, of which nothing is told.
-#include "hal_sim/host/image_abi.h"
 #include "tests/chip/hal_flight.h"
 
 namespace {
@@ -163,7 +162,7 @@ TEST_P(MemoryCheckTest, is_told_by_line_and_name) {
     std::string all;
     for (const host::TrapReport& trap : twin->traps()) {
       all += trap.message + " at " + host::to_string(trap.place) + "\n";
-      is_told |= trap.kind == TP_TRAP_SANITIZER && trap.message.find(c.says) != std::string::npos &&
+      is_told |= trap.kind == host::kTrapSanitizer && trap.message.find(c.says) != std::string::npos &&
                  trap.place.line == line;
     }
     if (*c.says)

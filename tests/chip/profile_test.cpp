@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Profiles of the chip way: every number is counted by hand from the program's text.
+// Profiles: every number is counted by hand from the program's text.
 #include "hal_sim/chip/profile.h"
 
 #include "tests/chip/chip_fixture.h"

@@ -38,7 +38,7 @@ Seen run(const std::string& controller, bool translated) {
   struct Run : chip_test::ChipTest {
     void TestBody() override {}
     Seen go(const std::string& name, bool translates) {
-      options.way = "chip";
+      options.hal = "dspic";
       load_world("worlds/maze.toml");
       robot(0).settings().firmware = name;
       if (!translates) setenv("TWINPUCK_INTERPRET", "1", 1);

@@ -25,7 +25,7 @@ struct Assembled {
     fs::create_directories(work);
     std::ofstream(work / "x.s") << text;
     fs::remove(work / "x.o");
-    messages = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a",
+    messages = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc",
                                 (work / "x.s").string(), "-o", (work / "x.o").string()})
                    .output;
     object = cc::read_elf(work / "x.o");

@@ -50,7 +50,6 @@ ChipProgram::ChipProgram(const std::string& name, const std::string& source, con
   options.output = folder / "program.elf";
   options.cache_dir = workplace.path / "cache";
   options.optimisation = level;
-  options.chip_way = true;
   const auto built = cc::build_image(options);
   for (const std::string& e : built.errors) error_ += e + "\n";
   warnings_ = built.warnings;

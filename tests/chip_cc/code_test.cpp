@@ -22,7 +22,7 @@ std::string code_of(const std::string& source, const std::string& function,
   std::ofstream(work / "x.c") << "#include <p30F6014A.h>\n" << source;
   const std::string root = TWINPUCK_SOURCE_DIR;
   const auto run =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", level,
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", level,
                        "-S", "-c", (work / "x.c").string(), "-I" + root + "/firmware/include", "-I",
                        root + "/hal_sim/cc/libc/include", "-o", (work / "x.s").string()});
   if (run.status != 0) return run.output;
@@ -193,7 +193,7 @@ TEST(ChipCode, inline_assembler_is_checked_by_the_instruction_table) {
   const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_code";
   std::ofstream(work / "bad.c") << "void f(void) { __asm__ volatile(\"mov #70000, w0\"); }";
   const auto run =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", "-c",
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
                        (work / "bad.c").string(), "-o", (work / "bad.o").string()});
   EXPECT_NE(run.status, 0);
   EXPECT_NE(run.output.find("70000"), std::string::npos) << run.output;

@@ -22,7 +22,7 @@ std::string text_at(const fs::path& file) {
   return text.str();
 }
 
-/// A program's folder, built by `twinpuck build --way chip`.
+/// A program's folder, built by `twinpuck build`.
 class Built : public ::testing::Test {
  protected:
   Built() : folder(fs::temp_directory_path() / ("twinpuck-link-" + std::to_string(getpid()))) {
@@ -39,7 +39,7 @@ class Built : public ::testing::Test {
   std::string build(bool is_good = true) {
     const auto run =
         cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck", "build", (folder / "prog").string(),
-                         "--way", "chip", "-o", (folder / "x.elf").string()});
+                         "--hal", "dspic", "-o", (folder / "x.elf").string()});
     EXPECT_EQ(run.status == 0, is_good) << run.output;
     return run.output;
   }

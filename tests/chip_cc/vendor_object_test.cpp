@@ -149,7 +149,7 @@ cc::ProcessResult link(VendorObject o, const fs::path& work) {
   std::ofstream(work / "start.s")
       << "        .section .text.__reset, \"ax\"\n        .global __reset\n__reset: rcall _main\n";
   for (const char* name : {"main.c", "start.s"}) {
-    const auto made = cc::run_process({compiler, "--target=dspic30f6014a", "-c", (work / name).string(), "-o",
+    const auto made = cc::run_process({compiler, "-c", (work / name).string(), "-o",
                                        (work / (std::string(name) + ".o")).string()});
     EXPECT_EQ(made.status, 0) << made.output;
   }
@@ -198,11 +198,11 @@ TEST(ChipLinker, objects_in_coff_are_refused_by_name) {
   cc::run_process({"ar", "rcS", (work / "libold.a").string(), (work / "old.o").string()});
   std::ofstream(work / "main.c") << "int old(int);\nint main(void) { return old(1); }\n";
   const std::string compiler = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc";
-  cc::run_process({compiler, "--target=dspic30f6014a", "-c", (work / "main.c").string(), "-o",
+  cc::run_process({compiler, "-c", (work / "main.c").string(), "-o",
                    (work / "main.o").string()});
   std::ofstream(work / "start.s")
       << "        .section .text.__reset, \"ax\"\n        .global __reset\n__reset: rcall _main\n";
-  cc::run_process({compiler, "--target=dspic30f6014a", "-c", (work / "start.s").string(), "-o",
+  cc::run_process({compiler, "-c", (work / "start.s").string(), "-o",
                    (work / "start.o").string()});
   const auto alone = cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(),
                                       (work / "main.o").string(), (work / "old.o").string()});
@@ -239,13 +239,13 @@ TEST(ChipLinker, compiler_called_by_hand_finds_its_headers) {
       << "#include <stdarg.h>\n#include <stdio.h>\n#include <p30F6014A.h>\n"
          "#include <motor_led/e_led.h>\nint main(void) { e_set_led(0, 1); return TMR1; }\n";
   const auto made =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "--target=dspic30f6014a", "-c",
+      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
                        (work / "x.c").string(), "-o", (work / "x.o").string()});
   EXPECT_EQ(made.status, 0) << made.output;
 }
 
 // _theirs alone is asked for; the program's own file and the archive lie in one folder
-TEST(ChipLinker, archive_beside_a_program_is_linked_the_chip_way) {
+TEST(ChipLinker, archive_beside_a_program_is_linked) {
   const fs::path work = fs::temp_directory_path() / ("twinpuck-archive-" + std::to_string(getpid()));
   fs::create_directories(work / "program");
   std::ofstream(work / "theirs.o", std::ios::binary) << object(kHandleInData).file();
@@ -257,17 +257,8 @@ TEST(ChipLinker, archive_beside_a_program_is_linked_the_chip_way) {
   options.source_dir = work / "program";
   options.output = work / "x.elf";
   options.cache_dir = work / "cache";
-  options.chip_way = true;
-  const auto chip = cc::build_image(options);
-  EXPECT_TRUE(chip.ok) << (chip.errors.empty() ? "" : chip.errors[0]);
-  options.chip_way = false;
-  options.output = work / "x.so";
-  const auto native = cc::build_image(options);
-  ASSERT_FALSE(native.errors.empty());
-  EXPECT_NE(
-      native.errors[0].find("libtheirs.a is code of the chip, which only the chip way links: --way chip"),
-      std::string::npos)
-      << native.errors[0];
+  const auto built = cc::build_image(options);
+  EXPECT_TRUE(built.ok) << (built.errors.empty() ? "" : built.errors[0]);
   fs::remove_all(work);
 }
 
@@ -307,7 +298,7 @@ _third: fill 9000
 _far:   fill 7000
 )";
   const auto made = cc::run_process(
-      {compiler, "--target=dspic30f6014a", (work / "x.s").string(), "-o", (work / "x.o").string()});
+      {compiler, (work / "x.s").string(), "-o", (work / "x.o").string()});
   ASSERT_EQ(made.status, 0) << made.output;
   const auto run =
       cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(), (work / "x.o").string()});

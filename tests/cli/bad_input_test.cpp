@@ -36,7 +36,6 @@ TEST_P(BadInput, is_refused_with_a_clear_line) {
   write("two_mains/a.c", "int main(void) { while (1); }\n");
   write("two_mains/b.c", "int main(void) { while (1); }\n");
   write("no_main/a.c", "int x;\n");
-  write("assembler/main.c", "int main(void) { asm(\"add w0, w1, w2\"); while (1); }\n");
   write("no_header/main.c", "#include \"nowhere.h\"\nint main(void) { while (1); }\n");
   write("nothing_here/readme.txt", "no C\n");
   write("broken.toml", "this is = = not toml\n");
@@ -75,11 +74,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"no_version", "check @/no_version.toml", 2, "twinpuck"},
         Bad{"unknown_firmware_in_world", "run @/unknown_firmware.toml", 2, "did you mean 'obstacle'"},
         Bad{"missing_firmware", "run maze --fw puck=@/nothing.so", 2, "nothing.so"},
-        Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "no ELF"},
+        Bad{"firmware_is_text", "run maze --fw puck=@/text.so", 2, "got a file that is neither Intel HEX nor ELF"},
         Bad{"firmware_is_empty", "run maze --fw puck=@/empty.so", 2, "empty file"},
         Bad{"firmware_is_hex", "run maze --fw puck=@/chip.hex", 2, "without an end record"},
         Bad{"firmware_of_the_pc", "run maze --fw puck=/lib/x86_64-linux-gnu/libm.so.6", 2,
-            "without a firmware"},
+            "got a program or library of this PC, expected the .hex or .elf of a dsPIC30F"},
         Bad{"firmware_for_nobody", "run maze --fw punk=blink", 2, "did you mean 'puck'"},
         Bad{"firmware_of_no_robot", "run maze --fw =blink", 2, "ROBOT=VALUE"},
         Bad{"controller_misspelt", "run maze --fw blnk", 2, "did you mean 'blink'"},
@@ -99,12 +98,11 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"calendar", "run maze --fw puck=@/clock", 2, "mktime"},
         Bad{"threads", "run maze --fw puck=@/threads", 2, "pthread.h"},
         Bad{"files", "run maze --fw puck=@/files", 2, "fopen"},
-        Bad{"two_mains", "build @/two_mains -o @/x.so", 1, "main"},
-        Bad{"no_main", "build @/no_main -o @/x.so", 1, "main"},
-        Bad{"assembler", "build --way native @/assembler -o @/x.so", 1, "add w0, w1, w2"},
-        Bad{"missing_header", "build @/no_header -o @/x.so", 1, "nowhere.h"},
-        Bad{"folder_without_c", "build @/nothing_here -o @/x.so", 1, "nothing_here"},
-        Bad{"build_of_nothing", "build @/nowhere -o @/x.so", 2, "neither a file nor a controller"},
+        Bad{"two_mains", "build @/two_mains -o @/x.elf", 1, "main"},
+        Bad{"no_main", "build @/no_main -o @/x.elf", 1, "main"},
+        Bad{"missing_header", "build @/no_header -o @/x.elf", 1, "nowhere.h"},
+        Bad{"folder_without_c", "build @/nothing_here -o @/x.elf", 1, "nothing_here"},
+        Bad{"build_of_nothing", "build @/nowhere -o @/x.elf", 2, "neither a file nor a controller"},
         Bad{"lint_of_nothing", "lint @/nowhere", 2, "neither a file nor a controller"},
         Bad{"cycles_of_text", "cycles @/text.so", 2, "got no program of the chip"},
         Bad{"negative_time", "run maze --for -1", 2, "--for"},
@@ -140,7 +138,7 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"supervisor_is_a_device", "run maze --supervisor /dev/zero", 2, "got a pipe or a device"},
         Bad{"supervisor_is_a_loop", "run maze --supervisor @/loop", 2, "loop"},
         Bad{"cycles_of_a_device", "cycles /dev/zero", 2, "got a device"},
-        Bad{"build_of_a_loop", "build @/loop -o @/x.so", 2, "Too many levels of symbolic links"},
+        Bad{"build_of_a_loop", "build @/loop -o @/x.elf", 2, "Too many levels of symbolic links"},
         Bad{"image_onto_a_device", "build @/odd -o @/full.so", 2, "expected a new name"},
         Bad{"image_onto_a_source", "build @/odd -o @/odd/main.c", 2, "expected a new name"},
         Bad{"record_onto_a_loop", "run maze --record @/loop", 2, "loop"},

@@ -43,7 +43,7 @@ TEST_F(ChipProgram, text_becomes_a_program_that_is_shown_and_runs) {
   EXPECT_EQ(run.exit_code, 0) << run.text;
   std::ifstream in(summary);
   const std::string json((std::istreambuf_iterator<char>(in)), {});
-  EXPECT_NE(json.find("\"way\": \"chip\""), std::string::npos) << json;
+  EXPECT_NE(json.find("\"hal\": \"own\""), std::string::npos) << json;
 }
 
 // a project without C, in the vendor's words: its own main, or its own start-up
@@ -96,7 +96,7 @@ flags:  .space 2
     std::filesystem::create_directories(folder / begin);
     file(begin + "/program.s", text);
     const std::string project = (folder / begin).string(), elf = (folder / "x.elf").string();
-    const auto built = twinpuck("build '" + project + "' --way chip -o '" + elf + "'");
+    const auto built = twinpuck("build '" + project + "' --hal dspic -o '" + elf + "'");
     ASSERT_EQ(built.exit_code, 0) << built.text;
     const auto stopped =
         twinpuck("debug maze --fw '*=" + elf + "' -x '" + file("commands", "stepi 400\nregs\n") + "'");
@@ -109,14 +109,11 @@ flags:  .space 2
     EXPECT_NE(hex.find(":0200000401F009"), std::string::npos);
     EXPECT_NE(hex.find(":0C000000E6FF000034920000"), std::string::npos) << hex;  // FOSC is the library's
   }
-  const auto refused = twinpuck("run maze --way native --fw '*=" + (folder / "_main").string() + "'");
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.text.find("only the chip way assembles"), std::string::npos) << refused.text;
 }
 
 TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   const std::string elf = (folder / "obstacle.elf").string();
-  const auto built = twinpuck("build obstacle --way chip -o '" + elf + "'");
+  const auto built = twinpuck("build obstacle --hal dspic -o '" + elf + "'");
   ASSERT_EQ(built.exit_code, 0) << built.text;
   EXPECT_NE(built.text.find("of 49152 words"), std::string::npos) << built.text;
   for (const char* kind : {"elf", "hex", "lst", "map"})
@@ -127,7 +124,7 @@ TEST_F(ChipProgram, controllers_source_becomes_an_image_and_drives) {
   // the image and the source give the same run, to the last bit
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   const auto of_image = twinpuck("run maze --fw '*=" + elf + "' --for 2");
-  const auto of_source = twinpuck("run maze --fw '*=obstacle' --way chip --for 2");
+  const auto of_source = twinpuck("run maze --fw '*=obstacle' --hal dspic --for 2");
   ASSERT_EQ(of_image.exit_code, 0) << of_image.text;
   EXPECT_EQ(digest(of_image.text), digest(of_source.text));
   EXPECT_NE(of_image.text.find(" 0.1"), std::string::npos) << "it drives some 0.1 m: " << of_image.text;
@@ -146,7 +143,7 @@ TEST_F(ChipProgram, code_beyond_64k_has_lines_and_locals) {
   std::filesystem::create_directories(folder / "large");
   file("large/main.c", source + "int main(void) {\n  v = 1;\n" + calls + "  for (;;) ;\n}\n");
   const std::string elf = (folder / "large.elf").string();
-  const auto built = twinpuck("build '" + (folder / "large").string() + "' --way chip -o '" + elf + "'");
+  const auto built = twinpuck("build '" + (folder / "large").string() + "' --hal dspic -o '" + elf + "'");
   ASSERT_EQ(built.exit_code, 0) << built.text;
   // the last function is the last in memory; its loop is in line 77
   const auto said =
@@ -166,7 +163,7 @@ TEST_F(ChipProgram, code_beyond_64k_has_lines_and_locals) {
 TEST_F(ChipProgram, translated_code_changes_no_result) {
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   for (const char* controller : {"obstacle", "braitenberg_2a", "camera_follow"}) {
-    const std::string run = std::string("run maze --fw '*=") + controller + "' --way chip --for 8";
+    const std::string run = std::string("run maze --fw '*=") + controller + "' --hal dspic --for 8";
     const auto translated = twinpuck(run);
     ASSERT_EQ(translated.exit_code, 0) << translated.text;
     setenv("TWINPUCK_INTERPRET", "1", 1);
@@ -187,7 +184,7 @@ TEST_F(ChipProgram, mistakes_are_named_with_file_and_line) {
 
 TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
   const std::string elf = (folder / "obstacle.elf").string();
-  ASSERT_EQ(twinpuck("build obstacle --way chip -o '" + elf + "'").exit_code, 0);
+  ASSERT_EQ(twinpuck("build obstacle --hal dspic -o '" + elf + "'").exit_code, 0);
   const auto exact = twinpuck("cycles '" + elf + "' --for 0.5");
   EXPECT_EQ(exact.exit_code, 0) << exact.text;
   EXPECT_NE(exact.text.find("exact cycles at 14.7456 MHz, callees included, in 0.5 s of maze"),
@@ -302,7 +299,7 @@ TEST_F(ChipProgram, exact_cycles_of_the_docs_are_those_of_the_chip) {
 // a HEX file names nothing: what the vectors and calls lead to are its functions
 TEST_F(ChipProgram, functions_of_a_hex_file_are_found) {
   const std::string elf = (folder / "obstacle.elf").string(), hex = (folder / "obstacle.hex").string();
-  ASSERT_EQ(twinpuck("build obstacle --way chip -o '" + elf + "'").exit_code, 0);
+  ASSERT_EQ(twinpuck("build obstacle --hal dspic -o '" + elf + "'").exit_code, 0);
   const auto named = twinpuck("cycles '" + elf + "' --for 0.3 --all"),
              found = twinpuck("cycles '" + hex + "' --for 0.3");
   ASSERT_EQ(found.exit_code, 0) << found.text;
@@ -324,7 +321,7 @@ TEST_F(ChipProgram, functions_of_a_hex_file_are_found) {
 TEST_F(ChipProgram, a_run_shows_its_profile) {
   const std::string json = (folder / "profile.json").string();
   const auto run =
-      twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5 --profile --profile-json '" + json + "'");
+      twinpuck("run maze --fw '*=obstacle' --hal dspic --for 0.5 --profile --profile-json '" + json + "'");
   EXPECT_EQ(run.exit_code, 0) << run.text;
   for (const char* part : {"puck: profile of 0.5 s, exact to the cycle",
                            "main loop  main() (main.c:", "\nADC ", "busy wait", "control_tick (agenda)"})
@@ -333,7 +330,7 @@ TEST_F(ChipProgram, a_run_shows_its_profile) {
   const auto robot = nlohmann::json::parse(in)["robots"][0];
   EXPECT_EQ(robot["to_cycle"].get<long>() / 1000, 7372);
   EXPECT_GT(robot["functions"].size(), 20u);
-  const auto without = twinpuck("run maze --fw '*=obstacle' --way chip --for 0.5");
+  const auto without = twinpuck("run maze --fw '*=obstacle' --hal dspic --for 0.5");
   const auto digest = [](const std::string& text) { return text.substr(text.find("digest "), 23); };
   EXPECT_EQ(digest(run.text), digest(without.text));
   // the program's functions take the same cycles whoever plays the library, whose functions have theirs; its
@@ -349,13 +346,13 @@ TEST_F(ChipProgram, a_run_shows_its_profile) {
     EXPECT_NE(run.text.find(line), std::string::npos) << line << " in:\n" << run.text;
   const auto load = [](const std::string& text) { return std::atof(text.c_str() + text.find("load  ") + 5); };
   EXPECT_NEAR(load(sim.text), load(run.text), 1);
-  const auto native = twinpuck("run maze --fw '*=obstacle' --way native --for 0.5 --profile");
-  EXPECT_EQ(native.exit_code, 2);
-  EXPECT_NE(native.text.find("--profile: got no robot that runs the chip way"), std::string::npos)
-      << native.text;
+  std::ofstream(folder / "bare.toml") << "twinpuck = 1\n[[robot]]\nname = \"puck\"\n";
+  const auto none = twinpuck("run '" + (folder / "bare.toml").string() + "' --for 0.5 --profile");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.text.find("--profile: got no robot that runs firmware"), std::string::npos) << none.text;
 }
 
-TEST_F(ChipProgram, every_controller_becomes_an_image_that_drives_as_natively) {
+TEST_F(ChipProgram, every_controller_drives_alike_with_either_hal) {
   namespace fs = std::filesystem;
   int controllers = 0;
   for (const auto& entry : fs::directory_iterator(TWINPUCK_SOURCE_DIR "/firmware")) {
@@ -364,16 +361,16 @@ TEST_F(ChipProgram, every_controller_becomes_an_image_that_drives_as_natively) {
     SCOPED_TRACE(name);
     ++controllers;
     double x[2] = {}, y[2] = {}, heading[2] = {};
-    for (int way = 0; way < 2; ++way) {
+    for (int hal = 0; hal < 2; ++hal) {
       const std::string summary = (folder / "run.json").string();
-      const auto run = twinpuck("run maze --fw '*=" + name + "' --way " + (way ? "chip" : "native") +
+      const auto run = twinpuck("run maze --fw '*=" + name + "' --hal " + (hal ? "dspic" : "sim") +
                                 " --for 2 --summary '" + summary + "'");
       ASSERT_EQ(run.exit_code, 0) << run.text;
       std::ifstream in(summary);
       const auto robot = nlohmann::json::parse(in)["robots"][0];
-      x[way] = robot["x_m"];
-      y[way] = robot["y_m"];
-      heading[way] = robot["heading_rad"];
+      x[hal] = robot["x_m"];
+      y[hal] = robot["y_m"];
+      heading[hal] = robot["heading_rad"];
     }
     // a sample of the infrared sensors taken beside another decides the turn of `braitenberg`: 4 mm
     EXPECT_NEAR(x[0], x[1], 0.005);

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
-"""An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE WAY. Exit code 0: all as expected."""
+"""An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE. Exit code 0: all as expected."""
 import base64
 import sys
 
 from dap import Server
 
-TWINPUCK, FIRMWARE, SOURCE, WAY = sys.argv[1:]
+TWINPUCK, FIRMWARE, SOURCE = sys.argv[1:]
 server = Server(TWINPUCK)
 
 
@@ -37,7 +37,7 @@ def value(expression):
 abilities = good("initialize", adapterID="twinpuck")
 assert all(abilities[a] for a in ("supportsStepBack", "supportsReadMemoryRequest", "supportsDisassembleRequest", "supportsInstructionBreakpoints"))
 assert not ask("stackTrace", threadId=1)["success"]
-good("launch", world="maze", firmware=FIRMWARE, way=WAY, seconds=0.03)
+good("launch", world="maze", firmware=FIRMWARE, seconds=0.03)
 event("initialized")
 lines = {text.split("//")[1].strip(): n for n, text in enumerate(open(SOURCE, encoding="utf-8"), 1) if "//" in text}
 set_points = good("setBreakpoints", source={"path": SOURCE},
@@ -55,20 +55,20 @@ expect(good("threads")["threads"], [{"id": 1, "name": "puck"}])
 expect([s["name"] for s in good("scopes", frameId=0)["scopes"]], ["Variables", "Registers", "Peripherals"])
 shown = {v["name"]: v["value"] for v in good("variables", variablesReference=2)["variables"]}
 expect(shown["ticks"], "3 (0x3)")
-assert ("w15" if WAY == "chip" else "rsp") in {v["name"] for v in good("variables", variablesReference=1)["variables"]}
-pin = "LATA.LATA6" if WAY != "native" else "sum"  # which has no registers of the chip
-assert ("LATA" in {v["name"] for v in good("variables", variablesReference=3)["variables"]}) == (WAY != "native")
+assert "w15" in {v["name"] for v in good("variables", variablesReference=1)["variables"]}
+pin = "LATA.LATA6"
+assert "LATA" in {v["name"] for v in good("variables", variablesReference=3)["variables"]}
 before = value(pin)
 good("next", threadId=1)
 expect(event("stopped")["reason"], "step")
-assert value(pin) != before or WAY == "native"
+assert value(pin) != before
 good("stepBack", threadId=1)
 event("stopped")
 expect((top(), value(pin)), (("work", lines["toggle"]), before))
 cycle, pc = value("cycle"), value("pc")
 good("stepIn", threadId=1, granularity="instruction")
 event("stopped")
-assert value("pc") != pc and (value("cycle") != cycle or WAY != "chip")  # the PC's time goes on by blocks
+assert value("pc") != pc and value("cycle") != cycle
 good("stepBack", threadId=1, granularity="instruction")
 event("stopped")
 expect((value("cycle"), value("pc")), (cycle, pc))
@@ -88,34 +88,31 @@ expect(good("readMemory", memoryReference=table, count=0)["data"], "")
 assert not ask("readMemory", memoryReference="here", count=2)["success"]
 assert not ask("readMemory", memoryReference=table, count=-1)["success"]
 frame = good("stackTrace", threadId=1)["stackFrames"][0]["instructionPointerReference"]
-if WAY == "chip":
-    end = good("readMemory", memoryReference="0xfff0", count=64)
-    expect((len(base64.b64decode(end["data"])), end["unreadableBytes"]), (16, 48))
-    shown = good("disassemble", memoryReference=frame, instructionOffset=-20, instructionCount=50)["instructions"]
-    expect(len(shown), 50)
-    expect(int(shown[20]["address"], 16), int(frame, 16))
-    addresses = [int(one["address"], 16) for one in shown]
-    assert all(2 <= b - a <= 4 for a, b in zip(addresses, addresses[1:])), addresses
-    assert all(one["instruction"] for one in shown), shown
-    assert any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=0, instructionCount=300)["instructions"]) or \
-        any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=-300, instructionCount=300)["instructions"])
-    assert {one["line"] for one in shown if "line" in one} >= {lines["toggle"]}, shown
-    assert all(one["location"]["path"] == SOURCE for one in shown if one.get("line") == lines["toggle"]), shown
-    expect(good("disassemble", memoryReference=frame, offset=addresses[21] - addresses[20], instructionCount=1)["instructions"][0]["address"], shown[21]["address"])
-    # at both ends of memory there are as many as were asked for
-    expect(len(good("disassemble", memoryReference="0x0", instructionOffset=-5, instructionCount=10)["instructions"]), 10)
-    expect(len(good("disassemble", memoryReference="0x17ffc", instructionOffset=0, instructionCount=10)["instructions"]), 10)
-    at = next(one["address"] for one in shown[21:] if one.get("line", lines["toggle"]) == lines["toggle"])
-    expect([b["verified"] for b in good("setInstructionBreakpoints", breakpoints=[{"instructionReference": at}, {"instructionReference": "0x3"}])["breakpoints"]], [True, False])
-    good("setInstructionBreakpoints", breakpoints=[])
-else:
-    assert not ask("disassemble", memoryReference=frame, instructionCount=1)["success"]
+end = good("readMemory", memoryReference="0xfff0", count=64)
+expect((len(base64.b64decode(end["data"])), end["unreadableBytes"]), (16, 48))
+shown = good("disassemble", memoryReference=frame, instructionOffset=-20, instructionCount=50)["instructions"]
+expect(len(shown), 50)
+expect(int(shown[20]["address"], 16), int(frame, 16))
+addresses = [int(one["address"], 16) for one in shown]
+assert all(2 <= b - a <= 4 for a, b in zip(addresses, addresses[1:])), addresses
+assert all(one["instruction"] for one in shown), shown
+assert any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=0, instructionCount=300)["instructions"]) or \
+    any(one.get("symbol") == "main" for one in good("disassemble", memoryReference=frame, instructionOffset=-300, instructionCount=300)["instructions"])
+assert {one["line"] for one in shown if "line" in one} >= {lines["toggle"]}, shown
+assert all(one["location"]["path"] == SOURCE for one in shown if one.get("line") == lines["toggle"]), shown
+expect(good("disassemble", memoryReference=frame, offset=addresses[21] - addresses[20], instructionCount=1)["instructions"][0]["address"], shown[21]["address"])
+# at both ends of memory there are as many as were asked for
+expect(len(good("disassemble", memoryReference="0x0", instructionOffset=-5, instructionCount=10)["instructions"]), 10)
+expect(len(good("disassemble", memoryReference="0x17ffc", instructionOffset=0, instructionCount=10)["instructions"]), 10)
+at = next(one["address"] for one in shown[21:] if one.get("line", lines["toggle"]) == lines["toggle"])
+expect([b["verified"] for b in good("setInstructionBreakpoints", breakpoints=[{"instructionReference": at}, {"instructionReference": "0x3"}])["breakpoints"]], [True, False])
+good("setInstructionBreakpoints", breakpoints=[])
 
 # changed by hand, watched, the monitor's commands
 expect(good("setVariable", variablesReference=2, name="ticks", value="10 + 1")["value"], "11")
 assert not ask("setVariable", variablesReference=2, name="nothing", value="1")["success"]
 assert not ask("evaluate", expression="nothing", context="watch")["success"]
-assert ("it goes round in main()" if WAY == "chip" else "it stands in main") in good("evaluate", expression="why", context="repl")["result"]
+assert "it goes round in main()" in good("evaluate", expression="why", context="repl")["result"]
 good("setBreakpoints", source={"path": SOURCE}, breakpoints=[])
 expect(good("dataBreakpointInfo", name="ticks")["dataId"], "ticks")
 good("setDataBreakpoints", breakpoints=[{"dataId": "ticks"}])
@@ -147,9 +144,11 @@ server = Server(TWINPUCK)
 good("initialize", adapterID="twinpuck")
 assert not ask("launch", world="nowhere")["success"]
 event("terminated")
-assert "expected native, chip" in ask("launch", way="boat")["message"]
+assert "expected sim, dspic" in ask("launch", hal="boat")["message"]
 event("terminated")
-good("launch", firmware=FIRMWARE, way=WAY, stopOnEntry=True)
+assert "native is hal sim now" in ask("launch", way="native")["message"]
+event("terminated")
+good("launch", firmware=FIRMWARE, stopOnEntry=True)
 event("initialized")
 good("configurationDone")
 expect(event("stopped")["reason"], "entry")

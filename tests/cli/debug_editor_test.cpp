@@ -69,7 +69,7 @@ TEST_F(DebugEditor, a_copied_controller_has_its_own_paths) {
 TEST_F(DebugEditor, an_image_knows_its_sources_wherever_it_is_built_and_used) {
   write_program(path("one/mine"));
   const auto built =
-      cli_test::twinpuck("build mine --way chip -o ../mine.elf", "cd '" + path("one") + "' &&");
+      cli_test::twinpuck("build mine --hal dspic -o ../mine.elf", "cd '" + path("one") + "' &&");
   ASSERT_EQ(built.exit_code, 0) << built.text;
   edit(path("."), "mine.elf", path("one/mine/main.c"));
   edit("/", path("mine.elf"), path("one/mine/main.c"));

@@ -5,7 +5,7 @@
 namespace {
 
 class DebugExpressions : public cli_test::Debug {};
-INSTANTIATE_TEST_SUITE_P(, DebugExpressions, ::testing::Values("chip"), cli_test::way_name);
+INSTANTIATE_TEST_SUITE_P(, DebugExpressions, ::testing::Values("sim", "dspic"), cli_test::hal_name);
 
 constexpr const char* kVariables = R"(#include <p30F6014A.h>
 typedef unsigned char u8;

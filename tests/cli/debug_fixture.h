@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A controller's program in the debugger, in each way: scripts of commands, as a person would type them.
+// A controller's program in the debugger, with each HAL: scripts of commands, as a person would type them.
 #pragma once
 #include "tests/cli/command.h"
 
@@ -44,16 +44,13 @@ int main(void) {
 
 class Debug : public CommandTest, public ::testing::WithParamInterface<const char*> {
  protected:
-  std::string way() const { return GetParam(); }
-  bool is_chip() const { return way() == "chip"; }
-  bool has_registers() const { return way() != "native"; }
-  std::string program() const { return path(is_chip() ? "mine.elf" : "mine.so"); }
+  std::string hal() const { return GetParam(); }
+  std::string program() const { return path("mine.elf"); }
 
-  /// Builds `source` (a main.c), for the PC at -O0.
+  /// Builds `source` (a main.c).
   void build(const std::string& source) {
     write("mine/main.c", source);
-    const auto built = twinpuck("build '" + path("mine") + "' --way " + way() +
-                                (is_chip() ? "" : " --opt -O0") + " -o '" + program() + "'");
+    const auto built = twinpuck("build '" + path("mine") + "' --hal " + hal() + " -o '" + program() + "'");
     ASSERT_EQ(built.exit_code, 0) << built.text;
   }
   /// What the commands answer.
@@ -83,6 +80,6 @@ class Debug : public CommandTest, public ::testing::WithParamInterface<const cha
   }
 };
 
-inline std::string way_name(const ::testing::TestParamInfo<const char*>& info) { return info.param; }
+inline std::string hal_name(const ::testing::TestParamInfo<const char*>& info) { return info.param; }
 
 }  // namespace cli_test

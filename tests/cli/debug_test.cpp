@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// twinpuck debug: what it does alike in every way.
+// twinpuck debug: what it does, with either HAL.
 #include "tests/cli/debug_fixture.h"
 
 namespace {
@@ -10,15 +10,13 @@ class Debug : public cli_test::Debug {
  protected:
   void SetUp() override { build(cli_test::kProgram); }
 };
-INSTANTIATE_TEST_SUITE_P(, Debug, ::testing::Values("chip", "native"), cli_test::way_name);
+INSTANTIATE_TEST_SUITE_P(, Debug, ::testing::Values("sim", "dspic"), cli_test::hal_name);
 
 TEST_P(Debug, breakpoints_stop_and_calls_are_traced_back) {
   const std::string text =
       debug("break weigh\nbreak main.c:20\nc\nbt\nfinish\nc\nbt\nprint ticks\ndelete 1\ninfo break\n");
-  // in the body: where parameters have their places at -O0
-  const char* const body = is_chip() ? "weigh() (main.c:14)" : "weigh() (main.c:12)";
-  expect_in_order(text, {"breakpoint 1 at", body, "breakpoint 2 at", "work() (main.c:20)", "> c",
-                         "breakpoint", "> bt\n#0", "#1", "main()", is_chip() ? "_reset()" : "", "> finish",
+  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:14)", "breakpoint 2 at", "work() (main.c:20)", "> c",
+                         "breakpoint", "> bt\n#0", "#1", "main()", "_reset()", "> finish",
                          "> print ticks\nticks = 1 (0x1)", "2 break main.c:20, 1 times"});
 }
 
@@ -40,13 +38,8 @@ TEST_P(Debug, watchpoints_say_who_changed_what) {
   expect_in_order(debug("watch ticks\nc\nbt\ndelete\nwatch sum if sum > 30\nc\n"),
                   {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()",
                    "<-- interrupt", "main()", "> c\nsum: 30 -> 60, by work() (main.c:19)"});
-  if (has_registers())
-    expect_in_order(debug("watch LATA.LATA6\nc\n"),
-                    {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
-  else
-    expect_in_order(
-        debug("watch LATA.LATA6\nprint LATA\n"),
-        {"got 'LATA.LATA6'", "the native way has no registers of the chip", "unknown symbol 'LATA'"});
+  expect_in_order(debug("watch LATA.LATA6\nc\n"),
+                  {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
 }
 
 TEST_P(Debug, steps_go_by_lines_and_over_calls_and_interrupts) {
@@ -120,8 +113,8 @@ TEST_P(Debug, a_trace_has_an_instruction_a_line) {
 
 TEST_P(Debug, editors_speak_with_it) {
   const std::string line = "python3 '" TWINPUCK_SOURCE_DIR "/tests/cli/dap_client.py' '" +
-                           cli_test::executable() + "' '" + program() + "' '" + path("mine/main.c") + "' " +
-                           way() + " 2>&1";
+                           cli_test::executable() + "' '" + program() + "' '" + path("mine/main.c") +
+                           "' 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   std::string text;
   for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
@@ -147,12 +140,7 @@ TEST_P(Debug, mistakes_are_answered) {
   EXPECT_EQ(twinpuck("debug nowhere").exit_code, 2);
 }
 
-// --- what only the chip's own processor has
-
-class ChipDebug : public Debug {};
-INSTANTIATE_TEST_SUITE_P(, ChipDebug, ::testing::Values("chip"), cli_test::way_name);
-
-TEST_P(ChipDebug, what_was_changed_by_hand_is_changed_again_on_the_way_back) {
+TEST_P(Debug, registers_changed_by_hand_are_changed_again_too) {
   expect_in_order(
       debug("goto 50000\nset ticks = 100\nset LATA.LATA6 = 1\ngoto 80000\nprint ticks\nbacki\nprint ticks\n"
             "goto 49000\nprint ticks\ngoto 80000\nprint ticks\n"),
@@ -161,7 +149,7 @@ TEST_P(ChipDebug, what_was_changed_by_hand_is_changed_again_on_the_way_back) {
        "> print ticks\nticks = "});
 }
 
-TEST_P(ChipDebug, why_names_the_wait_and_who_could_end_it) {
+TEST_P(Debug, why_names_the_wait_and_who_could_end_it) {
   expect_in_order(debug("goto 100000\nwhy\n"), {"it goes round in main() (main.c:30)", "ticks = 0x6",
                                                 "the handler _T1Interrupt writes it; T1: enabled, "
                                                 "priority 4 above the processor's 0"});

@@ -47,7 +47,7 @@ TEST_F(ExitCodes, every_row_of_the_table_is_an_ending_and_every_ending_a_row) {
                       "*(volatile int*)8 = 1; return 0; }\n");
   const auto run_for = [](const std::string& seconds, const std::string& folder, const std::string& more,
                           const std::string& before = "") {
-    return twinpuck("run empty --way chip --for " + seconds + " --fw '*=" + folder + "' " + more, before);
+    return twinpuck("run empty --hal dspic --for " + seconds + " --fw '*=" + folder + "' " + more, before);
   };
   const auto run = [&](const std::string& folder, const std::string& more) {
     return run_for("0.5", folder, more);
@@ -61,11 +61,11 @@ TEST_F(ExitCodes, every_row_of_the_table_is_an_ending_and_every_ending_a_row) {
       {"a run", 0, run(good, "")},
       {"a run with a diagnosis", 0, run(speaks, "")},
       {"a list", 0, twinpuck("list worlds")},
-      {"a good build", 0, twinpuck("build " + good + " --way chip -o " + path("good.elf"))},
+      {"a good build", 0, twinpuck("build " + good + " --hal dspic -o " + path("good.elf"))},
 
       {"--strict, with a diagnosis", 1, run(speaks, "--strict")},
       {"a supervisor that says no", 1, run(good, "--supervisor " + fails)},
-      {"a build with an error", 1, twinpuck("build " + broken + " --way chip -o " + path("broken.elf"))},
+      {"a build with an error", 1, twinpuck("build " + broken + " --hal dspic -o " + path("broken.elf"))},
       {"lint with a warning", 1, twinpuck("lint " + broken)},
 
       {"an unknown option", 2, twinpuck("run empty --nonsense")},

@@ -49,7 +49,7 @@ TEST_F(Hal, image_is_an_elf_and_for_the_robot_a_hex_too) {
   // files of one image go together
   build("prog", "--hal sim -o " + path("x.elf"));
   EXPECT_FALSE(is_there("x.hex"));
-  EXPECT_EQ(build("prog", "--way chip -o " + path("y.elf")).exit_code, 0);
+  EXPECT_EQ(build("prog", "--hal dspic -o " + path("y.elf")).exit_code, 0);
   EXPECT_TRUE(is_there("y.hex"));
 }
 
@@ -74,9 +74,19 @@ TEST_F(Hal, given_image_says_what_it_was_linked_with) {
   EXPECT_EQ(robot("--fw " + path("dspic.elf") + " --hal sim")["hal"], "dspic");
   EXPECT_EQ(robot("--fw " + path("dspic.hex"))["hal"], "own");
   EXPECT_EQ(robot("--fw " + path("prog") + " --hal dspic")["hal"], "dspic");
-  EXPECT_EQ(robot("--fw " + path("prog") + " --way chip")["hal"], "dspic");
-  EXPECT_EQ(robot("--fw " + path("prog") + " --hal sim --way native")["hal"], "sim");
-  EXPECT_TRUE(robot("--fw " + path("prog") + " --way native")["hal"].is_null());
+}
+
+// programs, worlds and scripts of before are told where to go
+TEST_F(Hal, what_came_before_it_is_said_to_be_gone) {
+  for (const char* verb : {"run maze", "view maze", "build prog", "debug maze", "lab I3"})
+    for (const char* way : {"native", "register", "chip"}) {
+      const Said gone = twinpuck(std::string(verb) + " --way " + way);
+      EXPECT_EQ(gone.exit_code, 2) << verb;
+      EXPECT_NE(gone.text.find(std::string("--way: got ") + way + ", expected --hal sim or --hal dspic; native is --hal sim now"),
+                std::string::npos)
+          << gone.text;
+    }
+  EXPECT_EQ(twinpuck("help run").text.find("--way"), std::string::npos);
 }
 
 TEST_F(Hal, worlds_say_it_robot_by_robot) {
@@ -93,9 +103,7 @@ TEST_F(Hal, worlds_say_it_robot_by_robot) {
   EXPECT_EQ(hal("hal = \"dspic\"\n"), "dspic");
   EXPECT_EQ(hal("hal = \"sim\"\n"), "sim");
   EXPECT_EQ(hal("hal = \"dspic\"\n", "--hal sim"), "sim");
-  EXPECT_TRUE(hal("hal = \"dspic\"\n", "--way native").is_null());
   EXPECT_EQ(hal(""), "sim");
-  EXPECT_TRUE(hal("way = \"native\"\n").is_null());
   const Said wrong = twinpuck("check " + world("hal = \"chip\"\n"));
   EXPECT_EQ(wrong.exit_code, 2) << wrong.text;
   EXPECT_NE(wrong.text.find("robot.hal: got \"chip\", expected one of sim, dspic"), std::string::npos)
@@ -110,14 +118,12 @@ TEST_F(Hal, image_of_the_simulator_is_refused_for_the_robot) {
       << flash.text;
   EXPECT_NE(flash.text.find("`twinpuck build DIR --hal dspic -o x.elf` makes it"), std::string::npos)
       << flash.text;
-  for (const char* option : {"--hal dspic", "--way chip"}) {
-    const Said run = twinpuck("run maze --for 0.001 " + std::string(option) + " --fw " + path("x.elf"));
-    EXPECT_EQ(run.exit_code, 2) << run.text;
-    EXPECT_NE(
-        run.text.find("hal: got dspic, but " + path("x.elf") + " was linked with hal_sim, expected an image"),
-        std::string::npos)
-        << run.text;
-  }
+  const Said run = twinpuck("run maze --for 0.001 --hal dspic --fw " + path("x.elf"));
+  EXPECT_EQ(run.exit_code, 2) << run.text;
+  EXPECT_NE(
+      run.text.find("hal: got dspic, but " + path("x.elf") + " was linked with hal_sim, expected an image"),
+      std::string::npos)
+      << run.text;
 }
 
 TEST_F(Hal, image_for_another_table_of_functions_is_refused) {

@@ -66,16 +66,9 @@ TEST_F(Lab, every_exercise_of_the_lab_has_a_line_and_passes) {
     EXPECT_NE(std::find(ids.begin(), ids.end(), id), ids.end()) << id;
 }
 
-TEST_F(Lab, a_way_that_is_gone_is_said_to_be) {
-  const Said gone = twinpuck("lab I3 --way register");
-  EXPECT_EQ(gone.exit_code, 2);
-  EXPECT_NE(gone.text.find("register, which is gone: --hal dspic"), std::string::npos) << gone.text;
-  EXPECT_EQ(twinpuck("lab I3 --way chips").exit_code, 2);
-}
-
-// `twinpuck lab --way chip` is all of them, in seven minutes
-TEST_F(Lab, exercises_pass_the_chip_way_too) {
-  const Said chip = twinpuck("lab e-puck I3 S16 --seeds 1 --no-times --way chip");
+// `twinpuck lab --hal dspic` is all of them, in seven minutes
+TEST_F(Lab, exercises_pass_with_the_robots_own_drivers_too) {
+  const Said chip = twinpuck("lab e-puck I3 S16 --seeds 1 --no-times --hal dspic");
   EXPECT_EQ(chip.exit_code, 0) << chip.text;
   EXPECT_NE(chip.text.find("3 of 3 pass"), std::string::npos) << chip.text;
 }

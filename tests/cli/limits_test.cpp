@@ -55,8 +55,7 @@ TEST_F(Limits, compilers_end_with_the_verb_that_started_them) {
   const std::string slow = "'" + path("slow") + "'", referee = "'" + path("referee.c") + "'";
   for (const char* signal : {"TERM", "INT"})
     for (const std::string& arguments :
-         {"build " + slow + " -o " + path("o.so"), "build " + slow + " --way chip -o " + path("o.elf"),
-          "run maze --fw " + slow, "run maze --way chip --fw " + slow, "lint " + slow,
+         {"build " + slow + " -o " + path("o.elf"), "run maze --fw " + slow, "lint " + slow,
           "run maze --supervisor " + referee})
       expect_quick_end(arguments, signal);
   expect_quick_end("view maze --port 0 --fw " + slow, "TERM");
@@ -102,7 +101,7 @@ TEST_F(Limits, what_grows_without_end_ends_with_a_message) {
        }) {
     write(std::string(c.name) + "/main.c", main);
     write(std::string(c.name) + "/" + c.file, c.text);
-    const Said said = twinpuck("build '" + path(c.name) + "' --way chip -o " + path("o.elf"), "timeout 100");
+    const Said said = twinpuck("build '" + path(c.name) + "' --hal dspic -o " + path("o.elf"), "timeout 100");
     EXPECT_EQ(said.exit_code, 1) << c.name << said.text;
     EXPECT_NE(said.text.find(c.message), std::string::npos) << c.name << ": " << said.text;
     EXPECT_NE(said.text.find(c.file), std::string::npos) << c.name << ": " << said.text;
@@ -129,13 +128,12 @@ TEST_F(Limits, nothing_waits_for_a_pipe) {
     const char* message;
     int exit_code;
   };
-  for (const char* way : {" --way chip", " --way native"})
-    for (const Case& c :
-         {Case{"build '" + path("header") + "' -o " + path("o") + way, "pipe.h: source: got a pipe", 1},
-          Case{"build '" + path("beside") + "' -o " + path("o") + way, "pipe.h", 1},
-          Case{"build '" + path("source") + "' -o " + path("o") + way, "more.c: source: got a pipe", 1},
-          Case{"build '" + path("assembler") + "' -o " + path("o") + way, "more.s: source: got a pipe", 1},
-          Case{"run maze --for 1 --fw '" + path("header") + "'" + way, "pipe.h: source: got a pipe", 2},
+  for (const Case& c :
+         {Case{"build '" + path("header") + "' -o " + path("o"), "pipe.h: source: got a pipe", 1},
+          Case{"build '" + path("beside") + "' -o " + path("o"), "pipe.h", 1},
+          Case{"build '" + path("source") + "' -o " + path("o"), "more.c: source: got a pipe", 1},
+          Case{"build '" + path("assembler") + "' -o " + path("o"), "more.s: source: got a pipe", 1},
+          Case{"run maze --for 1 --fw '" + path("header") + "'", "pipe.h: source: got a pipe", 2},
           Case{"lint '" + path("header") + "'", "pipe.h: source: got a pipe", 1},
           Case{"run maze --for 1 --supervisor '" + path("referee") + "'", "pipe.h: controller: got a pipe",
                2},
@@ -163,7 +161,7 @@ TEST_F(Limits, assembler_that_includes_a_pipe_ends) {
     write(folder + "/main.c", main);
     write(folder + "/more.s", c.statement);
     write(folder + "/inner.inc", "\n.include \"../pipe\"\n");
-    const Said built = twinpuck("build '" + path(folder) + "' --way chip -o " + path("o.elf"), "timeout 60");
+    const Said built = twinpuck("build '" + path(folder) + "' --hal dspic -o " + path("o.elf"), "timeout 60");
     EXPECT_EQ(built.exit_code, 1) << built.text;
     EXPECT_NE(built.text.find(c.message), std::string::npos) << c.statement << built.text;
     if (folder == "binary") continue;

@@ -34,8 +34,8 @@ class NamedThings : public CommandTest {
 
 TEST_F(NamedThings, terminal_and_summary_name_the_program_that_ran) {
   const std::string root = TWINPUCK_SOURCE_DIR;
-  for (const char* way : {"chip", "native"}) {
-    const Said own = here(std::string("run maze --for 0.01 --fw obstacle --summary s.json --way ") + way);
+  for (const char* hal : {"sim", "dspic"}) {
+    const Said own = here(std::string("run maze --for 0.01 --fw obstacle --summary s.json --hal ") + hal);
     expect(own,
            "puck: ./obstacle, 2 files; not " + root + "/firmware/lab/obstacle, which has that name, too\n");
     const json robot = json::parse(read(path("here/s.json")))["robots"][0];
@@ -49,7 +49,7 @@ TEST_F(NamedThings, terminal_and_summary_name_the_program_that_ran) {
   expect(here("run maze --for 0.01 --fw lab/obstacle"), "puck: " + root + "/firmware/lab/obstacle, 1 file");
   expect_none(here("run maze --for 0.01 --fw other -q"), "./other");
   // an image
-  ASSERT_EQ(here("build other --way chip -o thing.elf").exit_code, 0);
+  ASSERT_EQ(here("build other --hal dspic -o thing.elf").exit_code, 0);
   expect(here("run maze --for 0.01 --fw thing.elf"), "puck: ./thing.elf\n");
   expect(here("debug maze --fw other </dev/null"), "puck: ./other, 1 file\n");
 }

@@ -158,7 +158,7 @@ TEST_F(Resets, every_reset_gives_the_first_run_again_to_the_last_bit) {
       const std::string folder = std::string(call) + "_" + engine;
       write(folder + "/" + folder + ".c", "#define CALL " + std::string(call) + "\n" + kWitness);
       const Said said =
-          twinpuck("run '" + write("world.toml", world_of(engine)) + "' --way chip --for 20 --supervisor '" +
+          twinpuck("run '" + write("world.toml", world_of(engine)) + "' --hal dspic --for 20 --supervisor '" +
                    path(folder) + "' --uart 'teller=file:" + path("words") + "'");
       EXPECT_EQ(said.exit_code, 0) << said.text;
       EXPECT_NE(said.text.find("0 looks are different"), std::string::npos) << said.text;
@@ -196,7 +196,7 @@ int main(void) {
 }
 )");
   const Said said =
-      twinpuck("run '" + write("world.toml", world_of("dynamic")) + "' --way chip --for 1 --supervisor '" +
+      twinpuck("run '" + write("world.toml", world_of("dynamic")) + "' --hal dspic --for 1 --supervisor '" +
                program + "' --vcd '" + path("run.vcd") + "'");
   EXPECT_EQ(said.exit_code, 0) << said.text;
   const Dump dump = parse(read(path("run.vcd")));
@@ -250,7 +250,7 @@ int main(void) {
 )");
   for (const char* world : {"flock", "clap", "ramp", "line", "red_ball", "push", "multi_obstacle"}) {
     const Said said =
-        twinpuck(std::string("run ") + world + " --way chip --for 20 --supervisor '" + program + "'");
+        twinpuck(std::string("run ") + world + " --hal dspic --for 20 --supervisor '" + program + "'");
     EXPECT_EQ(said.exit_code, 0) << world << "\n" << said.text;
   }
 }

@@ -46,12 +46,23 @@ class Traces : public CommandTest {
           "}\n");
   }
   Said run(const std::string& options, const std::string& before = "") const {
-    return twinpuck("run " + path("world.toml") + " -q --fw 'puck=" + path("busy") + "' " + options, before);
+    return twinpuck("run " + path("world.toml") + " -q --fw 'puck=" + path("busy") + "' " + hal_ + options,
+                    before);
   }
+  std::string hal_;  // "--hal sim "; empty: the usual one
 };
 
-TEST_F(Traces, blink_toggles_at_every_thousandth_agenda_tick) {
-  const Said s = twinpuck("run empty --fw '*=blink' -q --for 0.65 --vcd " + path("b.vcd"));
+/// What is drawn of a program, whichever library it is linked with.
+class TracesOfBoth : public Traces, public ::testing::WithParamInterface<const char*> {
+ protected:
+  TracesOfBoth() { hal_ = "--hal " + std::string(GetParam()) + " "; }
+  bool is_closed_form() const { return hal_ == "--hal sim "; }
+};
+INSTANTIATE_TEST_SUITE_P(, TracesOfBoth, ::testing::Values("sim", "dspic"),
+                         [](const auto& info) { return std::string(info.param); });
+
+TEST_P(TracesOfBoth, blink_toggles_at_every_thousandth_agenda_tick) {
+  const Said s = twinpuck("run empty --fw '*=blink' -q " + hal_ + "--for 0.65 --vcd " + path("b.vcd"));
   ASSERT_EQ(s.exit_code, 0) << s.text;
   const Dump dump = parse(read(path("b.vcd")));
   const auto& led = dump.signals.at("puck/leds/LED0");
@@ -79,15 +90,15 @@ TEST_F(Traces, each_step_has_its_cycle_whoever_asks) {
         "  e_set_speed_left(500); e_set_speed_right(500);\n"
         "  while (1);\n"
         "}\n");
-  for (const char* way : {"--hal sim", "--hal dspic", "--way native"}) {
-    SCOPED_TRACE(way);
+  for (const char* hal : {"--hal sim", "--hal dspic"}) {
+    SCOPED_TRACE(hal);
     const Said s = twinpuck("run empty -q --fw '*=" + path("drives") + "' --for 3 --vcd " + path("d.vcd") +
-                            " --vcd-signals '*:left_steps' " + way);
+                            " --vcd-signals '*:left_steps' " + hal);
     ASSERT_EQ(s.exit_code, 0) << s.text;
     const auto steps = parse(read(path("d.vcd"))).signals.at("puck/motors/left_steps");
     ASSERT_NEAR(static_cast<double>(steps.size()), 1495, 6);  // e_init_port() takes a while
     // where the handler runs, phases take it a few cycles more and less
-    const double jitter_ns = std::string(way) == "--hal dspic" ? 8 * kCycleNs : 0;
+    const double jitter_ns = std::string(hal) == "--hal dspic" ? 8 * kCycleNs : 0;
     for (std::size_t i = 3; i < steps.size(); ++i)
       EXPECT_NEAR(static_cast<double>(steps[i].first - steps[i - 1].first), 20 * 1475 * kCycleNs,
                   1.01 + jitter_ns)
@@ -97,11 +108,11 @@ TEST_F(Traces, each_step_has_its_cycle_whoever_asks) {
 
 // and a run that is looked at is the run that it is without
 TEST_F(Traces, no_output_changes_a_run) {
-  for (const char* way : {"--hal sim", "--hal dspic"}) {
-    SCOPED_TRACE(way);
+  for (const char* hal : {"--hal sim", "--hal dspic"}) {
+    SCOPED_TRACE(hal);
     const auto digest = [&](const std::string& output) {
       const Said s =
-          twinpuck("run maze --for 2 -q " + std::string(way) + " --summary " + path("s.json") + " " + output);
+          twinpuck("run maze --for 2 -q " + std::string(hal) + " --summary " + path("s.json") + " " + output);
       EXPECT_EQ(s.exit_code, 0) << s.text;
       return json::parse(read(path("s.json")))["digest"].get<std::string>();
     };
@@ -116,9 +127,9 @@ TEST_F(Traces, no_output_changes_a_run) {
   }
 }
 
-TEST_F(Traces, time_line_of_the_chips_code_has_waits_handlers_and_agendas) {
+TEST_P(TracesOfBoth, time_line_of_the_chips_code_has_waits_handlers_and_agendas) {
   const Said s =
-      twinpuck("run empty -q --fw '*=" + path("busy") + "' --hal sim --for 0.5 --trace " + path("t.json"));
+      twinpuck("run empty -q --fw '*=" + path("busy") + "' " + hal_ + "--for 0.5 --trace " + path("t.json"));
   ASSERT_EQ(s.exit_code, 0) << s.text;
   double busy = 0, waiting = 0;
   int handlers = 0, agendas = 0;
@@ -136,10 +147,23 @@ TEST_F(Traces, time_line_of_the_chips_code_has_waits_handlers_and_agendas) {
   EXPECT_NEAR(busy + waiting, 5e5, 1);
   EXPECT_GT(waiting, 0.9 * busy);  // but for 5 % of T1's handlers, and their looks
   EXPECT_NEAR(handlers, 0.49 * 14745600 / 500, 100);
-  EXPECT_EQ(agendas, 9);
+  // hal_dspic calls its agendas by itself, and nobody tells of that
+  if (is_closed_form()) {
+    EXPECT_EQ(agendas, 9);
+  }
 }
 
-TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
+// hal_dspic's driver writes a motor's four pins one after the other, so the states in between are drawn, too:
+// those that last
+Dump::Changes settled(const Dump::Changes& all) {
+  Dump::Changes kept;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (i + 1 == all.size() || static_cast<double>(all[i + 1].first - all[i].first) > 500 * kCycleNs)
+      if (kept.empty() || kept.back().second != all[i].second) kept.push_back(all[i]);
+  return kept;
+}
+
+TEST_P(TracesOfBoth, coils_variables_interrupts_and_bytes_have_their_times) {
   const Said s =
       run("--for 0.5 --vcd " + path("t.vcd") +
           " --vcd-signals puck:right_coils,puck:right_steps,puck:left_steps,puck:count,puck:half,puck:pair,"
@@ -149,11 +173,13 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
   const Dump dump = parse(read(path("t.vcd")));
 
   // 500 steps/s: 20 ticks of 1475 cycles; coils off after 15 of them (power save)
-  const auto& coils = dump.signals.at("puck/motors/right_coils");
+  const Dump::Changes coils = settled(dump.signals.at("puck/motors/right_coils"));
   const std::vector<std::string> kPhases{"1010", "110", "101", "1001"};
   ASSERT_GT(coils.size(), 400u);
   std::size_t phase = 9;
   int intervals = 0, exact = 0;
+  // where the handler runs, its way to the pins takes a few cycles more and less
+  const double near_ns = is_closed_form() ? 1.01 : 10 * kCycleNs;
   for (std::size_t i = 100; i < 300; ++i) {
     if (coils[i].second == "0") {
       const double off_ns = static_cast<double>(coils[i].first - coils[i - 1].first) - 15 * 1475 * kCycleNs;
@@ -161,7 +187,7 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
           static_cast<double>(coils[i + 1].first - coils[i - 1].first) - 20 * 1475 * kCycleNs;
       // the tick of beat, which stands before the motors in the list, moves them when beat has returned
       ++intervals;
-      exact += std::abs(off_ns) < 1.01 && std::abs(next_ns) < 1.01;
+      exact += std::abs(off_ns) < near_ns && std::abs(next_ns) < near_ns;
       EXPECT_LT(std::abs(off_ns), 1475 * kCycleNs);
       EXPECT_LT(std::abs(next_ns), 1475 * kCycleNs);
       continue;
@@ -232,13 +258,15 @@ TEST_F(Traces, coils_variables_interrupts_and_bytes_have_their_times) {
     EXPECT_GE(args["latency_cycles"].get<int>(), 0);
     nested += args["interrupted_handlers"] == 1;
   }
-  EXPECT_EQ(beats, 9);
+  if (is_closed_form()) {
+    EXPECT_EQ(beats, 9);
+  }
   EXPECT_GE(nested, 9);
   for (const char* name : {"cpu load", "battery", "UART bytes sent", "UART bytes received"})
     EXPECT_TRUE(counters.count(name)) << name;
 }
 
-TEST_F(Traces, do_not_depend_on_threads_nor_change_the_run) {
+TEST_P(TracesOfBoth, do_not_depend_on_threads_nor_change_the_run) {
   const std::string common = "--fw 'two=blink' --for 0.3 --summary ";
   for (const char* threads : {"1", "3"})
     ASSERT_EQ(run(common + path(std::string(threads) + ".s") + " --threads " + threads + " --vcd " +
@@ -253,7 +281,7 @@ TEST_F(Traces, do_not_depend_on_threads_nor_change_the_run) {
   EXPECT_EQ(parse(read(path("1.vcd"))).signals.at("two/leds/LED0").size(), 3u);
 }
 
-TEST_F(Traces, a_window_and_a_trigger_bound_the_dump) {
+TEST_P(TracesOfBoth, a_window_and_a_trigger_bound_the_dump) {
   ASSERT_EQ(run("--for 0.3 --vcd-from 0.1 --vcd-to 0.2 --vcd-signals puck:right_coils --vcd " + path("w.vcd"))
                 .exit_code,
             0);
@@ -269,9 +297,9 @@ TEST_F(Traces, a_window_and_a_trigger_bound_the_dump) {
   EXPECT_EQ(triggered.signals.at("puck/variables/count").front().second, "11");
 }
 
-TEST_F(Traces, a_trigger_that_cannot_come_is_refused_and_one_that_did_not_is_told) {
+TEST_P(TracesOfBoth, a_trigger_that_cannot_come_is_refused_and_one_that_did_not_is_told) {
   const auto tried = [&](const std::string& trigger) {
-    return run("--way chip --for 0.02 --vcd " + path("t.vcd") + " --vcd-trigger puck:" + trigger);
+    return run("--for 0.02 --vcd " + path("t.vcd") + " --vcd-trigger puck:" + trigger);
   };
   struct Case {
     const char *trigger, *expected;

@@ -272,9 +272,9 @@ TEST_F(TypicalErrors, build_lint_and_a_plain_run_say_what_is_wrong_or_there_is_a
   for (const Case& c : kCases) {
     SCOPED_TRACE(c.name);
     const std::string folder = program(c.program);
-    const auto build = twinpuck("build " + folder + " --way chip -o " + path("p.elf"));
+    const auto build = twinpuck("build " + folder + " --hal dspic -o " + path("p.elf"));
     const auto lint = twinpuck("lint " + folder);
-    const auto run = twinpuck("run empty --way chip --uart none --for " + std::to_string(c.seconds) +
+    const auto run = twinpuck("run empty --hal dspic --uart none --for " + std::to_string(c.seconds) +
                               " --fw '*=" + folder + "'");
     const auto expect = [&](const char* who, const char* wanted, const std::string& got, bool is_quiet) {
       if (wanted) {
@@ -329,7 +329,7 @@ TEST_F(TypicalErrors, a_trap_s_line_is_the_program_s_own) {
   };
   for (const Ending& e : endings) {
     SCOPED_TRACE(e.name);
-    const auto run = twinpuck("run empty -q --way chip --for 0.5 --fw '*=" + program(e.program) +
+    const auto run = twinpuck("run empty -q --hal dspic --for 0.5 --fw '*=" + program(e.program) +
                               "' --summary " + path("s.json"));
     EXPECT_EQ(run.exit_code, 3) << run.text;
     const auto summary = nlohmann::json::parse(read(path("s.json")));
@@ -363,7 +363,7 @@ TEST_F(TypicalErrors, a_division_by_0_traps_at_every_level) {
   };
   for (const auto& [text, code] : programs)
     for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
-      const auto run = twinpuck("run empty -q --way chip --for 0.1 --opt " + std::string(level) +
+      const auto run = twinpuck("run empty -q --hal dspic --for 0.1 --opt " + std::string(level) +
                                 " --fw '*=" + program(text) + "'");
       EXPECT_EQ(run.exit_code, code) << text << " " << level << "\n" << run.text;
     }
@@ -380,7 +380,7 @@ TEST_F(TypicalErrors, a_reset_that_the_program_asks_for_is_none) {
            "while (1); }",
            "int main(void) { if (!RCONbits.SWR) exit(0); while (1); }",
        }) {
-    const auto run = twinpuck("run empty --strict --way chip --for 0.5 --fw '*=" + program(text) + "'");
+    const auto run = twinpuck("run empty --strict --hal dspic --for 0.5 --fw '*=" + program(text) + "'");
     EXPECT_EQ(run.exit_code, 0) << text << "\n" << run.text;
   }
 }
@@ -398,11 +398,11 @@ TEST_F(TypicalErrors, an_empty_loop_is_the_end_of_a_program_and_no_wait) {
           "  e_init_port();\n  e_init_motors();\n  e_activate_agenda(tick, 1000);\n"
           "  e_start_agendas_processing();\n  e_set_speed_left(300);\n  e_set_speed_right(300);\n  " +
           loop + "\n}";
-      const auto run = twinpuck("run empty --strict --way chip --for 12 --opt " + std::string(level) +
+      const auto run = twinpuck("run empty --strict --hal dspic --for 12 --opt " + std::string(level) +
                                 " --fw '*=" + program(text) + "'");
       EXPECT_EQ(run.exit_code, 0) << loop << " " << level << "\n" << run.text;
       const auto alone = twinpuck(
-          "run empty --strict --way chip --for 1 --opt " + std::string(level) + " --fw '*=" +
+          "run empty --strict --hal dspic --for 1 --opt " + std::string(level) + " --fw '*=" +
           program(std::string("volatile int flag;\nint main(void) {\n  e_init_port();\n  ") + loop + "\n}") +
           "'");
       EXPECT_EQ(alone.exit_code, 0) << loop << " " << level << "\n" << alone.text;
@@ -424,14 +424,14 @@ int main(void) {
   return 0;
 }
 )");
-  const auto run = twinpuck("run empty --strict --for 8 --way chip --fw '*=" + path("w") + "'");
+  const auto run = twinpuck("run empty --strict --for 8 --hal dspic --fw '*=" + path("w") + "'");
   EXPECT_EQ(run.exit_code, 0) << run.text;
 }
 
 // 17: as on the chip
 TEST_F(TypicalErrors, an_eeprom_operation_goes_on_by_itself_for_2_ms) {
   const auto run =
-      twinpuck("run empty --strict --way chip --for 0.5 --fw '*=" +
+      twinpuck("run empty --strict --hal dspic --for 0.5 --fw '*=" +
                program("#include <libpic30.h>\n"
                        "int row[16] = {7, 8};\n"
                        "unsigned took(void) { unsigned t = TMR3; TMR3 = 0; return t; }\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The parts of the contract: every program of parts/ in both ways and with both HALs (chip: hal_dspic)
+// The parts of the contract: every program of parts/ with both HALs
 // against the text beside it. A line of the text: name, value, tolerance, why. The world: a white wall 40 mm
 // before the robot's rim, no noise of light; selector 5.
 #include <algorithm>
@@ -52,8 +52,8 @@ class Parts : public firmware_test::FirmwareTest,
               public ::testing::WithParamInterface<std::tuple<std::string, const char*>> {};
 
 TEST_P(Parts, says_what_is_expected) {
-  const auto& [part, way] = GetParam();
-  (way == std::string("sim") ? options.hal : options.way) = way;
+  const auto& [part, hal] = GetParam();
+  options.hal = hal;
   wall(0.0775, -0.5, 0.0775, 0.5);
   std::string source = text_of(kParts / (part + ".c"));
   const std::string include = "#include \"say.h\"\n";
@@ -77,8 +77,7 @@ TEST_P(Parts, says_what_is_expected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contract, Parts,
-                         ::testing::Combine(::testing::ValuesIn(parts()),
-                                            ::testing::Values("native", "sim", "chip")),
+                         ::testing::Combine(::testing::ValuesIn(parts()), ::testing::Values("sim", "dspic")),
                          [](const auto& p) { return std::get<0>(p.param) + "_" + std::get<1>(p.param); });
 
 }  // namespace

@@ -7,10 +7,8 @@
 #include <cmath>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/host/pins_acc.h"
 #include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
-#include "tests/drivers/fake_context.h"
 #include "tests/drivers/scan_times.h"
 
 namespace {
@@ -146,47 +144,8 @@ TEST(AccScan, a_sample_has_one_value_however_often_it_is_read) {
   EXPECT_EQ(looked.scan().acc_scan(end), late.scan().acc_scan(end));
   // switching the converter off and on loses the frame under way and no sample
   looked.scan().switch_converter(false, end);
-  EXPECT_EQ(looked.scan().acc_until(end), host::kNever);
+  EXPECT_EQ(looked.scan().acc_until(end), board::kNever);
   EXPECT_EQ(looked.scan().acc_scan(2 * end), late.scan().acc_scan(end));
-}
-
-TEST(AccScan, pins_give_the_newest_sample_and_its_horizon) {
-  DrivenBoard robot(quiet());
-  FakeContext host(robot);
-  robot.scan().start(false, false, 0);
-  EXPECT_EQ(tp_scan_acc_newest(2), 0) << "before the first sample";
-  const Cycle first = scan_times::calls(0, 63)[62] + scan_times::kFiled;
-  EXPECT_EQ(host.horizon, first);
-  host.cycle = first;
-  host.horizon = host::kNever;
-  EXPECT_EQ(tp_scan_acc_newest(2), 2816);
-  EXPECT_EQ(host.horizon, first + 65 * scan_times::kFrame);
-  std::int16_t samples[3][50];
-  tp_scan_acc_values(samples);
-  EXPECT_EQ(samples[0][1], 2048);
-  EXPECT_EQ(samples[2][1], 2816);
-  EXPECT_EQ(samples[2][2], 0);
-}
-
-TEST(BasicProxHold, the_timer_goes_on_where_it_was_held) {
-  DrivenBoard robot(quiet());
-  drivers::BasicProx& prox = robot.basic_prox();
-  prox.start(0);
-  prox.hold(1000);
-  EXPECT_EQ(prox.horizon(5000), host::kNever);
-  prox.release(4000);
-  EXPECT_EQ(prox.horizon(4000), 5168 + 3000);  // the first interrupt, 3000 cycles late
-  EXPECT_EQ(prox.events(5168 + 2999), 0);
-  EXPECT_EQ(prox.events(5168 + 3000), 1);
-  EXPECT_EQ(prox.horizon(5168 + 3000), 2 * 5168 + 3000);
-  // the library's accelerometer starts the timer even after e_stop_prox()
-  prox.stop(10000);
-  prox.release(20000);
-  EXPECT_TRUE(prox.is_on());
-  // but a timer that was never set up has nothing to start
-  DrivenBoard fresh(quiet());
-  fresh.basic_prox().release(100);
-  EXPECT_FALSE(fresh.basic_prox().is_on());
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   drive(robot, 700, -700, 0);
   robot.latch_bit('A', 6, true, 0);
   robot.scan().start(false, false, 0);
-  robot.uart_ring(1).init(7, 0);
+  robot.uart(1).switch_on(7, 0);
   const std::int64_t left = robot.left_steps(kSecond), right = robot.right_steps(kSecond);
   robot.processor_reset(kSecond);
   EXPECT_EQ(robot.leds(kSecond), 0u);
@@ -73,25 +73,6 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   drive(robot, 1000, 1000, 6 * kSecond);
   EXPECT_NEAR(static_cast<double>(robot.left_steps(7 * kSecond) - left), 999, 3);
   EXPECT_NEAR(static_cast<double>(robot.agendas().commanded_steps(Wheel::Left, 7 * kSecond)), 999, 1);
-}
-
-TEST(Board, basic_driver_moves_the_same_wheels) {
-  DrivenBoard robot{board::Setup{}};
-  robot.init_ports(0);
-  auto set = [&](Wheel wheel, int v, Cycle at) {
-    robot.timer_motors().set_speed(drivers::TimerMotors::Driver::Basic, wheel, v, at,
-                                   robot.stepper(wheel, at));
-  };
-  set(Wheel::Left, 500, 0);
-  set(Wheel::Right, -500, 0);
-  // (57600 / 500 + 1) x 256 = 29696 cycles a step
-  EXPECT_EQ(robot.left_steps(100 * 29696), 100);
-  EXPECT_EQ(robot.right_steps(100 * 29696), -100);
-  set(Wheel::Left, 0, 100 * 29696);
-  EXPECT_EQ(robot.left_steps(kSecond), 100);
-  EXPECT_EQ(robot.coils(Wheel::Left, kSecond), 0u);
-  robot.processor_reset(kSecond);
-  EXPECT_EQ(robot.right_steps(2 * kSecond), robot.right_steps(kSecond));
 }
 
 TEST(Board, samples_are_taken_at_world_time) {
@@ -219,7 +200,7 @@ TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
   auto run = [](int speed, bool look) {
     DrivenBoard robot{board::Setup{}};
     drive(robot, speed, 300, 0);
-    robot.uart_ring(1).init(7, 0);
+    robot.uart(1).switch_on(7, 0);
     robot.uart(1).load('x', 5);
     if (look)
       for (Cycle at = 0; at < kSecond; at += 12345) {

@@ -3,15 +3,14 @@
 // what the air is told. Expectations by hand beside each.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal_sim/board/sound_bank.h"
 #include "hal_sim/board/sound_params.h"
-#include "hal_sim/host/pins_dsp.h"
-#include "hal_sim/host/pins_sound.h"
+#include "hal_sim/drivers/sound_driver.h"
 #include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
-#include "tests/drivers/fake_context.h"
 #include "tests/drivers/scan_times.h"
 
 namespace {
@@ -27,11 +26,16 @@ board::Setup quiet() {
 
 struct Microphones : ::testing::Test {
   DrivenBoard robot{quiet()};
-  FakeContext context{robot};
   sim::Scene scene;
+  Cycle now = 0;
   Microphones() { robot.look_at(&scene); }
-
-  std::int16_t scan[3][100] = {};
+  /// Samples of all three from number `from` on, those that a buffer still holds; how many there are so far.
+  std::int64_t hear(std::int64_t from) {
+    const std::int64_t count = robot.scan().interrupts(now);
+    for (std::int64_t n = std::max<std::int64_t>(from, count - 100); n < count; ++n)
+      for (int m = 0; m < 3; ++m) robot.scan().mic_sample(m, n);
+    return count;
+  }
 };
 
 // 79.4 mV/Pa, 3.3 V for 4096 counts: 98.55 counts per Pa around 2048
@@ -81,12 +85,12 @@ TEST_F(Microphones, noise_has_its_size_and_is_the_robots_own) {
 TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   std::vector<sim::Clicks> held;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return held.push_back(at), 0.0; };
-  context.cycle = 5000;
-  tp_scan_start(0, 0);
+  now = 5000;
+  robot.scan().start(false, false, now);
   const auto calls = scan_times::calls(5000, 65);
-  context.cycle = calls[2];
-  EXPECT_EQ(tp_mic_scan(scan, 0), 3);
-  EXPECT_EQ(context.horizon, calls[3]);
+  now = calls[2];
+  EXPECT_EQ(hear(0), 3);
+  EXPECT_EQ(robot.scan().next_interrupt(now), calls[3]);
   // three channels of 15 TAD of 20, held after the first; the flag a cycle after the end
   EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5999, 6299, 6599, 6964, 7264, 7564}));
   // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three
@@ -98,48 +102,24 @@ TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
 }
 
 TEST_F(Microphones, alone_they_are_sampled_twice_as_often) {
-  tp_scan_start(1, 0);
-  context.cycle = 15 + 1000 * 450;
-  EXPECT_EQ(tp_mic_scan(scan, 1000), 1000);
+  robot.scan().start(true, false, now);
+  now = 15 + 1000 * 450;
+  EXPECT_EQ(hear(1000), 1000);
   for (int n : {0, 3, 62, 63, 999}) EXPECT_EQ(robot.scan().mic_hold(1, n), 15 + (n + 1) * 450 - 29 * 10 - 1);
-}
-
-TEST_F(Microphones, only_new_samples_are_evaluated_and_at_most_a_buffer) {
-  int asked = 0;
-  scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return ++asked, static_cast<double>(at) / 1e7; };
-  tp_scan_start(0, 0);
-  context.cycle = scan_times::calls(0, 50).back();
-  const tp_i64 seen = tp_mic_scan(scan, 0);
-  EXPECT_EQ(asked, 150);
-  context.cycle = scan_times::calls(0, 60).back();
-  EXPECT_EQ(tp_mic_scan(scan, seen), 60);
-  EXPECT_EQ(asked, 180);
-  tp_mic_scan(scan, 60);
-  EXPECT_EQ(asked, 180);
-  context.cycle = scan_times::calls(0, 1230).back();
-  EXPECT_EQ(tp_mic_scan(scan, 60), 1230);
-  EXPECT_EQ(asked, 480);
-  // sample 1229 is in place 29, sample 1130, the oldest, in place 30
-  const auto counts = [&](int n) {
-    return static_cast<int>(std::floor(
-        2048.5 + 0.0794 / 3.3 * 4096 * (static_cast<double>(n * scan_times::kFrame) + 15 + 20) / 1e7));
-  };
-  EXPECT_EQ(scan[0][29], counts(1229));
-  EXPECT_EQ(scan[0][30], counts(1130));
 }
 
 // stopped after 250 frames, started again 12345 cycles later in the fast mode: the last 100 samples keep
 // their instants on both sides of the gap
 TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
-  tp_scan_start(0, 0);
-  context.cycle = scan_times::calls(0, 250).back() + 321;
-  tp_scan_switch(0);
-  EXPECT_EQ(tp_mic_scan(scan, 250), 250);
-  context.cycle += 12345;
-  tp_scan_start(1, 0);
-  const Cycle again = context.cycle;
-  context.cycle += 15 + 40 * 450;
-  EXPECT_EQ(tp_mic_scan(scan, 290), 290);
+  robot.scan().start(false, false, now);
+  now = scan_times::calls(0, 250).back() + 321;
+  robot.scan().switch_converter(false, now);
+  EXPECT_EQ(hear(250), 250);
+  now += 12345;
+  robot.scan().start(true, false, now);
+  const Cycle again = now;
+  now += 15 + 40 * 450;
+  EXPECT_EQ(hear(290), 290);
   const auto calls = scan_times::calls(0, 250);
   EXPECT_EQ(robot.scan().mic_hold(0, 190), calls[190] - 44 * 20 - 1);  // 190 % 65 = 60: three channels
   EXPECT_EQ(robot.scan().mic_hold(0, 249), calls[249] - 44 * 20 - 1);  // 54
@@ -149,22 +129,23 @@ TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
 
 TEST_F(Microphones, single_conversions_hear_now) {
   scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks when) { return when == 777 && at.y > 0 ? 2.0 : 0.0; };
-  context.cycle = 777;
-  EXPECT_EQ(tp_convert(2), 2048);
-  EXPECT_EQ(tp_convert(3), 2245);  // left: 2048 + 197.1
-  EXPECT_EQ(tp_convert(4), 2048);
+  now = 777;
+  EXPECT_EQ(robot.convert(2, now), 2048);
+  EXPECT_EQ(robot.convert(3, now), 2245);  // left: 2048 + 197.1
+  EXPECT_EQ(robot.convert(4, now), 2048);
 }
 
 // --- codec ---------------------------------------------------------------------------------------------
 
 struct Speaker : Microphones {
   board::Codec& codec = robot.codec();
+  drivers::SoundDriver driver{codec};
   const std::vector<std::int16_t>& bank = *board::sound_bank();
   void switch_on() {
-    tp_init_ports();
-    tp_latch_write('F', 0, 1);
-    tp_codec_start();
-    tp_codec_configure();
+    robot.init_ports(now);
+    robot.latch_bit('F', 0, true, now);
+    driver.start(now);
+    codec.configure();
   }
 };
 
@@ -190,11 +171,11 @@ TEST_F(Speaker, the_bank_has_five_sounds_and_silence_between) {
 
 // frames begin at 100: groups at 100 + 8192 k. Played at 20000: the next group is k = 3, at 24676
 TEST_F(Speaker, samples_go_out_in_groups_of_four) {
-  context.cycle = 100;
+  now = 100;
   switch_on();
-  context.cycle = 20000;
-  EXPECT_EQ(tp_codec_next_group(), 100 + 3 * 8192);
-  tp_codec_play(2116, 1760);
+  now = 20000;
+  EXPECT_EQ(driver.next_group(now), 100 + 3 * 8192);
+  driver.play(2116, 1760, now);
   const Cycle begin = 24676;
   EXPECT_EQ(codec.output(begin - 1), 0);
   // the pointer moves before it is read: the first sample is number 2117
@@ -207,29 +188,29 @@ TEST_F(Speaker, samples_go_out_in_groups_of_four) {
 }
 
 TEST_F(Speaker, without_power_or_registers_it_is_silent) {
-  tp_codec_start();
-  tp_codec_configure();  // AUDIO_ON is low
-  tp_codec_play(0, 2112);
+  driver.start(now);
+  codec.configure();  // AUDIO_ON is low
+  driver.play(0, 2112, now);
   for (Cycle c = 0; c < 100000; c += 1000) EXPECT_EQ(codec.output(c), 0);
   EXPECT_FALSE(codec.has_news());
-  tp_latch_write('F', 0, 1);  // an input after reset: nothing happens before the direction is set
-  tp_codec_configure();
-  tp_codec_play(0, 2112);
+  robot.latch_bit('F', 0, true, now);  // an input after reset: nothing happens before the direction is set
+  codec.configure();
+  driver.play(0, 2112, now);
   EXPECT_FALSE(codec.has_news());
   switch_on();
-  tp_codec_play(0, 2112);
+  driver.play(0, 2112, now);
   EXPECT_TRUE(codec.has_news());
 }
 
 TEST_F(Speaker, closing_is_heard_at_once_and_starting_again_replaces) {
   switch_on();
-  tp_codec_play(7294, 3732);
-  context.cycle = 100000;
-  tp_codec_play(11028, 8016);  // from the group at 106496 on
+  driver.play(7294, 3732, now);
+  now = 100000;
+  driver.play(11028, 8016, now);  // from the group at 106496 on
   EXPECT_EQ(codec.output(106495), bank[7295 + (106495 - 8192) / 2048]);
   EXPECT_EQ(codec.output(106496), bank[11029]);
-  context.cycle = 300000;
-  tp_latch_write('F', 0, 0);
+  now = 300000;
+  robot.latch_bit('F', 0, false, now);
   EXPECT_EQ(codec.output(299999), bank[11029 + (299999 - 106496) / 2048]);
   EXPECT_EQ(codec.output(300000), 0);
   codec.forget(299000);
@@ -239,9 +220,9 @@ TEST_F(Speaker, closing_is_heard_at_once_and_starting_again_replaces) {
 
 TEST_F(Speaker, a_stop_lets_the_group_under_way_end) {
   switch_on();
-  tp_codec_play(11028, 8016);
-  context.cycle = 8192 * 5 + 3000;
-  tp_codec_stop();
+  driver.play(11028, 8016, now);
+  now = 8192 * 5 + 3000;
+  driver.stop(now);
   EXPECT_EQ(codec.output(8192 * 6 - 1), bank[11029 + 19]);  // five groups of four went out
   EXPECT_EQ(codec.output(8192 * 6), 0);
 }
@@ -249,13 +230,13 @@ TEST_F(Speaker, a_stop_lets_the_group_under_way_end) {
 // the countdown is 16 bits wide and looks for zero: 2110 never meets it, 0 meets it after 65536 samples
 TEST_F(Speaker, lengths_that_are_no_multiple_of_four_never_end) {
   switch_on();
-  tp_codec_play(0, 2110);
+  driver.play(0, 2110, now);
   EXPECT_EQ(codec.take_news().count, std::int64_t{1} << 40);
   EXPECT_EQ(codec.output(8192 + 3000 * 2048), bank[3001]);  // on into the next sound
   EXPECT_EQ(codec.output(8192 + 19043 * Cycle{2048}), 0);   // and past the bank
-  tp_codec_play(0, 0);
+  driver.play(0, 0, now);
   EXPECT_EQ(codec.take_news().count, 65536);
-  tp_codec_play(0, -4);
+  driver.play(0, -4, now);
   EXPECT_EQ(codec.take_news().count, 65532);
 }
 
@@ -266,9 +247,10 @@ TEST_F(Speaker, tells_the_air_what_it_plays_in_world_time) {
   setup.boot_delay_s = 1;
   DrivenBoard late(setup);
   late.codec().power(true, 0);
-  late.drivers().sound().start(0);
+  drivers::SoundDriver speaker(late.codec());
+  speaker.start(0);
   late.codec().configure();
-  late.drivers().sound().play(3878, 3412, 14745600);
+  speaker.play(3878, 3412, 14745600);
   sim::WorldDesc world;
   sim::SoundField field(world, 28800);
   sim::flat_sound().clear();
@@ -295,52 +277,8 @@ TEST_F(Speaker, state_changes_only_when_it_is_used) {
   codec.power(true, 0);
   codec.power(false, 0);
   EXPECT_EQ(robot.state_hash(0), before);
-  tp_codec_start();
+  driver.start(now);
   EXPECT_NE(robot.state_hash(0), before);
-}
-
-// --- DSP engine ----------------------------------------------------------------------------------------
-
-struct Dsp : Microphones {
-  struct Pair {
-    std::int16_t real, imag;
-  };
-};
-
-// two points, w = 1 (32767): upper = (3 + 6)/2 = 4.5, a tie, to even: 4; lower = (3 - 6) * 0.99997 / 2 =
-// -1.49995 -> -1
-TEST_F(Dsp, a_butterfly_rounds_ties_to_even) {
-  const Pair one{32767, 0};
-  Pair data[2] = {{3, 5}, {6, 6}};
-  tp_dsp_fft(1, data, &one);
-  EXPECT_EQ(data[0].real, 4);
-  EXPECT_EQ(data[0].imag, 6);  // 5.5 -> 6
-  EXPECT_EQ(data[1].real, -1);
-  EXPECT_EQ(data[1].imag, 0);  // -0.499985
-}
-
-// 20000 - -20000 wraps to -25536 in 16 bits; 20000 + 20000 = 40000 fits the accumulator, halved 20000
-TEST_F(Dsp, differences_wrap_and_sums_do_not) {
-  const Pair one{32767, 0};
-  Pair data[2] = {{20000, 20000}, {-20000, 20000}};
-  tp_dsp_fft(1, data, &one);
-  EXPECT_EQ(data[1].real, -12768);  // -25536 * 0.99997 / 2 = -12767.6
-  EXPECT_EQ(data[0].imag, 20000);
-  EXPECT_EQ(data[0].real, 0);
-}
-
-TEST_F(Dsp, bit_reversal_exchanges_pairs) {
-  Pair data[8];
-  for (std::int16_t i = 0; i < 8; ++i) data[i] = {i, static_cast<std::int16_t>(-i)};
-  tp_dsp_bit_reverse(3, data);
-  const int natural[8] = {0, 4, 2, 6, 1, 5, 3, 7};
-  for (int i = 0; i < 8; ++i) {
-    EXPECT_EQ(data[i].real, natural[i]);
-    EXPECT_EQ(data[i].imag, -natural[i]);
-  }
-  tp_dsp_bit_reverse(0, data);
-  tp_dsp_bit_reverse(30, data);  // nonsense changes nothing
-  EXPECT_EQ(data[1].real, 4);
 }
 
 }  // namespace

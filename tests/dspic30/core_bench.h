@@ -36,7 +36,6 @@ struct CoreBench {
     EXPECT_TRUE(image.is_whole()) << image.report();
     for (const auto& [address, word] : image.program) program.write(address, word);
     c.program = &program;
-    c.synchronised_ports = true;
     chip = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
     cpu = std::make_unique<dspic::Processor>(*chip, program, std::move(store));
     if (!translates) return;

@@ -78,7 +78,27 @@ TEST(Hex, what_is_wrong_is_named_with_its_line) {
   EXPECT_EQ(error_of(":0400000000010400F7\n:0400000000020400F6\n:00000001FF\n"),
             "x.hex: line 2: address 0x000000 comes a second time, with another value");
   EXPECT_EQ(error_of(":00000009F7\n"), "x.hex: line 1: record type got 0x09, expected 0x00 to 0x05");
-  EXPECT_EQ(error_of("hello"), "x.hex: neither Intel HEX nor an ELF file of the dsPIC30F (machine 118)");
+}
+
+// whatever it is, it is named, with what was expected
+TEST(Image, what_is_none_is_named) {
+  const std::string elf("\x7f" "ELF\1\1\1", 7);
+  const struct {
+    std::string bytes, says;
+  } kFiles[] = {
+      {"", "an empty file"},
+      {"hello", "a file that is neither Intel HEX nor ELF"},
+      {"\x36\x12 and more", "a COFF of the dsPIC, as MPLAB C30 made by default"},
+      {elf, "an ELF file that has been cut off"},
+      {elf + std::string(11, '\0') + std::string("\x3e\0", 2), "a program or library of this PC"},
+      {elf + std::string(11, '\0') + std::string("\x28\0", 2), "an ELF file of another machine (number 40)"},
+  };
+  for (const auto& file : kFiles) {
+    const std::string error = error_of(file.bytes);
+    EXPECT_EQ(error.find("x.hex: firmware image: got " + file.says + ", expected the .hex or .elf of a dsPIC30F; "), 0u)
+        << error;
+  }
+  EXPECT_NE(error_of("\x36\x12").find("; take the .hex that was made beside it"), std::string::npos);
 }
 
 // --- ELF ------------------------------------------------------------------------------------------------

@@ -223,7 +223,7 @@ int main(void) {
   run_for(0.4);
   const int first = r.variable("changes");
   run_for(10);
-  // 14745600 / (965 * 65) = 235.08, by the register way's estimate 233.2; one in some hundred draws repeats
+  // 14745600 / (965 * 65) = 235.08; one in some hundred draws repeats
   // the one before
   EXPECT_NEAR(r.variable("changes") - first, 2340, 22);
   EXPECT_LT(r.cpu_load(), 0.5);

@@ -151,19 +151,6 @@ TEST_F(FirmwareTest, bench_braitenberg_cruises_at_8_cm_per_second) {
 
 // --- the contract as controllers meet it
 
-TEST_F(FirmwareTest, a_register_that_is_not_simulated_stops_its_robot_by_name) {
-  Robot& driver = add_robot_with_source(
-      "#include <p30F6014A.h>\n"
-      "int main(void) { DCICON1 = 1; while (1); }\n");
-  Robot& other = add_robot("blink").at(0.5, 0);
-  options.way = "native";  // the chip has them all
-  run_for(0.5);
-  ASSERT_EQ(driver.traps().size(), 1u);
-  EXPECT_EQ(driver.traps()[0].kind, TP_TRAP_UNSIMULATED);
-  EXPECT_NE(driver.traps()[0].message.find("DCICON1"), std::string::npos) << driver.traps()[0].message;
-  EXPECT_TRUE(other.traps().empty());
-}
-
 TEST_F(FirmwareTest, the_header_decides_the_variant_of_a_function) {
   // all LEDs with value 2: the basic variant toggles each, the advanced one switches all off
   const std::string body = "int main(void) { e_init_port(); e_set_led(3, 1); e_set_led(8, 2); while (1); }\n";

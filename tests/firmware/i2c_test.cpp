@@ -174,7 +174,6 @@ int main(void) {
 )";
 
 TEST_F(I2cApi, primitives_answer_as_the_bus_allows) {
-  is_native();
   Robot& r = add_robot_with_source(kPrimitives);
   Memory& memory = plug();
   memory.held[0] = 0x12;
@@ -183,8 +182,8 @@ TEST_F(I2cApi, primitives_answer_as_the_bus_allows) {
   EXPECT_EQ(r.variable("done"), 1);
   EXPECT_EQ(r.variables("answers", 12), (std::vector<std::int16_t>{0, 1, 0, 0, 0, 1, 1, 0, 1, 1, 1, 3}));
   EXPECT_EQ(r.variables<char>("bytes", 2), (std::vector<char>{0x12, 0x34}));
-  // 10,000 rounds: of 6 cycles by the chip's compiler at -O1, of about 13 by the estimate
-  const double timeout_s = 10000 * (options.way == "chip" ? 6 : 13) / kFcy;
+  // 10,000 rounds of 6 cycles at -O1
+  const double timeout_s = 10000 * 6 / kFcy;
   EXPECT_NEAR(r.variable<std::uint16_t>("timeout_ticks") * 64 / kFcy, timeout_s, 0.2 * timeout_s);
   expect_no_traps();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A program that masks the library's handlers: motors stand, samples are lost; agendas that take too long are
-// told. The same in both ways.
+// told. The same with both HALs.
 #include "tests/support/firmware_test.h"
 
 namespace {

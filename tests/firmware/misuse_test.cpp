@@ -110,9 +110,8 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
 }
 
 TEST_F(Misuse, a_wait_for_the_band_gap_ends) {
-  is_native();
   Robot& r = add_robot_with_source(std::string(kHead) + R"(
-int main(void) { RCONbits.BGST = 0; while (!RCONbits.BGST); calls = 7; while (1); })");
+int main(void) { RCONbits.LVDEN = 1; RCONbits.BGST = 0; while (!RCONbits.BGST); calls = 7; while (1); })");
   run_for(0.01);
   EXPECT_EQ(r.variable("calls"), 7);
   expect_no_traps();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the native twin promises about time, motors and sensors, measured on whole robots.
+// What the twin promises about time, motors and sensors, measured on whole robots.
 #include <cmath>
 
 #include "hal_sim/board/epuck_model.h"
@@ -324,72 +324,7 @@ TEST_F(Repeat, the_digest_does_not_depend_on_threads) {
   EXPECT_EQ(digests[0], digests[2]);
 }
 
-// --- traps of real firmware
-
-struct Failure {
-  const char* name;
-  const char* body;
-  int kind;
-  const char* says;
-};
-
-class Failing : public FirmwareTest, public ::testing::WithParamInterface<Failure> {};
-
-TEST_P(Failing, stops_only_its_own_robot) {
-  is_native();
-  const Failure& f = GetParam();
-  Robot& bad = add_robot_with_source(std::string(R"(
-#include <stdlib.h>
-#include <motor_led/e_epuck_ports.h>
-#include <motor_led/advance_one_timer/e_agenda.h>
-volatile int zero;
-int * volatile pointer;
-volatile long sink;
-static void nothing(void) {}
-static int deeper(int n) { volatile char frame[60]; frame[0] = n; return deeper(n + 1) + frame[0]; }
-static void fail(void) { )") + f.body + R"( }
-int main(void) { fail(); while (1); }
-)",
-                                     "bad")
-                   .at(-0.3, 0);
-  Robot& good = add_robot_with_source(kDrive500, "good").at(0.3, 0);
-  run_for(3);
-  ASSERT_EQ(bad.traps().size(), 1u);
-  const auto& t = bad.traps().front();
-  EXPECT_EQ(t.kind, f.kind) << t.message;
-  EXPECT_NE(t.message.find(f.says), std::string::npos) << t.message;
-  EXPECT_NE(t.place.file.find("main.c"), std::string::npos) << to_string(t.place);
-  EXPECT_GT(t.place.line, 8);
-  EXPECT_GE(t.cycle, 1000);
-  EXPECT_FALSE(t.backtrace.empty());
-  EXPECT_GT(good.left_steps(), 1400);
-  EXPECT_TRUE(good.traps().empty());
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Way, Failing,
-    ::testing::Values(
-        Failure{"null_pointer", "sink = *pointer;", TP_TRAP_ADDRESS, "null pointer"},
-        Failure{"write_to_null", "*pointer = 3;", TP_TRAP_ADDRESS, "write through a null pointer"},
-        Failure{"wild_pointer", "pointer = (int *)0x7654; sink = *pointer;", TP_TRAP_ADDRESS, "wild pointer"},
-        Failure{"null_function", "void (* volatile f)(void) = 0; f();", TP_TRAP_ADDRESS, "null pointer"},
-        Failure{"division_by_zero", "sink = 7 / zero;", TP_TRAP_MATH, "division by zero"},
-        Failure{"remainder_by_zero", "sink = 7L % (long)zero;", TP_TRAP_MATH, "division by zero"},
-        Failure{"endless_recursion", "sink = deeper(1);", TP_TRAP_STACK, "stack overflow"},
-        Failure{"large_array",
-                "volatile char big[30000]; int i; for (i = 0; i < 30000; i++) big[i] = i; sink = big[zero]; "
-                "deeper(0);",
-                TP_TRAP_STACK, "stack overflow"},
-        Failure{"interrupts_off",
-                "e_start_agendas_processing(); e_activate_agenda(nothing, 10); while (1) INTERRUPT_OFF();",
-                TP_TRAP_INTERRUPT, "interrupts off"},
-        Failure{"priority_7",
-                "e_start_agendas_processing(); e_activate_agenda(nothing, 10); SRbits.IPL = 7; while (1);",
-                TP_TRAP_INTERRUPT, "interrupts off"},
-        Failure{"abort", "abort();", TP_TRAP_ABORT, "abort"},
-        Failure{"no_handler", "T1CON = 0x8000; PR1 = 1000; IEC0bits.T1IE = 1; while (1);", TP_TRAP_INTERRUPT,
-                "_T1Interrupt"}),
-    [](const auto& info) { return std::string(info.param.name); });
+// --- the end of a program
 
 // the stack's end is met inside functions of the simulator as often as in the program's own code
 TEST_F(Promise, a_stack_that_ends_inside_a_library_function_is_an_overflow) {
@@ -421,7 +356,7 @@ int main(void) { return from(getselector()); }
   run_for(1);
   for (int i = 0; i < kDepths; ++i) {
     ASSERT_EQ(robot(i).traps().size(), 1u);
-    EXPECT_EQ(robot(i).traps().front().kind, TP_TRAP_STACK);
+    EXPECT_EQ(robot(i).traps().front().kind, host::kTrapStack);
     EXPECT_EQ(robot(i).traps().front().place.function, "deeper");
   }
 }

@@ -16,10 +16,12 @@ int main(void) {
   e_init_remote_control();
   e_start_agendas_processing();
   while (1) {
-    if (heard_check != e_get_check() || heard_data != e_get_data()) changes++;
-    heard_check = e_get_check();
+    /* each read once: the interrupt may fall between */
+    int check = e_get_check(), data = e_get_data();
+    if (heard_check != check || heard_data != data) changes++;
+    heard_check = check;
     heard_address = e_get_address();
-    heard_data = e_get_data();
+    heard_data = data;
   }
 }
 )";
@@ -79,7 +81,6 @@ TEST_F(FirmwareTest, remote_control_decodes_every_key_and_address) {
 
 // a key held for a second: nine frames with the same toggle bit are one change
 TEST_F(FirmwareTest, remote_control_sees_a_held_key_as_one) {
-  is_native();
   Robot& robot = add_robot_with_source(kListener);
   run_for(0.3);
   robot.press_key(5, 1);

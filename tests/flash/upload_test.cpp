@@ -344,7 +344,6 @@ std::string linked_hex(char name) {
   options.source_dir = folder;
   options.output = folder / "x.elf";
   options.cache_dir = folder / "cache";
-  options.chip_way = true;
   const cc::BuildResult built = cc::build_image(options);
   EXPECT_TRUE(built.ok);
   std::ifstream in(folder / "x.hex", std::ios::binary);

@@ -122,14 +122,13 @@ void source(std::string_view bytes) {
   const fs::path file = scratch() / "source" / "main.c";
   write(file, bytes);
   cc::defines_main(file);
-  cc::find_library_copies(file.parent_path(), {file});
+  cc::find_library_members(file.parent_path(), {file});
 }
 
 void elf(std::string_view bytes) {
   const fs::path file = scratch() / "x.so";
   write(file, bytes);
   cc::read_elf(file);
-  cc::function_costs(file);
 }
 
 void picture(std::string_view bytes) {

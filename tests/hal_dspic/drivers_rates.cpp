@@ -12,7 +12,7 @@ constexpr double kFcy = 14745600;
 
 struct Rates : FirmwareTest, ::testing::WithParamInterface<const char*> {
   Rates() {
-    options.way = "chip";
+    options.hal = "dspic";
     options.optimisation = GetParam();
   }
   static double by_level(double o0, double o1) { return std::string(GetParam()) == "-O0" ? o0 : o1; }

@@ -18,11 +18,7 @@ inline std::string sound_samples_source() {
       "\n"
       "#include \"hal.h\"\n"
       "\n"
-      "#ifdef __TWINPUCK_PC__\n"
-      "#define IN_PROGRAM_MEMORY\n"
-      "#else\n"
       "#define IN_PROGRAM_MEMORY __attribute__((__space__(prog)))\n"
-      "#endif\n"
       "\n"
       "/* two halves: the compiler's largest object is below 32 KB */\n";
   const auto& bank = *board::sound_bank();
@@ -43,16 +39,6 @@ inline std::string sound_samples_source() {
   }
   text +=
       "\n"
-      "#ifdef __TWINPUCK_PC__\n"
-      "\n"
-      "int hal_bank_sample(unsigned int index) {\n"
-      "  if (index >= HAL_BANK_SAMPLES) return 0;\n"
-      "  return index < HAL_BANK_SAMPLES / 2 ? first_half[index] : second_half[index - HAL_BANK_SAMPLES / "
-      "2];\n"
-      "}\n"
-      "\n"
-      "#else\n"
-      "\n"
       "/* an instruction word holds one sample in its lower 16 bits, and takes two addresses */\n"
       "int hal_bank_sample(unsigned int index) {\n"
       "  unsigned long at;\n"
@@ -67,9 +53,7 @@ inline std::string sound_samples_source() {
       "  sample = (int)__builtin_tblrdl((unsigned int)at);\n"
       "  TBLPAG = saved;\n"
       "  return sample;\n"
-      "}\n"
-      "\n"
-      "#endif\n";
+      "}\n";
   return text;
 }
 

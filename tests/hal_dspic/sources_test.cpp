@@ -30,7 +30,6 @@ std::string compile(const fs::path& source) {
   const std::string root = TWINPUCK_SOURCE_DIR, include = root + "/firmware/include";
   std::string line = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc -O1 --library --strict -o /dev/null -I" +
                      root + "/hal_dspic -I" + root;
-  if (source.parent_path() == root + "/hal_dspic/runtime") line += " --target=dspic30f6014a";
   for (const char* folder :
        {"", "/motor_led/advance_one_timer", "/motor_led", "/a_d/advance_ad_scan", "/a_d", "/uart", "/utility",
         "/camera/fast_2_timer", "/codec", "/bluetooth", "/I2C", "/fft", "/matlab", "/acc_gyro",
@@ -55,7 +54,7 @@ std::string text_of(const fs::path& file) {
 TEST(HalDspicSources, compile_without_a_warning) {
   const auto files = sources();
   ASSERT_GT(files.size(), 50u);
-  // XC16's table instructions come with the register way's header
+  // XC16's table instructions come with the device's header
   const bool has_tables =
       text_of(TWINPUCK_SOURCE_DIR "/firmware/include/p30F6014A.h").find("__builtin_tblrdl") !=
       std::string::npos;

@@ -17,7 +17,7 @@ using firmware_test::Robot;
 
 class WebotsOnChip : public firmware_test::FirmwareTest {
  protected:
-  WebotsOnChip() { options.way = "chip"; }
+  WebotsOnChip() { options.hal = "dspic"; }
 };
 
 const char* const kAvoid = R"(
@@ -107,7 +107,6 @@ std::string image_of(const std::string& controller) {
   o.source_dir = fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / controller;
   o.output = fs::path(TWINPUCK_BUILD_DIR) / "tests" / ("flashed_" + controller + ".elf");
   o.optimisation = "-O1";
-  o.chip_way = true;
   const auto result = cc::build_image(o);
   EXPECT_TRUE(result.ok);
   return o.output.string();
@@ -349,7 +348,6 @@ class WebotsForChip : public testing::Test {
     o.source_dir = folder_;
     o.output = folder_ / "out.elf";
     o.optimisation = "-O1";
-    o.chip_way = true;
     return cc::build_image(o);
   }
   static std::string all(const std::vector<std::string>& lines) {

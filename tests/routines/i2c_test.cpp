@@ -53,7 +53,6 @@ struct Robot {
     for (const auto& [address, word] : file.words) program.write(address, word);
     dspic::Configuration c;
     c.program = &program;
-    c.synchronised_ports = true;
     device = std::make_unique<dspic::Dspic30f6014a>(outside, &notes, c);
     cpu = std::make_unique<dspic::Processor>(*device, program);
   }

@@ -35,7 +35,6 @@ bool build(const std::string& source, dspic::FirmwareFile& file, std::string& er
   options.source_dir = folder.path;
   options.output = folder.path / "program.elf";
   options.optimisation = "-O1";
-  options.chip_way = true;
   const auto built = cc::build_image(options);
   for (const std::string& e : built.errors) error += e + "\n";
   if (!built.ok) return false;

@@ -144,9 +144,7 @@ FirmwareTest::FirmwareTest() {
   world.part_kinds = board::part_kinds();
   world.title = "test";
   world.proximity.noise_scale = 0;
-  // the same tests in another way: TWINPUCK_WAY=native, register or chip, or with a HAL: TWINPUCK_HAL=sim or
-  // dspic
-  if (const char* way = std::getenv("TWINPUCK_WAY")) options.way = way;
+  // the same tests with the other HAL: TWINPUCK_HAL=sim or dspic
   if (const char* hal = std::getenv("TWINPUCK_HAL")) options.hal = hal;
   // counts of all tests that run: TWINPUCK_COVERAGE=c.info
   if (const char* file = std::getenv("TWINPUCK_COVERAGE")) options.coverage = file;

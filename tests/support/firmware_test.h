@@ -144,10 +144,6 @@ class FirmwareTest : public ::testing::Test {
   void wall(double x0_m, double y0_m, double x1_m, double y1_m, sim::Colour colour = {1, 1, 1});
   /// A fixed box with its centre at (x, y).
   void box(double x_m, double y_m, double size_m, double heading_deg = 0);
-  /// What this test says holds natively: there it runs, unless it is told how.
-  void is_native() {
-    if (options.way.empty() && options.hal.empty()) options.way = "native";
-  }
   /// Starts from a world file instead (path relative to the project).
   void load_world(const std::string& path, Caller caller = Caller::here());
 

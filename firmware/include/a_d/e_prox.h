@@ -31,11 +31,11 @@ void e_stop_prox(void) TP_PROX(e_stop_prox);
 /** Reflected light, counts: dark sample minus lit sample; about 0 in free space, up to some thousand at
  *  contact; noise may make it slightly negative. `sensor_number` 0 to 7; 0 for larger numbers. Does not
  *  block. */
-TP_POLL int e_get_prox(unsigned int sensor_number) TP_PROX(e_get_prox);
+int e_get_prox(unsigned int sensor_number) TP_PROX(e_get_prox);
 
 /** Dark sample, counts 0 to 4095: more light gives a lower value, darkness nearly 4095. 0 for sensors above
  *  7. */
-TP_POLL int e_get_ambient_light(unsigned int sensor_number) TP_PROX(e_get_ambient_light);
+int e_get_ambient_light(unsigned int sensor_number) TP_PROX(e_get_ambient_light);
 
 #undef TP_PROX
 #endif

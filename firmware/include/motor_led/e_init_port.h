@@ -15,8 +15,8 @@
 void e_init_port(void);
 
 /** 1 on a robot of revision 1.3, else 0. Valid after e_init_port(). */
-TP_POLL unsigned char isEpuckVersion1_3(void);
+unsigned char isEpuckVersion1_3(void);
 /** The same under the name that the library of 2013 gave it (revision 1.3 was to be 1.1). */
-TP_POLL unsigned char isEpuckVersion1_1(void);
+unsigned char isEpuckVersion1_1(void);
 
 #endif

@@ -35,10 +35,10 @@ void e_set_speed_right(int motor_speed) TP_MOTORS(e_set_speed_right);
 
 /** Steps of the left wheel since start or e_set_steps_left(): +1 for each step forward, -1 backward, 16 bits,
  *  wraps after +-32767 (about 4.2 m). Does not block. */
-TP_POLL int e_get_steps_left(void) TP_MOTORS(e_get_steps_left);
+int e_get_steps_left(void) TP_MOTORS(e_get_steps_left);
 
 /** Steps of the right wheel; as e_get_steps_left(). */
-TP_POLL int e_get_steps_right(void) TP_MOTORS(e_get_steps_right);
+int e_get_steps_right(void) TP_MOTORS(e_get_steps_right);
 
 /** Sets the left counter; the wheel does not care. */
 void e_set_steps_left(int set_steps) TP_MOTORS(e_set_steps_left);

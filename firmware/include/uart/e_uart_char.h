@@ -20,10 +20,10 @@
 void e_init_uart1(void);
 
 /** Number of bytes waiting, 0 when none. */
-TP_POLL int e_ischar_uart1();
+int e_ischar_uart1();
 
 /** 1 and the next byte in *car, or 0 and *car untouched. Does not block. */
-TP_POLL int e_getchar_uart1(char *car);
+int e_getchar_uart1(char *car);
 
 /** Sends `length` bytes from `buff`. Blocks while an earlier transmission is still running, then returns at
  *  once while the bytes go out. length 0 counts down from 65536 and sends memory for 5.7 s.
@@ -31,7 +31,7 @@ TP_POLL int e_getchar_uart1(char *car);
 void e_send_uart1_char(const char *buff, int length);
 
 /** 1 while a transmission is running, else 0. */
-TP_POLL int e_uart1_sending(void);
+int e_uart1_sending(void);
 
 /** UART 2 at the given rate (BAUD115200, ...); otherwise as UART 1. */
 void e_init_uart2(int baud);
@@ -39,10 +39,10 @@ void e_init_uart2(int baud);
 /** As older programs call it: 115200 baud. */
 TP_OLDER_CALL void e_init_uart2(void) { e_init_uart2(BAUD115200); }
 #endif
-TP_POLL int e_ischar_uart2();
-TP_POLL int e_getchar_uart2(char *car);
+int e_ischar_uart2();
+int e_getchar_uart2(char *car);
 void e_send_uart2_char(const char *buff, int length);
-TP_POLL int e_uart2_sending(void);
+int e_uart2_sending(void);
 
 /** A byte received on a line can clear bits of a variable (a way to leave a loop); exists only when the
  *  library was assembled with UARTn_CLR_BIT_ON_INT. Not simulated: declared, never used. */

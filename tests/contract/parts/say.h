@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What the programs of this folder share: they measure with timer 1 and report over UART 1, a line "name
- * value" each and "end" at last, so the same text comes from the native way, the register way and a robot on
- * the table.
+ * value" each and "end" at last, so the same text comes from either HAL and from a robot on the table.
  */
 #ifndef SAY_H
 #define SAY_H

@@ -85,7 +85,7 @@ export class Inspector {
       return h("div", { className: "gauge", title: `${robot.name}.${name}${unit ? ", " + unit : ""}; click to plot`, onclick: () => this.app.plots.toggle(`${robot.name}.${name}`) },
         h("label", {}, name), h("div", { className: "track" }, bar), text);
     };
-    const variable = h("input", { placeholder: "counter, speed[1], reg:T2CON, pin:D3", id: "watch", title: "A global or static variable of the program, a register (register and chip way) or a pin; Enter watches it",
+    const variable = h("input", { placeholder: "counter, speed[1], reg:T2CON, pin:D3", id: "watch", title: "A global or static variable of the program, a register or a pin; Enter watches it",
       onchange: () => { if (variable.value.trim()) this.watch(robot.name, variable.value.trim()); } }) as HTMLInputElement;
     this.place = h("p", { className: "dim number" });
     return [

@@ -320,7 +320,7 @@ export class App {
     this.takeState({ ...this.state, playing: false });
   }
   private showSummary() {
-    const s = this.recorded!.summary, columns: [string, (r: any) => string][] = [["robot", (r) => r.name], ["program", (r) => r.firmware.split("/").pop()], ["way", (r) => r.way],
+    const s = this.recorded!.summary, columns: [string, (r: any) => string][] = [["robot", (r) => r.name], ["program", (r) => r.firmware.split("/").pop()], ["HAL", (r) => r.hal ?? "none"],
       ["x, m", (r) => r.x_m.toFixed(3)], ["y, m", (r) => r.y_m.toFixed(3)], ["path, m", (r) => r.distance_m.toFixed(3)], ["collisions", (r) => r.collisions],
       ["load", (r) => `${(100 * r.cpu_load).toFixed(0)} %`], ["battery used", (r) => `${(1000 * r.battery_used_wh).toFixed(0)} mWh`], ["traps", (r) => r.traps.length], ["diagnoses", (r) => r.diagnoses.length]];
     byId("pane-summary").replaceChildren(

@@ -37,27 +37,27 @@ typedef struct {
 
 /** Newest sample of axis 0, 1 or 2 minus its centre; 666 for other axes. Before e_acc_calibr() the centres
  *  are 0, 0 and 2000. */
-TP_POLL int e_get_acc(unsigned int captor);
+int e_get_acc(unsigned int captor);
 
 /** Mean of the newest `filter_size` samples (1 to 50) of an axis, centre not subtracted; 0 for larger sizes
  *  or other axes. filter_size 0 divides by zero: math-error trap. */
-TP_POLL int e_get_acc_filtered(unsigned int captor, unsigned int filter_size);
+int e_get_acc_filtered(unsigned int captor, unsigned int filter_size);
 
 /** Acceleration in spherical coordinates, from means of 5 samples. */
-TP_POLL TypeAccSpheric e_read_acc_spheric(void);
+TypeAccSpheric e_read_acc_spheric(void);
 
 /** Degrees; as the fields of TypeAccSpheric. Each call updates from fresh samples. */
-TP_POLL float e_read_orientation(void);
-TP_POLL float e_read_inclination(void);
+float e_read_orientation(void);
+float e_read_inclination(void);
 
 /** Length of the acceleration, counts. */
-TP_POLL float e_read_acc(void);
+float e_read_acc(void);
 
 /** Means of 5 samples minus the centres, counts: all axes, or one. */
-TP_POLL TypeAccRaw e_read_acc_xyz(void);
-TP_POLL int e_read_acc_x(void);
-TP_POLL int e_read_acc_y(void);
-TP_POLL int e_read_acc_z(void);
+TypeAccRaw e_read_acc_xyz(void);
+int e_read_acc_x(void);
+int e_read_acc_y(void);
+int e_read_acc_z(void);
 
 /** Takes the present mean of 50 samples as the centre of x and y, and mean - 768 as that of z. The robot must
  *  stand flat and still. Does not block. e_init_ad_scan() returns one sample (4 ms) before all 50 are there: at

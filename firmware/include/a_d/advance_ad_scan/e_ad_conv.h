@@ -46,11 +46,11 @@ TP_OLDER_CALL void e_init_ad_scan(void) { e_init_ad_scan(ALL_ADC); }
 
 /** 1 for one interrupt period (65 us) after the microphone buffers have wrapped, else 0. Poll it without
  *  pause. */
-TP_POLL unsigned char e_ad_is_array_filled(void);
+unsigned char e_ad_is_array_filled(void);
 
 /** 0 while the interrupt files samples, else 1; the main program therefore always sees 1 once the scan
  *  runs. */
-TP_POLL unsigned char e_ad_is_acquisition_completed(void);
+unsigned char e_ad_is_acquisition_completed(void);
 
 /** Converter on, off; buffers keep their content. Do not block. */
 void e_ad_scan_on(void);

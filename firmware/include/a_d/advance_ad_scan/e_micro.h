@@ -13,7 +13,7 @@
 #define MIC2_BUFFER 2
 
 /** The oldest sample in the buffer, about 6.1 ms old, counts. `micro_id` 0 to 2, unchecked. */
-TP_POLL int e_get_micro(unsigned int micro_id);
+int e_get_micro(unsigned int micro_id);
 
 /** Mean of the oldest sample and the newest `filter_size` - 1; size 1 to MIC_SAMP_NB, larger gives 0.
  *  Size 0 divides by zero: math-error trap. */

@@ -17,13 +17,13 @@ void e_calibrate_ir();
 
 /** Reflected light, counts: dark sample minus lit sample; about 0 in free space, up to some thousand at
  *  contact; noise may make it slightly negative. 0 for sensors above 9. Does not block. */
-TP_POLL int e_get_prox(unsigned int sensor_number);
+int e_get_prox(unsigned int sensor_number);
 
 /** The same minus the calibration, never below 0. Without calibration: e_get_prox() clipped at 0. */
-TP_POLL int e_get_calibrated_prox(unsigned int sensor_number);
+int e_get_calibrated_prox(unsigned int sensor_number);
 
 /** Dark sample, counts 0 to 4095: more light gives a lower value, darkness nearly 4095. 0 for sensors above
  *  9. */
-TP_POLL int e_get_ambient_light(unsigned int sensor_number);
+int e_get_ambient_light(unsigned int sensor_number);
 
 #endif

@@ -44,7 +44,7 @@ void e_poxxxx_launch_capture(char *buf);
 
 /** 1 when the last line has been stored, until the next launch; 0 before any launch. A capture takes up to
  *  two frame times. */
-TP_POLL int e_poxxxx_is_img_ready(void);
+int e_poxxxx_is_img_ready(void);
 
 /** Mirrors the picture. PO3030K: needs e_poxxxx_write_cam_registers(). */
 void e_poxxxx_set_mirror(int vertical, int horizontal);

@@ -58,7 +58,7 @@ void e_po3030k_launch_capture(char *buf);
 void e_po3030k_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl);
 
 /** 1 when the picture is complete, until the next launch. */
-TP_POLL int e_po3030k_is_img_ready(void);
+int e_po3030k_is_img_ready(void);
 
 /** Colour mode, sampling mode, pixel clock (not SPEED_128). 0, or -1 for a wrong argument. */
 int e_po3030k_set_color_mode(int mode);

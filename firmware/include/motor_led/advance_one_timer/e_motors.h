@@ -39,7 +39,7 @@ void e_set_steps_right(int steps_right);
 
 /** Steps since start or e_set_steps_*(): +1 for each step forward, -1 backward, 16 bits, wraps after +-32767
  *  (about 4.2 m). Do not block. */
-TP_POLL int e_get_steps_left();
-TP_POLL int e_get_steps_right();
+int e_get_steps_left();
+int e_get_steps_right();
 
 #endif

@@ -26,12 +26,12 @@ void e_init_remote_control(void);
 void e_read_remote_control(void);
 
 /** Toggle bit of the last command: changes with each new key press, 0 or 1; 2 before the first command. */
-TP_POLL unsigned char e_get_check(void);
+unsigned char e_get_check(void);
 
 /** Device address of the last command, 0 to 31; 0 before the first. */
-TP_POLL unsigned char e_get_address(void);
+unsigned char e_get_address(void);
 
 /** Key of the last command, 0 to 63; 0 before the first. Stays until the next command. */
-TP_POLL unsigned char e_get_data(void);
+unsigned char e_get_data(void);
 
 #endif

@@ -4,6 +4,6 @@
 #ifdef NDEBUG
 #define assert(condition) ((void)0)
 #else
-void tp_image_assert(const char* __file, int __line, const char* __text);
-#define assert(condition) ((condition) ? (void)0 : tp_image_assert(__FILE__, __LINE__, #condition))
+void tp_assert_failed(const char* __file, int __line, const char* __text);
+#define assert(condition) ((condition) ? (void)0 : tp_assert_failed(__FILE__, __LINE__, #condition))
 #endif

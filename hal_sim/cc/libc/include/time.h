@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: a robot has no calendar. time() and clock() count cycles, as XC16's do: in timers 2 and 3 in
- * the register way, from the first call on in the native way. */
+ * Firmware libc: a robot has no calendar. time() and clock() count cycles, as XC16's do, in timers 2 and 3. */
 #ifndef TP_LIBC_TIME_H
 #define TP_LIBC_TIME_H
 #include <stddef.h>

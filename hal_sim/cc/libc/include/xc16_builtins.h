@@ -8,17 +8,6 @@
 #define __builtin_nop() __asm__ volatile("nop")
 #define __builtin_clrwdt() __asm__ volatile("clrwdt")
 #define __builtin_software_breakpoint() __asm__ volatile("nop")
-#ifdef __TWINPUCK_PC__
-#define __builtin_pwrsav(mode) tp_power_save(mode)
-#define __builtin_disi(cycles) tp_disi(cycles)
-
-/* addresses in program memory, as table instructions and the window into it take them */
-#define __builtin_tbladdress(object) tp_image_program_address(object)
-#define __builtin_tblpage(object) ((unsigned)(tp_image_program_address(object) >> 16))
-#define __builtin_tbloffset(object) ((unsigned)tp_image_program_address(object))
-#define __builtin_psvpage(object) ((unsigned)(tp_image_program_address(object) >> 15))
-#define __builtin_psvoffset(object) ((unsigned)tp_image_program_address(object) | 0x8000u)
-#else
 #define __builtin_pwrsav(mode) __asm__ volatile("pwrsav %0" : : "i"(mode))
 #define __builtin_disi(cycles) __asm__ volatile("disi %0" : : "i"(cycles))
 #define TP_OF_ADDRESS(function, object)                              \
@@ -45,7 +34,6 @@
 #define __builtin_tblrdhb(offset) (TP_TABLE_READ("tblrdh.b", offset) & 0xFFu)
 #define __builtin_tblwtl(offset, value) __asm__ volatile("tblwtl %0, [%1]" : : "r"(value), "r"(offset))
 #define __builtin_tblwth(offset, value) __asm__ volatile("tblwth %0, [%1]" : : "r"(value), "r"(offset))
-#endif
 
 /* 16 x 16 -> 32 bits */
 #define __builtin_mulss(a, b) ((long)(int)(a) * (int)(b))
@@ -65,11 +53,6 @@
 /* single bits of a word; ff1l and ff1r: number of the first one from the left or right, from 1 on, 0 for
  * none; fbcl: minus the number of bits that only repeat the sign */
 #define __builtin_btg(pointer, bit) (*(pointer) ^= 1u << (bit))
-#ifdef __TWINPUCK_PC__
-#define __builtin_ff1l(word) tp_ff1l(word)
-#define __builtin_ff1r(word) tp_ff1r(word)
-#define __builtin_fbcl(word) tp_fbcl(word)
-#else
 #define TP_FIND_BIT(instruction, word)                             \
   ({                                                               \
     int __v;                                                       \
@@ -103,15 +86,7 @@ extern void __builtin_movsac(int** x, int* x_value, int x_step, int** y, int* y_
 extern int __builtin_sac(int acc, int shift);
 extern int __builtin_sacr(int acc, int shift);
 extern int __builtin_sftac(int acc, int shift);
-#endif
 
-#ifdef __TWINPUCK_PC__
-extern void tp_disi(long long cycles);
-extern void tp_power_save(long long mode);
-extern unsigned tp_image_table_read(unsigned long program_address);
-extern unsigned long tp_image_program_address(const volatile void* object);
-extern void tp_table_write(long long address, long long value);
-#endif
 
 #define TP_BUILTIN static __inline__ __attribute__((always_inline, unused))
 
@@ -125,28 +100,6 @@ TP_BUILTIN unsigned tp_divmodud(unsigned long __a, unsigned __b, unsigned* __res
   return (unsigned)(__a / __b);
 }
 
-#ifdef __TWINPUCK_PC__
-TP_BUILTIN int tp_ff1r(unsigned __word) {
-  int __bit;
-  for (__bit = 1; __bit <= 16; __bit++, __word >>= 1)
-    if (__word & 1) return __bit;
-  return 0;
-}
-
-TP_BUILTIN int tp_ff1l(unsigned __word) {
-  int __bit;
-  for (__bit = 1; __bit <= 16; __bit++, __word <<= 1)
-    if (__word & 0x8000u) return __bit;
-  return 0;
-}
-
-TP_BUILTIN int tp_fbcl(int __word) {
-  int __count;
-  if (__word < 0) __word = ~__word;
-  for (__count = 0; __count < 15 && !(__word & 0x4000); __count++) __word <<= 1;
-  return -__count;
-}
-#endif
 
 #undef TP_BUILTIN
 

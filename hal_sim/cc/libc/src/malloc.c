@@ -1,30 +1,17 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: first-fit heap inside the image's data, so each robot has its own. XC16 gives no heap unless the
- * linker is told; 2048 bytes is what student projects ask for. */
+ * Firmware libc: first-fit heap in what the linker was told to leave. */
 #include <stdlib.h>
 #include <string.h>
-
-#ifndef TP_HEAP_BYTES
-#define TP_HEAP_BYTES 2048
-#endif
 
 struct block {
   unsigned int bytes; /* of the payload, even */
   unsigned int used;
 };
 
-#ifdef __TWINPUCK_PC__
-/* exported: the host fills it, as RAM that the start-up code does not clear holds anything */
-__attribute__((aligned(8), visibility("default"))) char tp_image_heap[TP_HEAP_BYTES];
-__attribute__((visibility("default"))) unsigned int tp_image_heap_bytes = TP_HEAP_BYTES;
-#define HEAP tp_image_heap
-#define HEAP_END (tp_image_heap + TP_HEAP_BYTES)
-#else
 /* what the linker was told to leave */
 extern char _heap[], _eheap[];
 #define HEAP _heap
 #define HEAP_END _eheap
-#endif
 #define HEAP_ROOM ((unsigned int)(HEAP_END - HEAP))
 static int ready;
 

@@ -1,14 +1,7 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: single-precision mathematics. The value comes from the host, the time from published figures of
- * the vendor's library (or, where none is known, from the generic routine scaled by the ratio of those that are). */
+ * Firmware libc: single-precision mathematics. What takes series and tables is the
+ * runtime's (hal_dspic/runtime/math_functions.c). */
 #include <math.h>
-#include "hal_sim/host/image_abi.h"
-#include "hal_sim/host/pins.h"
-#include "math_costs.h"
-
-#ifndef __TWINPUCK_PC__
-#define tp_spend(cycles) ((void)0) /* the chip takes the time itself */
-#endif
 
 union bits { float f; unsigned long u; };
 
@@ -31,130 +24,58 @@ float tp_m_atan2f(float x, float y);
 float tp_m_powf(float x, float y);
 float tp_m_fmodf(float x, float y);
 
-double sin(double x)
-{
-  tp_spend(kCycles_sin);
-  return tp_m_sinf(x);
-}
+double sin(double x) { return tp_m_sinf(x); }
 float sinf(float x) { return sin(x); }
 
-double cos(double x)
-{
-  tp_spend(kCycles_cos);
-  return tp_m_cosf(x);
-}
+double cos(double x) { return tp_m_cosf(x); }
 float cosf(float x) { return cos(x); }
 
-double tan(double x)
-{
-  tp_spend(kCycles_tan);
-  return tp_m_tanf(x);
-}
+double tan(double x) { return tp_m_tanf(x); }
 float tanf(float x) { return tan(x); }
 
-double asin(double x)
-{
-  tp_spend(kCycles_asin);
-  return tp_m_asinf(x);
-}
+double asin(double x) { return tp_m_asinf(x); }
 float asinf(float x) { return asin(x); }
 
-double acos(double x)
-{
-  tp_spend(kCycles_acos);
-  return tp_m_acosf(x);
-}
+double acos(double x) { return tp_m_acosf(x); }
 float acosf(float x) { return acos(x); }
 
-double atan(double x)
-{
-  tp_spend(kCycles_atan);
-  return tp_m_atanf(x);
-}
+double atan(double x) { return tp_m_atanf(x); }
 float atanf(float x) { return atan(x); }
 
-double sinh(double x)
-{
-  tp_spend(kCycles_sinh);
-  return tp_m_sinhf(x);
-}
+double sinh(double x) { return tp_m_sinhf(x); }
 float sinhf(float x) { return sinh(x); }
 
-double cosh(double x)
-{
-  tp_spend(kCycles_cosh);
-  return tp_m_coshf(x);
-}
+double cosh(double x) { return tp_m_coshf(x); }
 float coshf(float x) { return cosh(x); }
 
-double tanh(double x)
-{
-  tp_spend(kCycles_tanh);
-  return tp_m_tanhf(x);
-}
+double tanh(double x) { return tp_m_tanhf(x); }
 float tanhf(float x) { return tanh(x); }
 
-double exp(double x)
-{
-  tp_spend(kCycles_exp);
-  return tp_m_expf(x);
-}
+double exp(double x) { return tp_m_expf(x); }
 float expf(float x) { return exp(x); }
 
-double log(double x)
-{
-  tp_spend(kCycles_log);
-  return tp_m_logf(x);
-}
+double log(double x) { return tp_m_logf(x); }
 float logf(float x) { return log(x); }
 
-double log10(double x)
-{
-  tp_spend(kCycles_log10);
-  return tp_m_log10f(x);
-}
+double log10(double x) { return tp_m_log10f(x); }
 float log10f(float x) { return log10(x); }
 
-double sqrt(double x)
-{
-  tp_spend(kCycles_sqrt);
-  return tp_m_sqrtf(x);
-}
+double sqrt(double x) { return tp_m_sqrtf(x); }
 float sqrtf(float x) { return sqrt(x); }
 
-double floor(double x)
-{
-  tp_spend(kCycles_floor);
-  return tp_m_floorf(x);
-}
+double floor(double x) { return tp_m_floorf(x); }
 float floorf(float x) { return floor(x); }
 
-double ceil(double x)
-{
-  tp_spend(kCycles_ceil);
-  return tp_m_ceilf(x);
-}
+double ceil(double x) { return tp_m_ceilf(x); }
 float ceilf(float x) { return ceil(x); }
 
-double atan2(double x, double y)
-{
-  tp_spend(kCycles_atan2);
-  return tp_m_atan2f(x, y);
-}
+double atan2(double x, double y) { return tp_m_atan2f(x, y); }
 float atan2f(float x, float y) { return atan2(x, y); }
 
-double pow(double x, double y)
-{
-  tp_spend(kCycles_pow);
-  return tp_m_powf(x, y);
-}
+double pow(double x, double y) { return tp_m_powf(x, y); }
 float powf(float x, float y) { return pow(x, y); }
 
-double fmod(double x, double y)
-{
-  tp_spend(kCycles_fmod);
-  return tp_m_fmodf(x, y);
-}
+double fmod(double x, double y) { return tp_m_fmodf(x, y); }
 float fmodf(float x, float y) { return fmod(x, y); }
 
 double fabs(double x)

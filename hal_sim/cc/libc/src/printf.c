@@ -5,7 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
-#include "hal_sim/host/image_abi.h"
+#include <tp_runtime.h>
 
 struct sink {
   char *at, *end;      /* memory, or 0 */

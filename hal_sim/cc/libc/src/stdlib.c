@@ -3,7 +3,7 @@
  * exit(n) and abort() are traps here, so nobody mistakes them for a quiet end. */
 #include <stdlib.h>
 #include <ctype.h>
-#include "hal_sim/host/image_abi.h"
+#include <tp_runtime.h>
 
 int errno;
 
@@ -72,8 +72,16 @@ ldiv_t ldiv(long a, long b)
   return r;
 }
 
-int rand(void) { return (int)tp_rand(); }
-void srand(unsigned int seed) { tp_srand(seed); }
+/* the example of the C standard (7.20.2.2), which XC16's library uses as well */
+static unsigned long random_state = 1;
+
+void srand(unsigned int seed) { random_state = seed; }
+
+int rand(void)
+{
+  random_state = random_state * 1103515245ul + 12345ul;
+  return (int)(random_state >> 16) & RAND_MAX;
+}
 
 static void swap(char *a, char *b, size_t n)
 {
@@ -124,9 +132,7 @@ void *bsearch(const void *key, const void *base, size_t n, size_t bytes, int (*c
 
 void abort(void)
 {
-  tp_trap_message(TP_TRAP_ABORT, "abort()");
-  for (;;) {
-  }
+  tp_give_up();
 }
 
 int atexit(void (*function)(void)) { return function == 0; /* the program of a robot never ends */ }

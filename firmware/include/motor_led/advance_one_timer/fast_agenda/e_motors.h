@@ -24,7 +24,7 @@ void e_set_steps_right(int steps_right) TP_VARIANT(tpfast_, e_set_steps_right);
 
 /** Step counters, 16 bits, wrap after +-32767. The right one counts with a sign that differs from the other
  *  drivers, as in the original. */
-TP_POLL int e_get_steps_left() TP_VARIANT(tpfast_, e_get_steps_left);
-TP_POLL int e_get_steps_right() TP_VARIANT(tpfast_, e_get_steps_right);
+int e_get_steps_left() TP_VARIANT(tpfast_, e_get_steps_left);
+int e_get_steps_right() TP_VARIANT(tpfast_, e_get_steps_right);
 
 #endif
