@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/median.h"
-#include "hal_sim/cc/build.h"
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/build/build.h"
+#include "compiler/cache/object_cache.h"
 #include "hal_sim/twin/twin.h"
 
 namespace bench {

@@ -28,10 +28,8 @@
 void hal_set_ring(unsigned int led, unsigned int value);
 /** All eight at once. */
 void hal_set_rings(unsigned int value);
-#define set_ring(led, value) hal_set_ring(led, value)
-#define hal_note_led(led)
-#define set_front(value) HAL_SET_PIN(FRONT_LED, value)
-#define set_body(value) HAL_SET_PIN(BODY_LED, value)
+#define hal_set_front(value) HAL_SET_PIN(FRONT_LED, value)
+#define hal_set_body(value) HAL_SET_PIN(BODY_LED, value)
 
 /* --- motors ------------------------------------------------------------------------------------------- */
 
@@ -47,11 +45,6 @@ void hal_pause(unsigned int rounds);
 
 /* --- converter ---------------------------------------------------------------------------------------- */
 
-/* the interrupt keeps the driver's variables itself */
-#define twinpuck_refresh_adc_counters() ((void)0)
-#define twinpuck_refresh_mic() ((void)0)
-#define twinpuck_refresh_acc() ((void)0)
-#define twinpuck_refresh_ir(sensor) ((void)(sensor))
 /** Newest accelerometer sample of an axis; times the scan was started. */
 #define hal_acc_newest(axis) (e_acc_scan[axis][e_last_acc_scan_id])
 #define hal_scan_starts() (hal_starts)
@@ -62,7 +55,7 @@ extern unsigned int hal_starts;
 /* --- remote control ----------------------------------------------------------------------------------- */
 
 /** In firmware/library: what a falling edge of the receiver does. */
-void twinpuck_remote_edge(void);
+void hal_remote_edge(void);
 #define hal_remote_level() ((unsigned char)REMOTE)
 void hal_remote_arm(void);
 void hal_remote_disarm(void);

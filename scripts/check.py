@@ -22,32 +22,35 @@ LARGEST_FILE = 1 << 20  # bytes
 
 # rooms of the simulator core, each may include itself and those to its left
 CORE = ["base", "random", "geometry", "physics", "world", "light", "camera", "sound", "radio", "record", "load"]
-CHIP = ["memory", "periph", "device", "core", "routines", "asm", "load", "llvm", "translate"]
+CHIP = ["memory", "periph", "device", "core", "routines", "asm", "load", "link", "llvm", "translate"]
 # other rooms -> what they may include, as prefixes of the path (their own folder is always allowed)
 MAY_INCLUDE = {
     "hal_sim/board": ["sim_core/base", "sim_core/world", "sim_core/light", "sim_core/camera", "sim_core/sound",
                       "sim_core/radio", "sim_core/random"],
     "hal_sim/drivers": ["hal_sim/board", "sim_core/base"],
-    "hal_sim/host": ["dspic30/memory", "hal_sim/board", "hal_sim/drivers", "sim_core/base", "sim_core/world/robot_mind.h", "sim_core/world/scene.h"],
+    "hal_sim/host": ["hal_sim/board", "hal_sim/drivers", "sim_core/base", "sim_core/world/robot_mind.h", "sim_core/world/scene.h"],
     "hal_sim/api": ["hal_sim/drivers", "hal_sim/board", "dspic30/memory", "dspic30/core", "dspic30/periph/vectors.h", "sim_core/base"],
     "firmware/library": ["firmware/include"],
-    "hal_sim/cc": ["dspic30/memory/irqs.inc", "dspic30/memory/irqs.h", "dspic30/memory/host_places.h", "hal_sim/board/cycle.h", "hal_sim/host/image_abi.h", "hal_sim/host/image_stamp.h", "hal_sim/host/pins",
-                   "hal_sim/api/timings.h", "hal_sim/api/host_table", "dspic30/llvm/target.h", "dspic30/llvm/link.h", "sim_core/base/pattern.h"],  # its libc calls the host
+    "firmware/libc": ["hal_dspic/runtime"],
+    "compiler/cache": ["sim_core/base"],
+    "compiler/projects": ["compiler/cache", "sim_core/base"],
+    "compiler/build": ["compiler/cache", "compiler/projects", "hal_sim/api/host_table", "sim_core/base"],
+    "compiler/front": ["compiler/cache", "dspic30/memory", "dspic30/link", "dspic30/llvm", "sim_core/base"],
     "hal_sim/trace": ["hal_sim/board", "hal_sim/drivers/driver_params.h", "hal_sim/host", "dspic30", "sim_core/base", "sim_core/load"],
     # ties board, host and world together
-    "hal_sim/twin": ["hal_sim/", "sim_core/", "programs/build/build.h", "programs/puck/program_runner.h"],
+    "hal_sim/twin": ["hal_sim/", "compiler/", "sim_core/", "programs/build/build.h", "programs/puck/program_runner.h"],
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
-    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/endless_wait.h", "hal_sim/host/oscillator.h", "dspic30", "sim_core/base"],
-    "hal_dspic": ["firmware/include", "firmware/library", "hal_sim/host/image_abi.h"],  # runtime: what the libc asks for
+    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base"],
+    "hal_dspic": ["firmware/include", "firmware/library"],
     "programs/process": ["programs/link"],
-    "programs/build": ["hal_sim/cc/child_process.h", "hal_sim/cc/memory_limit.h", "sim_core/base"],
+    "programs/build": ["compiler/cache/child_process.h", "compiler/cache/memory_limit.h", "sim_core/base"],
     "programs/puck": ["hal_sim/board", "hal_sim/drivers", "hal_sim/host", "sim_core", "programs/link",
                       "firmware/include/webots/nodes.h"],
     "programs/world": ["hal_sim/", "sim_core/", "import/", "programs/link"],  # nodes of a whole twin
     "programs/team": ["hal_sim/", "sim_core/", "programs/", "firmware/include/webots/nodes.h"],
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
-    "viewer": ["hal_sim/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
+    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
@@ -58,7 +61,7 @@ NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],
-    "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["hal_sim/cc", "dspic30/llvm", "dspic30/translate"], "clang/": ["hal_sim/cc"],
+    "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["compiler/front", "dspic30/link", "dspic30/llvm", "dspic30/translate"], "clang/": ["compiler/front"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["dspic30/load", "programs/team"], "elfutils/": ["programs/team"],
     "libelf.h": ["dspic30/load"], "vpx/": ["sim_core/record"], "zlib.h": ["sim_core/record", "viewer/report.cpp"],
     "jpeglib.h": ["import", "programs/controller"], "png.h": ["programs/controller"],
@@ -87,7 +90,7 @@ def committed_files():
 
 def room_of(path):
     parts = path.split("/")
-    if path.startswith(("firmware/library/", "programs/")):
+    if path.startswith(("firmware/library/", "firmware/libc/", "programs/", "compiler/")):
         return "/".join(parts[:2])
     if parts[0] in ("sim_core", "dspic30", "hal_sim") and len(parts) > 2:
         return "/".join(parts[:2])
@@ -127,7 +130,7 @@ def check_includes(path, text):
                 problem(path, number, "%s may not include %s" % (room_of(path), target))
             if room_of(path) != room_of(target) and not path.startswith(FREE_ROOMS) and not path.endswith("/test.cpp"):
                 arrows.setdefault((room_of(path), room_of(target)), "%s:%d" % (path, number))
-        if path.startswith("dspic30/") and not path.startswith(("dspic30/llvm/", "dspic30/translate/")) and match.group(1) == "<" and re.search(r"[./]", target):
+        if path.startswith("dspic30/") and not path.startswith(("dspic30/link/", "dspic30/llvm/", "dspic30/translate/")) and match.group(1) == "<" and re.search(r"[./]", target):
             if not (path.startswith("dspic30/load/") and target in ("gelf.h", "libelf.h")):
                 problem(path, number, "dspic30 uses the standard library only, not <%s>" % target)
         for package, rooms in PACKAGE_ROOMS.items():

@@ -27,11 +27,11 @@ NO_PROTOTYPES = {"p30F6014A.h",
 # declared by the original library's headers and contained in none of its versions: not linked there, nor here
 ONLY_DECLARED = {"e_i2cp_read_string", "e_i2cp_write_string",
                  "e_po6030k_set_color_mode", "e_po8030d_set_color_mode"}
-# of the vendor's libpic30 on the chip, of hal_sim/cc/libc/src/eedata.c here
+# of the vendor's libpic30 on the chip, of firmware/libc/src/eedata.c here
 VENDORS_LIBRARY = {"_erase_eedata", "_erase_eedata_all", "_memcpy_p2d16", "_wait_eedata", "_write_eedata_row", "_write_eedata_word"}
 # a header's own variant macro -> (switch, prefix with the switch, prefix without)
-VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tptimer3_", "tpbasic_"),
-                  "TP_PROX": ("E_PROX_TIMER2", "tpt2_", "tpbasic_")}
+VARIANT_MACROS = {"TP_MOTORS": ("E_MOTORS_TIMER3", "tp_timer3_", "tp_basic_"),
+                  "TP_PROX": ("E_PROX_TIMER2", "tp_t2_", "tp_basic_")}
 
 
 def plain(text):

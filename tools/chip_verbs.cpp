@@ -8,11 +8,11 @@
 #include <iostream>
 #include <iterator>
 
+#include "compiler/cache/memory_limit.h"
 #include "dspic30/asm/assembler.h"
 #include "dspic30/core/disassembler.h"
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
-#include "hal_sim/cc/memory_limit.h"
 #include "sim_core/base/pattern.h"
 #include "tools/command_line.h"
 #include "tools/program_file.h"

@@ -39,8 +39,9 @@ void add_hal(CLI::App& verb, std::string& hal) {
           "or dspic, the image that is flashed; default: the world's, else sim")
       ->check(CLI::IsMember({"sim", "dspic"}));
   const auto gone = [](const std::string& way) {
-    throw CLI::ValidationError("--way", "got " + way + ", expected --hal sim or --hal dspic; native is --hal "
-                                        "sim now, chip is --hal dspic");
+    throw CLI::ValidationError("--way", "got " + way +
+                                            ", expected --hal sim or --hal dspic; native is --hal "
+                                            "sim now, chip is --hal dspic");
   };
   verb.add_option_function<std::string>("--way", gone)->group("");
 }

@@ -85,8 +85,7 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   a.optimisation = launch.value("opt", a.optimisation);
   a.hal = launch.value("hal", a.hal);
   for (const auto& [key, value, known] :
-       {std::tuple("hal", &a.hal, &kHals),
-        std::tuple("opt", &a.optimisation, &kLevels)})
+       {std::tuple("hal", &a.hal, &kHals), std::tuple("opt", &a.optimisation, &kLevels)})
     if (!value->empty() && !is_one_of(*value, *known)) {
       problems.push_back(
           fmt::format("launch: {}: got '{}', expected {}", key, *value, fmt::join(*known, ", ")));
@@ -138,8 +137,8 @@ void add_debug(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("debug", "Debug a robot's program: breakpoints, steps forwards and back");
   auto a = std::make_shared<DebugArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
-  one_each(verb->add_option(
-      "--fw", a->firmware, "[ROBOT=]FILE: an .elf or .hex, a folder of C files, or a controller's name"));
+  one_each(verb->add_option("--fw", a->firmware,
+                            "[ROBOT=]FILE: an .elf or .hex, a folder of C files, or a controller's name"));
   add_hal(*verb, a->hal);
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");

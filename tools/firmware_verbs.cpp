@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "hal_sim/cc/build.h"
+#include "compiler/build/build.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 #include "programs/build/build.h"

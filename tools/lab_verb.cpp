@@ -14,7 +14,7 @@
 #include <map>
 #include <memory>
 
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "hal_sim/twin/twin.h"
 #include "tools/command_line.h"
 #include "tools/lab_mine.h"

@@ -15,7 +15,7 @@
 #include <string>
 #include <thread>
 
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "sim_core/base/check.h"
 #include "tools/verbs.h"
 
@@ -111,8 +111,7 @@ std::string limit_text() {
   text += code == kHostTime
               ? "host time: got more than " + limit_text() + " s, expected at most " + limit_text() + " s"
               : "interrupted";
-  if (was_graceful)
-    text += "; the simulator did not come back from a step; recordings hold what was written";
+  if (was_graceful) text += "; the simulator did not come back from a step; recordings hold what was written";
   tell((text + '\n').c_str());
   if (was_graceful && write_rest) write_rest();
   _exit(code);

@@ -304,7 +304,8 @@ void add_run(CLI::App& app, int& exit_code) {
       "--strict", a->strict,
       "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md), or "
       "its data and stack do not fit the chip");
-  verb->add_flag("--sanitize", a->sanitize, "check every access of memory and 16-bit overflow in controllers built from source");
+  verb->add_flag("--sanitize", a->sanitize,
+                 "check every access of memory and 16-bit overflow in controllers built from source");
   verb->add_option(
           "--opt", a->optimisation,
           "level for controllers built from source; without it, that of a program's project file, else -O1")

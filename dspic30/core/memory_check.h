@@ -21,9 +21,9 @@ struct Decoded;
 
 struct MemoryFinding {
   enum class Kind : std::uint8_t {
-    Unwritten,  ///< what was read there decides something, and nobody wrote it
-    Outside,    ///< an access to what belongs to nobody
-    Freed,      ///< ... to what was given back
+    Unwritten,   ///< what was read there decides something, and nobody wrote it
+    Outside,     ///< an access to what belongs to nobody
+    Freed,       ///< ... to what was given back
     AboveStack,  ///< ... beyond the top of the stack
     Null         ///< ... through a null pointer: the W registers lie there
   };

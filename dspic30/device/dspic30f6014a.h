@@ -34,9 +34,9 @@ struct ChipParts;
 
 /// Configuration words and what else is fixed while the chip is powered. Defaults are the e-puck's.
 struct Configuration {
-  std::uint16_t fosc = 0xFFE6;  ///< XT with PLL x8, no clock switching
-  std::uint16_t fwdt = 0x7FFF;  ///< watchdog off, postscalers 1:512 and 1:16 when RCON.SWDTEN turns it on
-  double fcy_hz = 14745600;     ///< instruction cycles a second: for times given in seconds, baud rates
+  std::uint16_t fosc = 0xFFE6;      ///< XT with PLL x8, no clock switching
+  std::uint16_t fwdt = 0x7FFF;      ///< watchdog off, postscalers 1:512 and 1:16 when RCON.SWDTEN turns it on
+  double fcy_hz = 14745600;         ///< instruction cycles a second: for times given in seconds, baud rates
   bool warn_uninitialised = false;  ///< report reads of registers with an undefined power-on value
   /// The data EEPROM, which outlives the chip; null: its own, blank.
   EepromMemory* eeprom = nullptr;

@@ -4,7 +4,7 @@
 #include "dspic30/asm/device_names.h"
 #include "dspic30/asm/expression.h"
 #include "dspic30/asm/section_text.h"
-#include "dspic30/llvm/memory_spaces.h"
+#include "dspic30/link/memory_spaces.h"
 #include "llvm/ADT/StringExtras.h"
 #include "llvm/MC/MCContext.h"
 #include "llvm/MC/MCExpr.h"

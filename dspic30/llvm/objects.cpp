@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // ELF objects: which places are left to the linker, and under which number. Only branches within a section
 // are settled here. A word of program takes four octets, and addresses within a section count octets.
+#include "dspic30/link/memory_spaces.h"
 #include "dspic30/llvm/fixups.h"
 #include "dspic30/llvm/mc.h"
-#include "dspic30/llvm/memory_spaces.h"
 #include "llvm/BinaryFormat/ELF.h"
 #include "llvm/MC/MCAsmBackend.h"
 #include "llvm/MC/MCAssembler.h"

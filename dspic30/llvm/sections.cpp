@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Which ELF section a function or variable gets: one each, so that the linker can leave out what nobody uses.
+#include "dspic30/link/memory_spaces.h"
 #include "dspic30/llvm/machine.h"
-#include "dspic30/llvm/memory_spaces.h"
+#include "dspic30/llvm/small_variables.h"
 #include "llvm/BinaryFormat/ELF.h"
 #include "llvm/CodeGen/TargetLoweringObjectFileImpl.h"
 #include "llvm/IR/GlobalVariable.h"

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Instruction selection: the patterns of the .td files, and by hand what patterns cannot say (pairs of
 // results, post-increment, stack objects).
+#include "dspic30/link/memory_spaces.h"
 #include "dspic30/llvm/machine.h"
-#include "dspic30/llvm/memory_spaces.h"
+#include "dspic30/llvm/small_variables.h"
 #include "llvm/CodeGen/SelectionDAGISel.h"
 
 namespace llvm {

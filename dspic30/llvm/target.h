@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The front door of the dsPIC30F target: what twinpuck-cc needs of it.
 //
-// A module goes through the passes of hal_sim/cc, then addPassesToEmitFile() of the machine made here:
+// A module goes through the passes of compiler/front, then addPassesToEmitFile() of the machine made here:
 // selection (lowering.cpp, selection.cpp), registers, frames (frames.cpp), words (encoder.cpp) or text
 // (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to the
 // chip's addresses.

@@ -207,9 +207,11 @@ std::string what_is(const std::string& bytes) {
   if (bytes.compare(0, 4, ELFMAG) != 0) return "a file that is neither Intel HEX nor ELF";
   constexpr unsigned char kThisPc[] = {EM_X86_64, 0};
   if (bytes.size() < 20) return "an ELF file that has been cut off";
-  if (static_cast<unsigned char>(bytes[18]) == kThisPc[0] && bytes[19] == 0) return "a program or library of this PC";
+  if (static_cast<unsigned char>(bytes[18]) == kThisPc[0] && bytes[19] == 0)
+    return "a program or library of this PC";
   return "an ELF file of another machine (number " +
-         std::to_string(static_cast<unsigned char>(bytes[18]) | static_cast<unsigned char>(bytes[19]) << 8) + ")";
+         std::to_string(static_cast<unsigned char>(bytes[18]) | static_cast<unsigned char>(bytes[19]) << 8) +
+         ")";
 }
 
 }  // namespace
@@ -229,7 +231,8 @@ bool load_firmware(const std::string& bytes, const std::string& name, FirmwareFi
       return load_elf(bytes, name, file, error);
     default:
       error = name + ": firmware image: got " + what_is(bytes) + ", expected the .hex or .elf of a dsPIC30F" +
-              (is_coff(bytes) ? "; take the .hex that was made beside it" : "; name the program's folder, or build it");
+              (is_coff(bytes) ? "; take the .hex that was made beside it"
+                              : "; name the program's folder, or build it");
       return false;
   }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// memcpy() and its kin (hal_sim/cc/libc/src/string.c): bytes of plain RAM, read from constants in flash as
+// memcpy() and its kin (firmware/libc/src/string.c): bytes of plain RAM, read from constants in flash as
 // well, where each byte costs what the PSV window costs. Registers, the return address and whatever else is
 // no memory: it runs.
 #include <algorithm>

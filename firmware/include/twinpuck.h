@@ -17,7 +17,7 @@
 #endif
 
 /* the program is one of the robot's chip, by either compiler: no simulator is behind it, and memory is 8 KB */
-#if defined(__TWINPUCK_CHIP__) || (defined(__C30__) && !defined(__TWINPUCK__))
+#if defined(__TWINPUCK__) || defined(__C30__)
 #define TP_ON_CHIP
 #endif
 

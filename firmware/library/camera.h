@@ -48,8 +48,8 @@ static inline int camera_fill_line_conf(char *mask, int pixels, int bytes, int s
 #define CAMERA_BANK_REGISTER 3
 /** PO6030K and PO8030D: chooses a bank; with it, writes or reads one register there. Each is a bus transfer
  * or two. */
-void twinpuck_camera_set_bank(unsigned char bank);
-void twinpuck_camera_write(unsigned char bank, unsigned char reg, unsigned char value);
-unsigned char twinpuck_camera_read(unsigned char bank, unsigned char reg);
+void hal_camera_set_bank(unsigned char bank);
+void hal_camera_write(unsigned char bank, unsigned char reg, unsigned char value);
+unsigned char hal_camera_read(unsigned char bank, unsigned char reg);
 
 #endif

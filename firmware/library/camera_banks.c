@@ -5,22 +5,22 @@
 #include "I2C/e_I2C_protocol.h"
 #include "camera.h"
 
-void twinpuck_camera_set_bank(unsigned char bank) {
+void hal_camera_set_bank(unsigned char bank) {
   e_i2cp_enable();
   e_i2cp_write((char)CAMERA_ADDRESS, CAMERA_BANK_REGISTER, (char)bank);
   e_i2cp_disable();
 }
 
-void twinpuck_camera_write(unsigned char bank, unsigned char reg, unsigned char value) {
-  twinpuck_camera_set_bank(bank);
+void hal_camera_write(unsigned char bank, unsigned char reg, unsigned char value) {
+  hal_camera_set_bank(bank);
   e_i2cp_enable();
   e_i2cp_write((char)CAMERA_ADDRESS, (char)reg, (char)value);
   e_i2cp_disable();
 }
 
-unsigned char twinpuck_camera_read(unsigned char bank, unsigned char reg) {
+unsigned char hal_camera_read(unsigned char bank, unsigned char reg) {
   unsigned char value;
-  twinpuck_camera_set_bank(bank);
+  hal_camera_set_bank(bank);
   e_i2cp_enable();
   value = (unsigned char)e_i2cp_read((char)CAMERA_ADDRESS, (char)reg);
   e_i2cp_disable();

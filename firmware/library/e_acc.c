@@ -41,7 +41,6 @@ static void refresh_lsm330(void) {
     scan_starts_seen = starts;
     centre_z = 0;
   }
-  twinpuck_refresh_adc_counters();
   if (updateAccI2CCounter != REFRESH_INTERRUPTS) return;
   getAllAxesAcc(&last_x, &last_y, &last_z);
   updateAccI2CCounter = 0;
@@ -89,7 +88,6 @@ int e_get_acc_filtered(unsigned int captor, unsigned int filter_size) {
   long sum = 0;
   unsigned int sample, index;
   if (isEpuckVersion1_3()) return filtered_lsm330(captor);
-  twinpuck_refresh_acc();
   if (captor <= ACCZ_BUFFER && filter_size <= ACC_SAMP_NB) {
     index = e_last_acc_scan_id;
     for (sample = 0; sample < filter_size; sample++) {
@@ -191,6 +189,6 @@ void e_display_angle(void) {
   /* sectors begin above their lower limit and follow each other against the numbers of the LEDs */
   sector = 0;
   while (sector < RING_LEDS && angle > SECTOR_DEGREES * sector + SECTOR_DEGREES / 2) sector++;
-  set_ring((RING_LEDS - sector) % RING_LEDS, 1);
+  hal_set_ring((RING_LEDS - sector) % RING_LEDS, 1);
   shown_angle = (int)angle;
 }

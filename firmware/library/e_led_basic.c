@@ -6,10 +6,9 @@
 
 void e_set_led(unsigned int led_number, unsigned int value) {
   if (led_number < RING_LEDS) {
-    set_ring(led_number, value);
+    hal_set_ring(led_number, value);
     return;
   }
-  hal_note_led(led_number);
   hal_set_rings(value);
 }
 
@@ -17,6 +16,6 @@ void e_led_clear(void) {
   hal_set_rings(0);
 }
 
-void e_set_body_led(unsigned int value) { set_body(value); }
+void e_set_body_led(unsigned int value) { hal_set_body(value); }
 
-void e_set_front_led(unsigned int value) { set_front(value); }
+void e_set_front_led(unsigned int value) { hal_set_front(value); }

@@ -13,14 +13,12 @@
 void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb);
 
 int e_get_micro(unsigned int micro_id) {
-  twinpuck_refresh_mic();
   return e_mic_scan[micro_id][e_last_mic_scan_id];
 }
 
 int e_get_micro_average(unsigned int micro_id, unsigned int filter_size) {
   long sum = 0;
   unsigned int i, place;
-  twinpuck_refresh_mic();
   if (micro_id < MICROPHONES && filter_size > 0 && filter_size <= MIC_SAMP_NB) {
     place = (e_last_mic_scan_id + 1 + MIC_SAMP_NB - filter_size) % MIC_SAMP_NB;
     for (i = 0; i < filter_size; i++) {
@@ -34,7 +32,6 @@ int e_get_micro_average(unsigned int micro_id, unsigned int filter_size) {
 int e_get_micro_volume(unsigned int micro_id) {
   int highest = 0, lowest = ABOVE_ALL_SAMPLES;
   int i;
-  twinpuck_refresh_mic();
   for (i = 0; i < MIC_SAMP_NB; i++) {
     int sample = e_mic_scan[micro_id][i];
     if (sample > highest)
@@ -47,7 +44,6 @@ int e_get_micro_volume(unsigned int micro_id) {
 
 void e_get_micro_last_values(int micro_id, int *result, unsigned samples_nb) {
   unsigned int i;
-  twinpuck_refresh_mic();
   if (samples_nb == 0 || samples_nb > MIC_SAMP_NB) return;
   /* begins with the oldest, whatever the number, and files it last */
   for (i = 0; i < samples_nb; i++)

@@ -16,14 +16,14 @@
 /* in the library's object, not in its header */
 unsigned char e_po6030k_read_register(unsigned char bank, unsigned char reg);
 
-void e_po6030k_set_bank(unsigned char bank) { twinpuck_camera_set_bank(bank); }
+void e_po6030k_set_bank(unsigned char bank) { hal_camera_set_bank(bank); }
 
 void e_po6030k_write_register(unsigned char bank, unsigned char reg, unsigned char value) {
-  twinpuck_camera_write(bank, reg, value);
+  hal_camera_write(bank, reg, value);
 }
 
 unsigned char e_po6030k_read_register(unsigned char bank, unsigned char reg) {
-  return twinpuck_camera_read(bank, reg);
+  return hal_camera_read(bank, reg);
 }
 
 int e_po6030k_get_bytes_per_pixel(int color_mode) { return camera_bytes_per_pixel(color_mode); }

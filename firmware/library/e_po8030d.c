@@ -17,14 +17,14 @@
 unsigned char e_po8030d_read_register(unsigned char bank, unsigned char reg);
 int enablePO8030();
 
-void e_po8030d_set_bank(unsigned char bank) { twinpuck_camera_set_bank(bank); }
+void e_po8030d_set_bank(unsigned char bank) { hal_camera_set_bank(bank); }
 
 void e_po8030d_write_register(unsigned char bank, unsigned char reg, unsigned char value) {
-  twinpuck_camera_write(bank, reg, value);
+  hal_camera_write(bank, reg, value);
 }
 
 unsigned char e_po8030d_read_register(unsigned char bank, unsigned char reg) {
-  return twinpuck_camera_read(bank, reg);
+  return hal_camera_read(bank, reg);
 }
 
 int testWriteReg(unsigned char bank) { return e_po8030d_read_register(bank, CAMERA_BANK_REGISTER); }

@@ -13,7 +13,6 @@ int hal_free_space[IR_CHANNELS]; /* readings with nothing near */
 
 int e_get_prox(unsigned int sensor_number) {
   if (sensor_number >= IR_CHANNELS) return 0;
-  twinpuck_refresh_ir(sensor_number);
   return e_ambient_ir[sensor_number] - e_ambient_and_reflected_ir[sensor_number];
 }
 
@@ -26,7 +25,6 @@ int e_get_calibrated_prox(unsigned int sensor_number) {
 
 int e_get_ambient_light(unsigned int sensor_number) {
   if (sensor_number >= IR_CHANNELS) return 0;
-  twinpuck_refresh_ir(sensor_number);
   return e_ambient_ir[sensor_number];
 }
 

@@ -28,7 +28,7 @@ static signed char bit = -1;
 static unsigned char toggle_so_far, address_so_far, data_so_far;
 static unsigned char check = 2, address, data;
 
-void twinpuck_remote_edge(void) {
+void hal_remote_edge(void) {
   hal_remote_disarm();
   address_so_far = data_so_far = 0;
   bit = -1;
@@ -54,7 +54,7 @@ void e_read_remote_control(void) {
     }
     e_set_agenda_cycle(e_read_remote_control, TO_TOGGLE);
   } else if (bit == 0) {
-    set_ring(RECEIVING_LED, 1);
+    hal_set_ring(RECEIVING_LED, 1);
     toggle_so_far = level;
     e_set_agenda_cycle(e_read_remote_control, TO_NEXT_BIT);
   } else if (bit <= ADDRESS_BITS) {
@@ -65,7 +65,7 @@ void e_read_remote_control(void) {
     check = toggle_so_far;
     address = address_so_far;
     data = data_so_far;
-    set_ring(RECEIVING_LED, 0);
+    hal_set_ring(RECEIVING_LED, 0);
     arm_again();
     return;
   }

@@ -5,12 +5,10 @@
 #include "utility/utility.h"
 
 void resetTime(void) {
-  twinpuck_refresh_adc_counters();
   hal_restart_ticks();
 }
 
 float getDiffTimeMs(void) {
-  twinpuck_refresh_adc_counters();
   return (float)tickAdcIsr * (float)ADC_ISR_PERIOD_MS;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The heap of a program whose agendas alone take from it: what malloc() of hal_sim/cc/libc/src/malloc.c finds
+// The heap of a program whose agendas alone take from it: what malloc() of firmware/libc/src/malloc.c finds
 // on its way, for the time that takes. Nothing lies in it.
 #pragma once
 #include <vector>

@@ -510,8 +510,7 @@ std::uint64_t Board::state_hash(Cycle at) const {
   for (const Uart& uart : uarts_) add(uart.state_hash());
   // every robot has a camera on its bus; it counts once a program films
   const bool films = camera_ && camera_->is_used();
-  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u))
-    add(i2c_.state_hash());
+  if (films || i2c_.devices().size() > (camera_ ? 1u : 0u)) add(i2c_.state_hash());
   if (films) add(camera_->state_hash());
   if (codec_.was_used()) add(codec_.state_hash());
   for (const auto& part : parts_) add(part->state_hash());

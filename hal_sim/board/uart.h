@@ -95,7 +95,7 @@ class Uart {
   bool is_quiet() const {
     return (!end_ || (end_->is_idle() && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
   }
-  // --- a chip's own UART on the wire 
+  // --- a chip's own UART on the wire
   /// Follows the chip's switch and rate; bytes come in at that rate.
   void follow_chip(bool enabled, int brg) {
     enabled_ = enabled;

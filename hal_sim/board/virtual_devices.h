@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sensors that no robot has and that a supervisor defines: a number by name, which firmware reads with
-// twinpuck_virtual_sensor() (firmware/include/twinpuck/virtual.h), and the numbers and lines that firmware tells in return. Set between ticks, so
-// firmware sees a new value from the next tick on.
+// twinpuck_virtual_sensor() (firmware/include/twinpuck/virtual.h), and the numbers and lines that firmware
+// tells in return. Set between ticks, so firmware sees a new value from the next tick on.
 #pragma once
 #include <algorithm>
 #include <atomic>

@@ -6,9 +6,9 @@
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/epuck_params.h"
-#include "hal_sim/chip/translation.h"
 #include "hal_sim/chip/endless_wait.h"
 #include "hal_sim/chip/oscillator.h"
+#include "hal_sim/chip/translation.h"
 #include "sim_core/base/hash.h"
 
 namespace chip {

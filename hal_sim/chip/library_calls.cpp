@@ -16,7 +16,8 @@ constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
 constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 constexpr int kAllLeds = 8, kProximity = 8, kAxes = 3, kMicrophones = 3;
 constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
-constexpr const char* kForms[] = {"", "tpbasic_", "tptimer3_", "tpfast_", "tpt2_"};  // cc/driver_variants.cpp
+constexpr const char* kForms[] = {"", "tp_basic_", "tp_timer3_", "tpfast_",
+                                  "tp_t2_"};  // cc/driver_variants.cpp
 
 }  // namespace
 

@@ -69,7 +69,7 @@ class MemoryReports final : private dspic::MemoryFindings {
   std::function<void(const std::string&, unsigned)> tell_;
   dspic::MemoryCheck check_;
   std::map<std::uint32_t, Entry> entries_;
-  std::vector<Object> globals_;     // by address
+  std::vector<Object> globals_;                      // by address
   std::vector<std::pair<unsigned, unsigned>> gaps_;  // RAM that is nobody's, for a stack up to ...
   unsigned gaps_limit_ = 0;
   std::vector<Object> locals_;      // alive, the innermost last

@@ -24,7 +24,7 @@ constexpr bool is_short_call(std::uint32_t word) {
 }
 
 bool is_of_library(const std::string& file) {
-  for (const char* room : {"hal_dspic/", "hal_sim/cc/", "firmware/library/", "firmware/include/"})
+  for (const char* room : {"hal_dspic/", "firmware/libc/", "firmware/library/", "firmware/include/"})
     if (file.find(room) != std::string::npos) return true;
   return false;
 }

@@ -91,13 +91,14 @@ class Code {
   const dspic::FirmwareFile& file_;
   std::multimap<std::uint32_t, int> vectors_;
   std::map<std::uint32_t, const dspic::CodeMap::Function*> host_functions_;  // by their place
-  std::map<std::uint32_t, std::map<std::uint32_t, Depth>> depths_;  // by function, by address
+  std::map<std::uint32_t, std::map<std::uint32_t, Depth>> depths_;           // by function, by address
 };
 
 /// From the innermost outwards. `word`: a word of RAM at an address; `saved_bytes`: what a handler that is
 /// known by heart saves behind the address that it returns to.
 template <typename ReadWord>
-std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, unsigned saved_bytes, ReadWord word) {
+std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, unsigned saved_bytes,
+                              ReadWord word) {
   constexpr std::size_t kMostFrames = 64;
   constexpr unsigned kRamStart = 0x800;
   std::vector<Frame> frames;

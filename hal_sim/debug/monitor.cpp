@@ -252,8 +252,7 @@ std::string Monitor::memory(const std::string& rest) {
   const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
   std::string text;
   for (int i = 0; i < words; ++i) {
-    const Address here =
-        static_cast<Address>(address + 2 * i) & kAddressMask & ~Address{1};
+    const Address here = static_cast<Address>(address + 2 * i) & kAddressMask & ~Address{1};
     if (i % 8 == 0) text += fmt::format("{}{:04x}:", i ? "\n" : "", here);
     unsigned word = 0;
     session_.machine().read({here, 2}, &word);

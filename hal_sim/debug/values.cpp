@@ -225,8 +225,7 @@ std::optional<Data> Session::find_data(const std::string& name) const {
 std::optional<Data> Session::find_untyped(const std::string& name) const {
   if (const auto object = file().objects.find(name); object != file().objects.end()) {
     const auto bytes = file().object_bytes.find(name);
-    return Data{object->second,
-                bytes == file().object_bytes.end() ? 2u : bytes->second};
+    return Data{object->second, bytes == file().object_bytes.end() ? 2u : bytes->second};
   }
   return machine_->find_register(name);
 }

@@ -47,7 +47,8 @@ inline constexpr Cycle kScanTadCycles = 12;  // five channels: ADCS 23 [lib: a_d
 inline constexpr Cycle kScanTadCycles3 =
     20;  // three channels: ADCS 39 [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr Cycle kScanTadCycles6 = 10;  // six channels: ADCS 19 [lib: a_d/advance_ad_scan/e_ad_conv.h]
-inline constexpr Cycle kScanFlagCycles = 1;   // end of the last conversion to the interrupt [measured: hal_dspic on the chip]
+inline constexpr Cycle kScanFlagCycles =
+    1;  // end of the last conversion to the interrupt [measured: hal_dspic on the chip]
 inline constexpr Cycle kScanChannelTad = 15;  // SAMC 1 + conversion 14 [DS70143 20.7]
 inline constexpr int kMicSamples = 100;       // MIC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]
 inline constexpr int kAccSamples = 50;        // ACC_SAMP_NB [lib: a_d/advance_ad_scan/e_ad_conv.h]

@@ -39,8 +39,7 @@ void Drivers::processor_reset(Cycle at) {
 }
 
 std::uint64_t Drivers::state_sum(Cycle at) const {
-  return agendas_.state_sum(at) +
-         static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
+  return agendas_.state_sum(at) + static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
 }
 
 }  // namespace drivers

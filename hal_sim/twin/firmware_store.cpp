@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "hal_sim/cc/build.h"
+#include "compiler/build/build.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/build/build.h"
 #include "sim_core/base/hash.h"

@@ -238,8 +238,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
       if (outside == robot.name || outside == "*") name = kExtern;
     Options of_robot = options;
     of_robot.webots_settings = webots_settings_of(world);
-    if (of_robot.hal.empty() && robot.own.count("hal"))
-      of_robot.hal = own_settings(world, robot).text("hal");
+    if (of_robot.hal.empty() && robot.own.count("hal")) of_robot.hal = own_settings(world, robot).text("hal");
     const std::string key = name.empty() ? name : of_robot.hal + ":" + name;
     firmware.push_back(key);
     robot.firmware = name;  // what it runs, for pictures and supervisors
@@ -270,8 +269,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
     host::RunnerFactory make_runner;
     twin->seats_.push_back(std::make_shared<programs::Seat>());
     twin->launches_.push_back(firmware[i].empty() ? nullptr : images[firmware[i]].program);
-    if (!firmware[i].empty())
-      make_runner = runner_for(images[firmware[i]], setup, 0, twin->seats_.back());
+    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], setup, 0, twin->seats_.back());
     auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
     plug_in_parts(robot, mind->board(), problems);
     twin->uart_choices_.push_back(

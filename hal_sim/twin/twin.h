@@ -154,7 +154,7 @@ class Twin {
   std::vector<Program> programs_;
   std::vector<std::shared_ptr<const programs::Launch>> launches_;
   std::vector<std::shared_ptr<programs::Seat>> seats_;
-  Options options_;                  // as it was opened with
+  Options options_;  // as it was opened with
   std::vector<std::array<std::string, 2>> uart_choices_;
   sim::PacketMedium* packets_ = nullptr;                            // the simulation's
   const sim::RadioMedium* radio_ = nullptr;                         // the simulation's

@@ -16,7 +16,7 @@
 #include <sstream>
 
 #include "build.h"
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "makefile.h"
 #include "sim_core/base/pattern.h"
 #include "sources.h"

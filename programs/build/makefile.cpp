@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "build.h"
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "kinds.h"
 
 namespace programs {

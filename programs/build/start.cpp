@@ -8,7 +8,7 @@
 
 #include "build.h"
 #include "compile.h"
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "runtime_ini.h"
 
 namespace programs {

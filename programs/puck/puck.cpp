@@ -90,7 +90,11 @@ std::string text_of(const link_record& record, int number) {
 }  // namespace
 
 Puck::Puck(board::Board& board, Cycle start)
-    : board_(board), drivers_(board), capture_(board.camera()), speaker_(board.codec()), wheels_(board, drivers_.agendas()) {
+    : board_(board),
+      drivers_(board),
+      capture_(board.camera()),
+      speaker_(board.codec()),
+      wheels_(board, drivers_.agendas()) {
   drivers_.agendas().count_from(start);
   board_.init_ports(start);
   wheels_.start(start);
@@ -368,8 +372,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
   again_ = again;
   playing_ = sound;
   speaker_.play(found->offset, found->samples, at);
-  sound_until_ =
-      speaker_.next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
+  sound_until_ = speaker_.next_group(at) + found->samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
   return "";
 }
 
@@ -609,8 +612,8 @@ void Puck::run(Cycle at) {
     if (again_ && sound_until_ <= next) {
       const StoredSound& sound = kSounds[sound_];
       speaker_.play(sound.offset, sound.samples, next);
-      sound_until_ = speaker_.next_group(next) +
-                     sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
+      sound_until_ =
+          speaker_.next_group(next) + sound.samples * drivers::kCodecGroupCycles / drivers::kCodecGroup;
     }
   }
 }

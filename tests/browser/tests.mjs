@@ -352,11 +352,9 @@ export const tests = {
     const isTold = () => /math error.*main.c:3/.test(document.querySelector("#pane-problems").textContent);
     await page.waitForFunction(isTold);
     assert.equal(await page.textContent("#stopped"), "");  // the chip goes on behind it
-    // a source of clock that the robot has not: it never begins
-    const clock = { drive: "#include <p30F6014A.h>\n_FOSC(CSW_FSCM_OFF & EC_PLL8);\nint main(void) {\n  while (1);\n}\n" };
-    const [, other] = await start(browser, live, kWorld, clock);
-    await other.click("#play");
-    await other.waitForFunction(() => document.querySelector("#stopped").textContent === "1 stopped");
+    const stands = "#include <p30F6014A.h>\n_FOSC(CSW_FSCM_OFF & EC_PLL8);  // a clock that the robot has not\nint main(void) { while (1); }\n";
+    const [, other] = await start(browser, live, kWorld, { drive: stands });
+    await other.click("#play"); await other.waitForFunction(() => document.querySelector("#stopped").textContent === "1 stopped");
     assert.match(await other.textContent("#pane-problems"), /FOSC/);
   },
 

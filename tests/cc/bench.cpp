@@ -27,8 +27,8 @@ std::string bytes_of(const fs::path& file) {
 
 Folder::Folder() {
   static int count = 0;
-  path = fs::temp_directory_path() /
-         ("twinpuck-cc-" + std::to_string(getpid()) + "-" + std::to_string(count++));
+  path =
+      fs::temp_directory_path() / ("twinpuck-cc-" + std::to_string(getpid()) + "-" + std::to_string(count++));
   fs::create_directories(path / "prog");
 }
 

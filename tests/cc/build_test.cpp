@@ -20,9 +20,9 @@ TEST(build, a_changed_header_recompiles_who_includes_it) {
 }
 
 TEST(build, the_programs_own_function_replaces_the_librarys) {
-  EXPECT_EQ(printed_by(
-      "#include <stdio.h>\nint abs(int v) { return v + 1000; } int puts(const char *s) { printf(\"mine\"); "
-      "return 0; }\nint main(void) { puts(\"x\"); return 0; }"),
+  EXPECT_EQ(printed_by("#include <stdio.h>\nint abs(int v) { return v + 1000; } int puts(const char *s) { "
+                       "printf(\"mine\"); "
+                       "return 0; }\nint main(void) { puts(\"x\"); return 0; }"),
             "mine");
 }
 
@@ -151,7 +151,9 @@ TEST(lint, finds_plain_flags_and_timer_conflicts) {
   options.source_dir = folder.path / "prog";
   auto result = cc::lint_folder(options);
   EXPECT_FALSE(result.ok);
-  EXPECT_NE(text_of(result).find("flag: written by _T5Interrupt(); got a plain variable, expected volatile"), std::string::npos) << text_of(result);
+  EXPECT_NE(text_of(result).find("flag: written by _T5Interrupt(); got a plain variable, expected volatile"),
+            std::string::npos)
+      << text_of(result);
   EXPECT_NE(text_of(result).find("Timer 5: got two owners"), std::string::npos) << text_of(result);
 }
 
@@ -174,4 +176,3 @@ TEST(build, two_owners_of_a_vector_are_refused_with_both_named) {
                     "int main(void) { e_init_ad_scan(0); return 0; }")
                   .ok);
 }
-

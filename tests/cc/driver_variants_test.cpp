@@ -46,14 +46,14 @@ TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
     auto built = build_it(folder);
     ASSERT_TRUE(built.ok) << text_of(built);
     EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
-    EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
+    EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
 
     Folder other;
     other.file("prog/main.c", kAgendaHeader + kDrive);
     other.file("prog/a.mcp", mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\e_motors.c\r\n"));
     built = build_it(other);
     ASSERT_TRUE(built.ok) << text_of(built);
-    EXPECT_TRUE(has_function(other, "tpbasic_e_set_speed_left"));
+    EXPECT_TRUE(has_function(other, "tp_basic_e_set_speed_left"));
     EXPECT_FALSE(has_function(other, "e_set_speed_left"));
   }
 }
@@ -80,7 +80,7 @@ TEST(driver_variants, files_that_include_headers_of_two_forms_share_one_driver) 
   auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
-  EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
+  EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
   ASSERT_EQ(built.conflicts.size(), 1u);
   EXPECT_NE(built.conflicts[0].find("motors: got headers of several drivers"), std::string::npos);
 }
@@ -94,23 +94,23 @@ TEST(driver_variants, a_function_of_the_programs_own_is_called_whatever_header_d
               "int own; void e_init_motors(void) { own = 1; } void e_set_speed_left(int v) { own = v; }");
   auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
-  EXPECT_FALSE(has_function(folder, "tpbasic_e_set_speed_left"));
+  EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
 }
 
 TEST(driver_variants, functions_of_a_form_link_without_a_header) {
   for (const std::string calls :
-         {"e_init_ad(); e_read_ad(3);", "e_init_prox(); e_get_prox(0); e_stop_prox();", "e_init_acc();",
-          "e_init_micro();", "e_start_timer_processing(1); e_configure_timer(1);"}) {
-      Folder folder;
-      folder.file("prog/main.c", "int main() { " + calls + " return 0; }");
-      auto built = build_it(folder);
-      EXPECT_TRUE(built.ok) << calls << text_of(built);
-      // one driver, not the beginning of one and the rest of another
-      if (calls.find("prox") != std::string::npos) {
-        EXPECT_TRUE(has_function(folder, "tpbasic_e_get_prox"));
-        EXPECT_FALSE(has_function(folder, "e_get_prox"));
-      }
+       {"e_init_ad(); e_read_ad(3);", "e_init_prox(); e_get_prox(0); e_stop_prox();", "e_init_acc();",
+        "e_init_micro();", "e_start_timer_processing(1); e_configure_timer(1);"}) {
+    Folder folder;
+    folder.file("prog/main.c", "int main() { " + calls + " return 0; }");
+    auto built = build_it(folder);
+    EXPECT_TRUE(built.ok) << calls << text_of(built);
+    // one driver, not the beginning of one and the rest of another
+    if (calls.find("prox") != std::string::npos) {
+      EXPECT_TRUE(has_function(folder, "tp_basic_e_get_prox"));
+      EXPECT_FALSE(has_function(folder, "e_get_prox"));
     }
+  }
 }
 
 // the two take different arguments; each file calls what its header declares
@@ -124,5 +124,5 @@ TEST(driver_variants, forms_with_other_arguments_are_not_exchanged) {
   auto built = build_it(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_get_acc"));
-  EXPECT_TRUE(has_function(folder, "tpbasic_e_get_acc"));
+  EXPECT_TRUE(has_function(folder, "tp_basic_e_get_acc"));
 }

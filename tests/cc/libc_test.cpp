@@ -9,14 +9,14 @@ using namespace cc_test;
 namespace {
 std::string printed(const std::string& body, const std::string& level = "-O1") {
   return printed_by(
-             "#include <stdio.h>\n#include <string.h>\n#include <stdlib.h>\n#include <math.h>\n#include "
-             "<ctype.h>\n#include <setjmp.h>\n"
-             "jmp_buf where; int order(const void *a, const void *b) { return *(const int *)a - *(const int "
-             "*)b; }\n"
-             "void jump(void) { longjmp(where, 7); }\n"
-             "int main(void) {" +
-                 body + " return 0; }",
-             level);
+      "#include <stdio.h>\n#include <string.h>\n#include <stdlib.h>\n#include <math.h>\n#include "
+      "<ctype.h>\n#include <setjmp.h>\n"
+      "jmp_buf where; int order(const void *a, const void *b) { return *(const int *)a - *(const int "
+      "*)b; }\n"
+      "void jump(void) { longjmp(where, 7); }\n"
+      "int main(void) {" +
+          body + " return 0; }",
+      level);
 }
 }  // namespace
 
@@ -96,7 +96,8 @@ TEST(libc, sorting_random_and_jumps) {
   EXPECT_EQ(printed("int t[6] = {5, -3, 9, 0, 9, -7}, i; qsort(t, 6, sizeof(int), order); for (i = 0; i < 6; "
                     "i++) printf(\"%d \", t[i]);"),
             "-7 -3 0 5 9 9 ");
-  EXPECT_EQ(printed("srand(3); printf(\"%d\", rand());"), "17747");  // (3 * 1103515245 + 12345) / 65536 % 32768
+  EXPECT_EQ(printed("srand(3); printf(\"%d\", rand());"),
+            "17747");  // (3 * 1103515245 + 12345) / 65536 % 32768
   EXPECT_EQ(printed("int n = setjmp(where); if (n == 0) jump(); printf(\"%d\", n);"), "7");
 }
 

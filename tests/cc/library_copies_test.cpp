@@ -21,8 +21,9 @@ TEST(library_copies, a_whole_copy_is_used_but_for_drivers_of_which_one_half_is_m
   Folder folder;
   folder.file("prog/library/motor_led/e_motors.c",
               "void e_init_motors(void) {} void e_set_speed_left(int v) {}");
-  folder.file("prog/library/motor_led/advance_one_timer/e_motors.c",
-              "int copies_here; void e_init_motors(void) {} void e_set_speed_left(int v) { copies_here = v; }");
+  folder.file(
+      "prog/library/motor_led/advance_one_timer/e_motors.c",
+      "int copies_here; void e_init_motors(void) {} void e_set_speed_left(int v) { copies_here = v; }");
   folder.file("prog/library/codec/e_sound.c",
               "void e_close_sound(void) { __asm__ volatile(\"clr _e_flag\"); }");
   folder.file("prog/library/motor_led/advance_one_timer/e_motors.h",
@@ -31,7 +32,8 @@ TEST(library_copies, a_whole_copy_is_used_but_for_drivers_of_which_one_half_is_m
   EXPECT_TRUE(built.ok) << text_of(built);
   ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
   EXPECT_NE(built.warnings[0].find("library/codec/e_sound.c"), std::string::npos) << built.warnings[0];
-  EXPECT_NE(built.warnings[0].find("Twinpuck's own drivers are used"), std::string::npos) << built.warnings[0];
+  EXPECT_NE(built.warnings[0].find("Twinpuck's own drivers are used"), std::string::npos)
+      << built.warnings[0];
   EXPECT_EQ(output_of(folder.image()), "100");
 }
 
@@ -90,8 +92,7 @@ TEST(library_members, files_that_do_not_compile_are_left_out_with_a_warning) {
   Folder folder;
   folder.file("prog/motor_led/e_motors.c", "int e_init_motors(void) { return 7; }");
   folder.file("prog/old/e_motors.c", "int e_init_motors(void) { return nobody_declared_this; }");
-  auto built =
-      build(folder, "int e_init_motors(void); int main(void) { return e_init_motors(); }");
+  auto built = build(folder, "int e_init_motors(void); int main(void) { return e_init_motors(); }");
   EXPECT_TRUE(built.ok) << text_of(built);
   EXPECT_NE(text_of(built).find("old/e_motors.c: does not compile and is left out"), std::string::npos)
       << text_of(built);

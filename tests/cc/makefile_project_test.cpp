@@ -4,8 +4,8 @@
 
 #include <ctime>
 
+#include "compiler/projects/makefile_project.h"
 #include "tests/cc/bench.h"
-#include "hal_sim/cc/makefile_project.h"
 
 using namespace cc_test;
 

@@ -5,10 +5,10 @@
 
 #include <set>
 
+#include "compiler/cache/elf_reader.h"
+#include "compiler/projects/makefile_project.h"
+#include "compiler/projects/mplab_project.h"
 #include "tests/cc/bench.h"
-#include "hal_sim/cc/elf_reader.h"
-#include "hal_sim/cc/makefile_project.h"
-#include "hal_sim/cc/mplab_project.h"
 
 using namespace cc_test;
 

@@ -11,9 +11,9 @@
 #include <mutex>
 #include <thread>
 
+#include "compiler/build/build_record.h"
+#include "compiler/cache/object_cache.h"
 #include "tests/cc/bench.h"
-#include "hal_sim/cc/build_record.h"
-#include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
 using namespace cc_test;

@@ -99,7 +99,8 @@ TEST(tolerance, common_variables_of_several_files_are_one) {
 TEST(tolerance, headers_are_found_by_any_case_slash_and_path) {
   Folder folder;
   // headers of a folder of ours, each marked
-  std::filesystem::copy(TWINPUCK_SOURCE_DIR "/firmware/include", folder.path / "include", std::filesystem::copy_options::recursive);
+  std::filesystem::copy(TWINPUCK_SOURCE_DIR "/firmware/include", folder.path / "include",
+                        std::filesystem::copy_options::recursive);
   const auto mark = [&](const char* header, const char* text) {
     std::ofstream(folder.path / "include" / header, std::ios::app) << text;
   };
@@ -153,10 +154,11 @@ TEST(tolerance, functions_used_before_their_definition_may_take_shorts) {
 
 // XC16 takes these with -std=gnu99; nobody's options say so in a bare folder
 TEST(tolerance, each_loop_may_declare_the_same_counter) {
-  EXPECT_EQ(printed_by("#include <stdint.h>\n#include <stdio.h>\nint main(void) { int s = 0; for (uint16_t i = 0; "
-                  "i < 3; i++) s "
-                  "+= i; for (uint16_t i = 0; i < 3; i++) s += i; printf(\"%d\", s); return 0; }"),
-            "6");
+  EXPECT_EQ(
+      printed_by("#include <stdint.h>\n#include <stdio.h>\nint main(void) { int s = 0; for (uint16_t i = 0; "
+                 "i < 3; i++) s "
+                 "+= i; for (uint16_t i = 0; i < 3; i++) s += i; printf(\"%d\", s); return 0; }"),
+      "6");
 }
 
 TEST(tolerance, arithmetic_of_the_compilers_built_in_functions_needs_no_header) {

@@ -204,8 +204,9 @@ const HostileProgram kHostile[] = {
           "= 0x100; DOSTARTL = 0x200;"),
      false},
     {"repeat_division", MAIN("start(); __asm__ volatile(\"mov #0, w2\\n repeat #17\\n div.ud w0, w2\");")},
-    {"erase_own_row", MAIN("start(); TBLPAG = 0; NVMADRU = 0; NVMADR = (unsigned)main & 0xFFC0; NVMCON = "
-                           "0x4041; NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; spend(3000);"),
+    {"erase_own_row",
+     MAIN("start(); TBLPAG = 0; NVMADRU = 0; NVMADR = (unsigned)main & 0xFFC0; NVMCON = "
+          "0x4041; NVMKEY = 0x55; NVMKEY = 0xAA; NVMCONbits.WR = 1; spend(3000);"),
      std::nullopt},
     {"erase_vectors",
      MAIN("start(); e_activate_agenda(tick, 10); NVMADRU = 0; NVMADR = 0; NVMCON = 0x4041; "
@@ -336,7 +337,7 @@ TEST_P(HostileHalTest, is_contained_told_and_repeated) {
   EXPECT_EQ(first.good, alone) << "the robot beside it has noticed";
   EXPECT_EQ(first.bad, again.bad);
   EXPECT_EQ(first.told, again.told);
-  if (p.is_told) EXPECT_EQ(first.told > 0, *p.is_told);
+  EXPECT_EQ(first.told > 0, p.is_told.value_or(first.told > 0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Programs, HostileHalTest, ::testing::ValuesIn(kHostile),

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <random>
 
-#include "hal_sim/cc/child_process.h"
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/cache/child_process.h"
+#include "compiler/cache/object_cache.h"
 
 namespace chip_cc {
 namespace {

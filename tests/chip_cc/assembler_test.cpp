@@ -5,10 +5,10 @@
 #include <fstream>
 #include <random>
 
+#include "compiler/cache/elf_reader.h"
+#include "compiler/cache/object_cache.h"
 #include "dspic30/core/disassembler.h"
 #include "dspic30/core/instruction_table.h"
-#include "hal_sim/cc/elf_reader.h"
-#include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -25,8 +25,8 @@ struct Assembled {
     fs::create_directories(work);
     std::ofstream(work / "x.s") << text;
     fs::remove(work / "x.o");
-    messages = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc",
-                                (work / "x.s").string(), "-o", (work / "x.o").string()})
+    messages = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", (work / "x.s").string(),
+                                "-o", (work / "x.o").string()})
                    .output;
     object = cc::read_elf(work / "x.o");
   }

@@ -7,7 +7,7 @@
 #include <regex>
 #include <sstream>
 
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/cache/object_cache.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -21,10 +21,9 @@ std::string code_of(const std::string& source, const std::string& function,
   fs::create_directories(work);
   std::ofstream(work / "x.c") << "#include <p30F6014A.h>\n" << source;
   const std::string root = TWINPUCK_SOURCE_DIR;
-  const auto run =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", level,
-                       "-S", "-c", (work / "x.c").string(), "-I" + root + "/firmware/include", "-I",
-                       root + "/hal_sim/cc/libc/include", "-o", (work / "x.s").string()});
+  const auto run = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", level, "-S", "-c",
+                                    (work / "x.c").string(), "-I" + root + "/firmware/include", "-I",
+                                    root + "/firmware/libc/include", "-o", (work / "x.s").string()});
   if (run.status != 0) return run.output;
   std::ifstream in(work / "x.s");
   std::string code;
@@ -192,9 +191,8 @@ TEST(ChipCode, inline_assembler_is_checked_by_the_instruction_table) {
   EXPECT_NE(good.find(".pword 16515077"), std::string::npos) << good;
   const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_code";
   std::ofstream(work / "bad.c") << "void f(void) { __asm__ volatile(\"mov #70000, w0\"); }";
-  const auto run =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
-                       (work / "bad.c").string(), "-o", (work / "bad.o").string()});
+  const auto run = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
+                                    (work / "bad.c").string(), "-o", (work / "bad.o").string()});
   EXPECT_NE(run.status, 0);
   EXPECT_NE(run.output.find("70000"), std::string::npos) << run.output;
 }

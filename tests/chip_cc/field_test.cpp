@@ -4,7 +4,7 @@
 #include <fstream>
 #include <random>
 
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/cache/object_cache.h"
 #include "tests/chip_cc/chip_program.h"
 
 namespace chip_cc {

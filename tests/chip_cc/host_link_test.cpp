@@ -7,11 +7,11 @@
 #include <set>
 #include <sstream>
 
+#include "compiler/build/build.h"
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/host_places.h"
 #include "dspic30/memory/program_memory.h"
 #include "hal_sim/api/host_table.h"
-#include "hal_sim/cc/build.h"
 #include "twinpuck_paths.h"
 
 namespace {

@@ -7,9 +7,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "compiler/cache/object_cache.h"
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
-#include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
 namespace {

@@ -9,7 +9,7 @@
 #include <map>
 #include <sstream>
 
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/cache/object_cache.h"
 #include "tests/chip_cc/chip_program.h"
 #include "tests/chip_cc/random_program.h"
 #include "twinpuck_paths.h"
@@ -116,10 +116,10 @@ unsigned words_of(const fs::path& source, const std::string& function, const std
   const std::string root = TWINPUCK_SOURCE_DIR;
   const fs::path work = fs::path(TWINPUCK_BUILD_DIR) / "tests" / "chip_sizes";
   fs::create_directories(work);
-  const auto run = cc::run_process(
-      {std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", level, "-include",
-       root + "/hal_sim/cc/libc/include/xc16_builtins.h", source.string(), "-I" + root + "/firmware/include",
-       "-I" + root + "/hal_sim/cc/libc/include", "-o", (work / "x.o").string()});
+  const auto run = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c", level, "-include",
+                                    root + "/firmware/libc/include/xc16_builtins.h", source.string(),
+                                    "-I" + root + "/firmware/include", "-I" + root + "/firmware/libc/include",
+                                    "-o", (work / "x.o").string()});
   EXPECT_EQ(run.status, 0) << run.output;
   const auto sections = cc::run_process({"readelf", "-SW", (work / "x.o").string()});
   std::istringstream lines(sections.output);

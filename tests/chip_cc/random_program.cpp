@@ -7,7 +7,7 @@
 #include <sstream>
 #include <vector>
 
-#include "hal_sim/cc/object_cache.h"
+#include "compiler/cache/object_cache.h"
 
 namespace chip_cc {
 
@@ -23,7 +23,7 @@ constexpr Type kTypes[] = {{"i8", 8},   {"u8", 8},   {"i16", 16}, {"u16", 16},
                            {"i32", 32}, {"u32", 32}, {"i64", 64}, {"u64", 64}};
 
 constexpr const char* kHead = R"(
-#ifdef __TWINPUCK_CHIP__
+#ifdef __TWINPUCK__
 typedef signed char i8; typedef unsigned char u8; typedef int i16; typedef unsigned u16;
 typedef long i32; typedef unsigned long u32; typedef long long i64; typedef unsigned long long u64;
 #else

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/cc/shared_variables.h"
+#include "compiler/cache/shared_variables.h"
 #include "tests/chip_cc/chip_program.h"
 
 namespace chip_cc {

@@ -8,9 +8,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "compiler/build/build.h"
+#include "compiler/cache/object_cache.h"
 #include "dspic30/load/firmware_file.h"
-#include "hal_sim/cc/build.h"
-#include "hal_sim/cc/object_cache.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -149,8 +149,8 @@ cc::ProcessResult link(VendorObject o, const fs::path& work) {
   std::ofstream(work / "start.s")
       << "        .section .text.__reset, \"ax\"\n        .global __reset\n__reset: rcall _main\n";
   for (const char* name : {"main.c", "start.s"}) {
-    const auto made = cc::run_process({compiler, "-c", (work / name).string(), "-o",
-                                       (work / (std::string(name) + ".o")).string()});
+    const auto made = cc::run_process(
+        {compiler, "-c", (work / name).string(), "-o", (work / (std::string(name) + ".o")).string()});
     EXPECT_EQ(made.status, 0) << made.output;
   }
   return cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(), (work / "main.c.o").string(),
@@ -198,12 +198,10 @@ TEST(ChipLinker, objects_in_coff_are_refused_by_name) {
   cc::run_process({"ar", "rcS", (work / "libold.a").string(), (work / "old.o").string()});
   std::ofstream(work / "main.c") << "int old(int);\nint main(void) { return old(1); }\n";
   const std::string compiler = std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc";
-  cc::run_process({compiler, "-c", (work / "main.c").string(), "-o",
-                   (work / "main.o").string()});
+  cc::run_process({compiler, "-c", (work / "main.c").string(), "-o", (work / "main.o").string()});
   std::ofstream(work / "start.s")
       << "        .section .text.__reset, \"ax\"\n        .global __reset\n__reset: rcall _main\n";
-  cc::run_process({compiler, "-c", (work / "start.s").string(), "-o",
-                   (work / "start.o").string()});
+  cc::run_process({compiler, "-c", (work / "start.s").string(), "-o", (work / "start.o").string()});
   const auto alone = cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(),
                                       (work / "main.o").string(), (work / "old.o").string()});
   EXPECT_NE(alone.status, 0);
@@ -238,9 +236,8 @@ TEST(ChipLinker, compiler_called_by_hand_finds_its_headers) {
   std::ofstream(work / "x.c")
       << "#include <stdarg.h>\n#include <stdio.h>\n#include <p30F6014A.h>\n"
          "#include <motor_led/e_led.h>\nint main(void) { e_set_led(0, 1); return TMR1; }\n";
-  const auto made =
-      cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
-                       (work / "x.c").string(), "-o", (work / "x.o").string()});
+  const auto made = cc::run_process({std::string(TWINPUCK_BUILD_DIR) + "/twinpuck-cc", "-c",
+                                     (work / "x.c").string(), "-o", (work / "x.o").string()});
   EXPECT_EQ(made.status, 0) << made.output;
 }
 
@@ -297,8 +294,7 @@ _third: fill 9000
         .global _far
 _far:   fill 7000
 )";
-  const auto made = cc::run_process(
-      {compiler, (work / "x.s").string(), "-o", (work / "x.o").string()});
+  const auto made = cc::run_process({compiler, (work / "x.s").string(), "-o", (work / "x.o").string()});
   ASSERT_EQ(made.status, 0) << made.output;
   const auto run =
       cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(), (work / "x.o").string()});

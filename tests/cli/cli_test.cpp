@@ -341,11 +341,16 @@ TEST_F(Command, cycles_shows_the_programs_functions_and_the_librarys_when_asked)
 
 TEST_F(Command, lint_praises_and_blames) {
   EXPECT_EQ(twinpuck("lint blink").exit_code, 0);
-  write("sloppy/main.c", "int flag;\nvoid _T1Interrupt(void) { flag = 1; }\n"
-                         "int main(void) { while (!flag); return 70000; }\n");
+  write("sloppy/main.c",
+        "int flag;\nvoid _T1Interrupt(void) { flag = 1; }\n"
+        "int main(void) { while (!flag); return 70000; }\n");
   const Said s = twinpuck("lint " + path("sloppy"));
   EXPECT_EQ(s.exit_code, 1);
-  EXPECT_NE(s.text.find("main.c:3: warning: flag: written by _T1Interrupt(); got a plain variable, expected volatile"), std::string::npos) << s.text;
+  EXPECT_NE(
+      s.text.find(
+          "main.c:3: warning: flag: written by _T1Interrupt(); got a plain variable, expected volatile"),
+      std::string::npos)
+      << s.text;
 }
 
 TEST_F(Command, list_shows_controllers_and_worlds) {
@@ -407,7 +412,11 @@ TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
     EXPECT_EQ(s.exit_code, *strict ? 1 : 0) << s.text;
     EXPECT_NE(s.text.find("main.c:8"), std::string::npos) << s.text;
     EXPECT_NE(s.text.find("70000"), std::string::npos) << s.text;
-    EXPECT_NE(s.text.find("warning: stack: got 908 bytes at most, expected at most 574, which is what variables leave"), std::string::npos) << s.text;
+    EXPECT_NE(
+        s.text.find(
+            "warning: stack: got 908 bytes at most, expected at most 574, which is what variables leave"),
+        std::string::npos)
+        << s.text;
   }
   write("thin/main.c", "volatile int n;\nint main(void) {\n  while (1) n++;\n}\n");
   EXPECT_EQ(twinpuck("run maze --fw '*=" + path("thin") + "' --for 0.1 -q --strict").exit_code, 0);

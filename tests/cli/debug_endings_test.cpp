@@ -55,11 +55,11 @@ int main(void) {
 }
 )");
   const std::string without = digest("--for 0.002");
-  expect_in_order(debug("c\nbt\nprint n\nc\nback\nwatch n\nrc\nprint n\ndelete\nc\ngoto 1s\ninfo world\n",
-                        "--for 0.002"),
-                  {"> c\nMathError trap at divide() (main.c:2)", "> bt\n#0", "divide() (main.c:2)",
-                   "main() (main.c:6)", "n = 100", "> c\nthe processor was reset", "> rc\nbreakpoint 1",
-                   "n = 100", "> c\nMathError trap", "the end", without});
+  expect_in_order(
+      debug("c\nbt\nprint n\nc\nback\nwatch n\nrc\nprint n\ndelete\nc\ngoto 1s\ninfo world\n", "--for 0.002"),
+      {"> c\nMathError trap at divide() (main.c:2)", "> bt\n#0", "divide() (main.c:2)", "main() (main.c:6)",
+       "n = 100", "> c\nthe processor was reset", "> rc\nbreakpoint 1", "n = 100", "> c\nMathError trap",
+       "the end", without});
 }
 
 TEST_P(DebugEndings, a_stack_that_overflows_is_told) {
@@ -96,11 +96,12 @@ TEST_P(DebugEndings, another_robot_with_the_same_code_is_not_stopped) {
   build(kTicking);
   const std::string world = write("world.toml", kWorld), without = digest("--for 0.03", world);
   for (const char* robot : {"first", "second"})
-    expect_in_order(debug("break main.c:20\nbreak weigh if times == 0\nset ticks = 50\nc\nprint ticks\nbt\nc\n"
-                          "print ticks\nback\n",
-                          std::string("--for 0.03 --robot ") + robot, world),
-                    {std::string(robot) + ": ", "> c\nbreakpoint 2", "> print ticks\nticks = ", "#0", "weigh()",
-                     "weigh()", "main() (main.c:19)", "> c\nbreakpoint 1", "ticks = 1"});
+    expect_in_order(
+        debug("break main.c:20\nbreak weigh if times == 0\nset ticks = 50\nc\nprint ticks\nbt\nc\n"
+              "print ticks\nback\n",
+              std::string("--for 0.03 --robot ") + robot, world),
+        {std::string(robot) + ": ", "> c\nbreakpoint 2", "> print ticks\nticks = ", "#0", "weigh()",
+         "weigh()", "main() (main.c:19)", "> c\nbreakpoint 1", "ticks = 1"});
   expect_in_order(
       debug("break weigh if 0\nwatch total if 0\nc\ninfo world\n", "--for 0.03 --robot first", world),
       {"the end", without});
@@ -118,22 +119,22 @@ TEST_P(DebugEndings, a_program_that_waits_for_ever_is_paused) {
   twinpuck("debug maze --fw '*=" + program() + "' -x '" +
                write("commands", "where\nc\nwhere\ngoto 0.01s\nbacki\n") + "' >'" + said + "'",
            cli_test::signal_once("INT", said, 60));
-  expect_in_order(read(said), {"> c\npaused", "main() (main.c:", "> goto 0.01s\n0.01", "main() (main.c:",
-                               "> backi\n0.00", "main() (main.c:"});
+  expect_in_order(read(said), {"> c\npaused", "main() (main.c:", "> goto 0.01s\n0.01",
+                               "main() (main.c:", "> backi\n0.00", "main() (main.c:"});
 }
 
 // with either HAL an agenda's function is called from timer 2's interrupt
 TEST_P(DebugEndings, the_librarys_functions_and_agendas_are_frames) {
-  const std::string commands = write("commands",
-                                     "break control_tick\nc\nbt\ndelete\nbreak e_set_speed_left\nc\nbt\ndelete\n"
-                                     "c\ninfo world\n");
+  const std::string commands =
+      write("commands",
+            "break control_tick\nc\nbt\ndelete\nbreak e_set_speed_left\nc\nbt\ndelete\n"
+            "c\ninfo world\n");
   const auto said = twinpuck("debug maze --fw obstacle --hal " + hal() + " --for 1 -x '" + commands + "'");
   EXPECT_EQ(said.exit_code, 0) << said.text;
   const auto run = twinpuck("run maze --fw obstacle --hal " + hal() + " --for 1");
-  expect_in_order(said.text,
-                  {"> c\nbreakpoint 1", "control_tick() (main.c:", "_T2Interrupt", "<-- interrupt", "main()",
-                   "> c\nbreakpoint 2", "e_set_speed_left()", "> bt\n#0", "main()",
-                   "the end of the world", run.text.substr(run.text.find("digest "), 23)});
+  expect_in_order(said.text, {"> c\nbreakpoint 1", "control_tick() (main.c:", "_T2Interrupt", "<-- interrupt",
+                              "main()", "> c\nbreakpoint 2", "e_set_speed_left()", "> bt\n#0", "main()",
+                              "the end of the world", run.text.substr(run.text.find("digest "), 23)});
 }
 
 }  // namespace

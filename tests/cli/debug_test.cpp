@@ -15,8 +15,8 @@ INSTANTIATE_TEST_SUITE_P(, Debug, ::testing::Values("sim", "dspic"), cli_test::h
 TEST_P(Debug, breakpoints_stop_and_calls_are_traced_back) {
   const std::string text =
       debug("break weigh\nbreak main.c:20\nc\nbt\nfinish\nc\nbt\nprint ticks\ndelete 1\ninfo break\n");
-  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:14)", "breakpoint 2 at", "work() (main.c:20)", "> c",
-                         "breakpoint", "> bt\n#0", "#1", "main()", "_reset()", "> finish",
+  expect_in_order(text, {"breakpoint 1 at", "weigh() (main.c:14)", "breakpoint 2 at", "work() (main.c:20)",
+                         "> c", "breakpoint", "> bt\n#0", "#1", "main()", "_reset()", "> finish",
                          "> print ticks\nticks = 1 (0x1)", "2 break main.c:20, 1 times"});
 }
 
@@ -38,8 +38,7 @@ TEST_P(Debug, watchpoints_say_who_changed_what) {
   expect_in_order(debug("watch ticks\nc\nbt\ndelete\nwatch sum if sum > 30\nc\n"),
                   {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()",
                    "<-- interrupt", "main()", "> c\nsum: 30 -> 60, by work() (main.c:19)"});
-  expect_in_order(debug("watch LATA.LATA6\nc\n"),
-                  {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
+  expect_in_order(debug("watch LATA.LATA6\nc\n"), {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
 }
 
 TEST_P(Debug, steps_go_by_lines_and_over_calls_and_interrupts) {

@@ -82,7 +82,8 @@ TEST_F(Hal, what_came_before_it_is_said_to_be_gone) {
     for (const char* way : {"native", "register", "chip"}) {
       const Said gone = twinpuck(std::string(verb) + " --way " + way);
       EXPECT_EQ(gone.exit_code, 2) << verb;
-      EXPECT_NE(gone.text.find(std::string("--way: got ") + way + ", expected --hal sim or --hal dspic; native is --hal sim now"),
+      EXPECT_NE(gone.text.find(std::string("--way: got ") + way +
+                               ", expected --hal sim or --hal dspic; native is --hal sim now"),
                 std::string::npos)
           << gone.text;
     }

@@ -54,9 +54,8 @@ TEST_F(Limits, compilers_end_with_the_verb_that_started_them) {
   write_slow();
   const std::string slow = "'" + path("slow") + "'", referee = "'" + path("referee.c") + "'";
   for (const char* signal : {"TERM", "INT"})
-    for (const std::string& arguments :
-         {"build " + slow + " -o " + path("o.elf"), "run maze --fw " + slow, "lint " + slow,
-          "run maze --supervisor " + referee})
+    for (const std::string& arguments : {"build " + slow + " -o " + path("o.elf"), "run maze --fw " + slow,
+                                         "lint " + slow, "run maze --supervisor " + referee})
       expect_quick_end(arguments, signal);
   expect_quick_end("view maze --port 0 --fw " + slow, "TERM");
   expect_quick_end("debug maze --fw " + slow, "TERM");
@@ -129,19 +128,18 @@ TEST_F(Limits, nothing_waits_for_a_pipe) {
     int exit_code;
   };
   for (const Case& c :
-         {Case{"build '" + path("header") + "' -o " + path("o"), "pipe.h: source: got a pipe", 1},
-          Case{"build '" + path("beside") + "' -o " + path("o"), "pipe.h", 1},
-          Case{"build '" + path("source") + "' -o " + path("o"), "more.c: source: got a pipe", 1},
-          Case{"build '" + path("assembler") + "' -o " + path("o"), "more.s: source: got a pipe", 1},
-          Case{"run maze --for 1 --fw '" + path("header") + "'", "pipe.h: source: got a pipe", 2},
-          Case{"lint '" + path("header") + "'", "pipe.h: source: got a pipe", 1},
-          Case{"run maze --for 1 --supervisor '" + path("referee") + "'", "pipe.h: controller: got a pipe",
-               2},
-          Case{"asm '" + path("alone.s") + "' -o " + path("o.hex"), "", 0}}) {
-      const Said said = twinpuck(c.arguments, "timeout 60");
-      EXPECT_EQ(said.exit_code, c.exit_code) << c.arguments << ": " << said.text;
-      EXPECT_NE(said.text.find(c.message), std::string::npos) << c.arguments << ": " << said.text;
-    }
+       {Case{"build '" + path("header") + "' -o " + path("o"), "pipe.h: source: got a pipe", 1},
+        Case{"build '" + path("beside") + "' -o " + path("o"), "pipe.h", 1},
+        Case{"build '" + path("source") + "' -o " + path("o"), "more.c: source: got a pipe", 1},
+        Case{"build '" + path("assembler") + "' -o " + path("o"), "more.s: source: got a pipe", 1},
+        Case{"run maze --for 1 --fw '" + path("header") + "'", "pipe.h: source: got a pipe", 2},
+        Case{"lint '" + path("header") + "'", "pipe.h: source: got a pipe", 1},
+        Case{"run maze --for 1 --supervisor '" + path("referee") + "'", "pipe.h: controller: got a pipe", 2},
+        Case{"asm '" + path("alone.s") + "' -o " + path("o.hex"), "", 0}}) {
+    const Said said = twinpuck(c.arguments, "timeout 60");
+    EXPECT_EQ(said.exit_code, c.exit_code) << c.arguments << ": " << said.text;
+    EXPECT_NE(said.text.find(c.message), std::string::npos) << c.arguments << ": " << said.text;
+  }
 }
 
 // within .s files as well, and within what those include

@@ -51,9 +51,8 @@ class SameRun : public CommandTest {
 TEST_F(SameRun, addresses_and_memory_never_written_are_the_same_in_every_run) {
   const std::string first = said("--seed 4");
   EXPECT_GT(first.size(), 40u) << first;
-  for (const char* options :
-       {"--seed 4", "--seed 4 --fw first=braitenberg", "--seed 4 --record /dev/null --record-every 0.01",
-        "--seed 4 --threads 2"})
+  for (const char* options : {"--seed 4", "--seed 4 --fw first=braitenberg",
+                              "--seed 4 --record /dev/null --record-every 0.01", "--seed 4 --threads 2"})
     EXPECT_EQ(said(options), first) << options;
 }
 

@@ -17,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kInclude = fs::path(TWINPUCK_SOURCE_DIR) / "firmware/include";
-const fs::path kLibc = fs::path(TWINPUCK_SOURCE_DIR) / "hal_sim/cc/libc/include";
+const fs::path kLibc = fs::path(TWINPUCK_SOURCE_DIR) / "firmware/libc/include";
 const fs::path kScratch = fs::path(TWINPUCK_BUILD_DIR) / "tests/contract";
 
 /// Compiles a text as firmware. The compiler's messages end up in the failure message.

@@ -82,7 +82,10 @@ TEST(Hex, what_is_wrong_is_named_with_its_line) {
 
 // whatever it is, it is named, with what was expected
 TEST(Image, what_is_none_is_named) {
-  const std::string elf("\x7f" "ELF\1\1\1", 7);
+  const std::string elf(
+      "\x7f"
+      "ELF\1\1\1",
+      7);
   const struct {
     std::string bytes, says;
   } kFiles[] = {
@@ -95,7 +98,9 @@ TEST(Image, what_is_none_is_named) {
   };
   for (const auto& file : kFiles) {
     const std::string error = error_of(file.bytes);
-    EXPECT_EQ(error.find("x.hex: firmware image: got " + file.says + ", expected the .hex or .elf of a dsPIC30F; "), 0u)
+    EXPECT_EQ(
+        error.find("x.hex: firmware image: got " + file.says + ", expected the .hex or .elf of a dsPIC30F; "),
+        0u)
         << error;
   }
   EXPECT_NE(error_of("\x36\x12").find("; take the .hex that was made beside it"), std::string::npos);

@@ -154,10 +154,8 @@ const Hostile kPrograms[] = {
      "__attribute__((noinline)) int f(int n) { if (n == 0) return 1;\n"
      " __builtin_unreachable();\n }\n"
      "int main(void) { sink = f(one); while (1); }"},
-    {"builtin_trap", "abort()",
-     "int main(void) {\n __builtin_trap(); /* HERE */\n }"},
-    {"abort_called", "abort()",
-     "int main(void) {\n abort(); /* HERE */\n }"},
+    {"builtin_trap", "abort()", "int main(void) {\n __builtin_trap(); /* HERE */\n }"},
+    {"abort_called", "abort()", "int main(void) {\n abort(); /* HERE */\n }"},
     {"comparator_that_jumps_away", "write through a null pointer",
      "int a[10];\n"
      "int worse(const void *x, const void *y) {\n *(int *)nowhere = 1; return 1; } /* HERE */\n"
@@ -210,17 +208,17 @@ const Hostile kPrograms[] = {
     {"jump_out_of_nowhere", "stack overflow",
      "jmp_buf never_set;\n"
      "int main(void) {\n longjmp(never_set, 1);\n }"},
-    {"assertion", "an assert() failed",
-     "int main(void) {\n assert(zero); /* HERE */\n while (1); }"},
+    {"assertion", "an assert() failed", "int main(void) {\n assert(zero); /* HERE */\n while (1); }"},
     {"free_of_nonsense", "free() of what malloc() did not give",
      "int main(void) {\n free((void *)(5000 + zero)); /* HERE */\n while (1); }"},
-    {"exit_with_a_failure", "exit() with a failure",
-     "int main(void) {\n exit(3); /* HERE */\n }"},
-    {"pointer_in_a_local_struct_never_set", "local is read, and nobody has written it; an address is made of it",
+    {"exit_with_a_failure", "exit() with a failure", "int main(void) {\n exit(3); /* HERE */\n }"},
+    {"pointer_in_a_local_struct_never_set",
+     "local is read, and nobody has written it; an address is made of it",
      "struct s { int n; int *p; };\n"
      "__attribute__((noinline)) void use(struct s *s) {\n *s->p = 3; } /* HERE */\n"
      "int main(void) { struct s local; local.n = 1; use(&local); while (1); }"},
-    {"pointer_in_the_heap_never_set", "a heap block is read, and nobody has written it; an address is made of it",
+    {"pointer_in_the_heap_never_set",
+     "a heap block is read, and nobody has written it; an address is made of it",
      "struct s { int n; int *p; };\n"
      "int main(void) { struct s *s = malloc(sizeof *s);\n *s->p = 3; /* HERE */\n while (1); }"},
 };

@@ -7,8 +7,8 @@
 #include <random>
 #include <sstream>
 
+#include "compiler/build/build.h"
 #include "dspic30/memory/program_memory.h"
-#include "hal_sim/cc/build.h"
 #include "tests/chip/chip_fixture.h"
 
 namespace {

@@ -11,13 +11,13 @@
 #include <fstream>
 #include <iostream>
 
+#include "compiler/build/build.h"
+#include "compiler/cache/elf_reader.h"
+#include "compiler/projects/library_copies.h"
+#include "compiler/projects/makefile_project.h"
+#include "compiler/projects/mplab_project.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
-#include "hal_sim/cc/build.h"
-#include "hal_sim/cc/elf_reader.h"
-#include "hal_sim/cc/library_copies.h"
-#include "hal_sim/cc/makefile_project.h"
-#include "hal_sim/cc/mplab_project.h"
 #include "import/import.h"
 #include "import/picture.h"
 #include "import/wbt_reader.h"

@@ -381,7 +381,8 @@ int main(void) {
   expect_no_traps();
 }
 
-// --- what has no test elsewhere that runs with both HALs (tests/firmware/both_hals.txt) -----------------------
+// --- what has no test elsewhere that runs with both HALs (tests/firmware/both_hals.txt)
+// -----------------------
 
 // on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7; noise of some
 // counts

@@ -35,8 +35,8 @@ std::string compile(const fs::path& source) {
         "/camera/fast_2_timer", "/codec", "/bluetooth", "/I2C", "/fft", "/matlab", "/acc_gyro",
         "/contrib/LIS_sensors_turret", "/contrib/SWIS_com_module"})
     line += " -I" + include + folder;
-  line += " -include " + root + "/hal_sim/cc/libc/include/xc16_builtins.h";
-  line += " -I" + root + "/hal_sim/cc/libc/include '" + source.string() + "' 2>&1";
+  line += " -include " + root + "/firmware/libc/include/xc16_builtins.h";
+  line += " -I" + root + "/firmware/libc/include '" + source.string() + "' 2>&1";
   FILE* pipe = popen(line.c_str(), "r");
   std::string said;
   std::array<char, 4096> buffer;

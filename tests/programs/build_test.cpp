@@ -14,7 +14,7 @@
 #include <set>
 #include <thread>
 
-#include "hal_sim/cc/child_process.h"
+#include "compiler/cache/child_process.h"
 #include "twinpuck_paths.h"
 
 namespace {

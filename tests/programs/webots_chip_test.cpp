@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hal_sim/cc/build.h"
+#include "compiler/build/build.h"
 #include "tests/support/firmware_test.h"
 #include "twinpuck_paths.h"
 

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "hal_sim/cc/build.h"
+#include "compiler/build/build.h"
 
 namespace routines_test {
 

@@ -13,7 +13,7 @@
 #include <mutex>
 #include <sstream>
 
-#include "hal_sim/cc/build.h"
+#include "compiler/build/build.h"
 #include "viewer/live_view.h"
 
 struct mg_connection;

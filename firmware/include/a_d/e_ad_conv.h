@@ -9,10 +9,10 @@
 #include "../twinpuck.h"
 
 /** Configures the converter: 12 bits, inputs AN2 to AN15 analogue. Does not block. */
-void e_init_ad(void) TP_VARIANT(tpbasic_, e_init_ad);
+void e_init_ad(void) TP_VARIANT(tp_basic_, e_init_ad);
 
 /** Converts channel 0 to 15 (IR0, MIC1, ACCX, ... of e_epuck_ports.h) and returns 0 to 4095; 0 for a channel
  *  above 15. Blocks for some tens of microseconds: settling delay and 14 converter clocks. */
-int e_read_ad(unsigned int channel) TP_VARIANT(tpbasic_, e_read_ad);
+int e_read_ad(unsigned int channel) TP_VARIANT(tp_basic_, e_read_ad);
 
 #endif

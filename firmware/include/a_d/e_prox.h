@@ -16,9 +16,9 @@
 #include "../twinpuck.h"
 
 #ifdef E_PROX_TIMER2
-#define TP_PROX(name) TP_VARIANT(tpt2_, name)
+#define TP_PROX(name) TP_VARIANT(tp_t2_, name)
 #else
-#define TP_PROX(name) TP_VARIANT(tpbasic_, name)
+#define TP_PROX(name) TP_VARIANT(tp_basic_, name)
 #endif
 
 /** Configures the converter (e_init_ad()) and starts the timer. Does not block; values are 0 until

@@ -9,15 +9,15 @@
 
 /** Ring LED `led_number` 0 to 7 clockwise, 0 in front; 8 and above means all eight.
  *  `value` 0 off, 1 on, above 1 toggles (for "all": each LED by itself). */
-void e_set_led(unsigned int led_number, unsigned int value) TP_VARIANT(tpbasic_, e_set_led);
+void e_set_led(unsigned int led_number, unsigned int value) TP_VARIANT(tp_basic_, e_set_led);
 
 /** All eight ring LEDs off; body and front LED stay. */
-void e_led_clear(void) TP_VARIANT(tpbasic_, e_led_clear);
+void e_led_clear(void) TP_VARIANT(tp_basic_, e_led_clear);
 
 /** Green body LED: 0 off, 1 on, above 1 toggles. */
-void e_set_body_led(unsigned int value) TP_VARIANT(tpbasic_, e_set_body_led);
+void e_set_body_led(unsigned int value) TP_VARIANT(tp_basic_, e_set_body_led);
 
 /** Red front LED: 0 off, 1 on, above 1 toggles. */
-void e_set_front_led(unsigned int value) TP_VARIANT(tpbasic_, e_set_front_led);
+void e_set_front_led(unsigned int value) TP_VARIANT(tp_basic_, e_set_front_led);
 
 #endif

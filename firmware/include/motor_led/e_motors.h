@@ -15,9 +15,9 @@
 #include "../twinpuck.h"
 
 #ifdef E_MOTORS_TIMER3
-#define TP_MOTORS(name) TP_VARIANT(tptimer3_, name)
+#define TP_MOTORS(name) TP_VARIANT(tp_timer3_, name)
 #else
-#define TP_MOTORS(name) TP_VARIANT(tpbasic_, name)
+#define TP_MOTORS(name) TP_VARIANT(tp_basic_, name)
 #endif
 
 /** Calls e_init_port(): LEDs off, motors without current; blocks as long as that does. */

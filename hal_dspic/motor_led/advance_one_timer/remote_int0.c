@@ -5,7 +5,7 @@
 
 void __attribute__((__interrupt__, __auto_psv__)) _INT0Interrupt(void) {
   IFS0bits.INT0IF = 0;
-  twinpuck_remote_edge();
+  hal_remote_edge();
 }
 
 void hal_remote_arm(void) {

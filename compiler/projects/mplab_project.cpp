@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+#include "mplab_project.h"
+
+#include <algorithm>
+#include <cctype>
+#include <sstream>
+#include <string>
+
+#include "compiler/cache/inputs.h"
+#include "compiler/cache/object_cache.h"
+#include "library_copies.h"
+#include "sim_core/base/pattern.h"
+
+namespace cc {
+namespace fs = std::filesystem;
+namespace {
+
+/// What `name` is called in `folder` whatever its case, or an empty path.
+fs::path entry_of(const fs::path& folder, const std::string& name) {
+  std::error_code ec;
+  if (name == "." || name == "..") return folder / name;
+  look_at(folder);
+  if (fs::exists(folder / name, ec)) return folder / name;
+  for (fs::directory_iterator it(folder, ec), end; !ec && it != end; it.increment(ec))
+    if (lower(it->path().filename().string()) == lower(name)) return it->path();
+  return {};
+}
+
+fs::path below(const fs::path& folder, const std::vector<std::string>& parts, std::size_t first) {
+  fs::path at = folder;
+  for (std::size_t i = first; i < parts.size() && !at.empty(); ++i) at = entry_of(at, parts[i]);
+  return at;
+}
+
+/// The values of "key=value" lines of one section.
+std::vector<std::string> values_of(const std::string& text, const std::string& section,
+                                   const std::string& key) {
+  std::vector<std::string> values;
+  std::istringstream lines(text);
+  bool is_inside = false;
+  for (std::string line; std::getline(lines, line);) {
+    while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
+    if (line.rfind("[", 0) == 0) is_inside = line == "[" + section + "]";
+    const std::size_t sign = line.find('=');
+    if (is_inside && sign != std::string::npos && line.rfind(key, 0) == 0)
+      values.push_back(line.substr(sign + 1));
+  }
+  return values;
+}
+
+constexpr const char* kLevelUnsaid = "-O0";  // gcc's
+
+struct Listed {
+  std::vector<std::string> files, include_dirs;  // as written; folders separated by ';'
+  CompilerOptions options;
+  std::vector<std::string> archives;  // that are linked, as written
+};
+
+Listed read_mcp(const std::string& text) {
+  // the settings of C30 and XC16 among those of the other tools
+  constexpr const char* kCompiler = "TS{25AC22BD-2378-4FDB-BFB6-7345A15512D3}";
+  Listed listed{values_of(text, "FILE_INFO", "file_"), values_of(text, "PATH_INFO", "dir_inc"), {}, {}};
+  std::string options;
+  for (const std::string& value : values_of(text, "TOOL_SETTINGS", kCompiler)) options += value + " ";
+  listed.options = compiler_options(options);
+  if (listed.options.level.empty() && !options.empty()) listed.options.level = kLevelUnsaid;
+  return listed;
+}
+
+std::string without_entities(std::string text) {
+  for (const auto& [entity, plain] :
+       {std::pair("&quot;", "\""), std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&amp;", "&")})
+    for (std::size_t at; (at = text.find(entity)) != std::string::npos;)
+      text.replace(at, std::string(entity).size(), plain);
+  return text;
+}
+
+Listed read_configurations(const std::string& text) {
+  Listed listed;
+  static const sim::Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
+  static const sim::Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
+  static const sim::Pattern kInclude(
+      R"re(key="(extra|common)-include-directories(?:-for-assembler)?"\s+value="([^"]*)")re");
+  static const sim::Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
+  static const sim::Pattern kLevel(R"re(key="optimization-level"\s+value="([^"]*)")re");
+  static const sim::Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
+  static const sim::Pattern kArchive(R"(<linkerLibFileItem>([^<]+)</linkerLibFileItem>)");
+  for (std::sregex_iterator it(text.begin(), text.end(), kArchive), end; it != end; ++it)
+    listed.archives.push_back(without_entities((*it)[1]));
+  // of another project: its folder, and where below it the archive is made
+  static const sim::Pattern kProject(R"re(<makeArtifact\s[^>]*?\bPL="([^"]*)"[^>]*?\bOP="([^"]*)")re");
+  for (std::sregex_iterator it(text.begin(), text.end(), kProject), end; it != end; ++it)
+    listed.archives.push_back(without_entities((*it)[1]) + "/" + without_entities((*it)[2]));
+  std::vector<std::string> excluded;
+  for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
+    excluded.push_back((*it)[1]);
+  for (std::sregex_iterator it(text.begin(), text.end(), kItem), end; it != end; ++it)
+    if (std::find(excluded.begin(), excluded.end(), (*it)[1]) == excluded.end())
+      listed.files.push_back((*it)[1]);
+  for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
+    listed.include_dirs.push_back(without_entities((*it)[2]));
+  // macros of the compiler, not of the assembler or the linker
+  std::string options;
+  const std::size_t begin = text.find("<C30>"), end_of_compiler = text.find("</C30>");
+  const std::string compiler = begin == std::string::npos ? "" : text.substr(begin, end_of_compiler - begin);
+  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMacros), end; it != end; ++it) {
+    std::istringstream in(without_entities((*it)[1]));
+    for (std::string macro; std::getline(in, macro, ';');)
+      if (!macro.empty()) options += "-D" + macro + " ";
+  }
+  // "", "0", "1" or "-O1"
+  if (std::smatch m; std::regex_search(compiler, m, kLevel))
+    if (const std::string level = m[1]; !level.empty())
+      options += (level[0] == '-' ? "" : "-O") + level + " ";
+  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMore), end; it != end; ++it)
+    options += without_entities((*it)[1]) + " ";
+  listed.options = compiler_options(options);
+  if (listed.options.level.empty() && !compiler.empty()) listed.options.level = kLevelUnsaid;
+  return listed;
+}
+
+/// The part of one configuration; all of the text where there is none of that name.
+std::string part_of_configuration(const std::string& text, const std::string& name) {
+  const std::size_t first = text.find("<conf "), begin = text.find("<conf name=\"" + name + "\"");
+  if (begin == std::string::npos) return text;
+  return text.substr(0, first) + text.substr(begin, text.find("</conf>", begin) - begin);
+}
+
+/// An archive that a project links: the file, or the C files of the project that makes it,
+/// "../lib.X/dist/default/production/lib.X.a", which are there for whatever asks for them.
+void add_archive(MplabProject& project, const fs::path& home, const std::string& archive) {
+  std::error_code ec;
+  if (const fs::path file = resolve_path(home, archive).lexically_normal();
+      !file.empty() && fs::is_regular_file(file, ec)) {
+    project.objects.push_back(file);
+    return;
+  }
+  std::string written = archive;
+  std::replace(written.begin(), written.end(), '\\', '/');
+  const std::size_t made = written.rfind("/dist/");
+  if (made == std::string::npos) return;
+  const fs::path sister = resolve_path(home, written.substr(0, made)).lexically_normal();
+  const fs::path file = sister / "nbproject/configurations.xml";
+  look_at(file);
+  if (sister.empty() || !fs::is_regular_file(file, ec)) return;
+  const std::size_t name = made + std::char_traits<char>::length("/dist/");
+  const Listed listed = read_configurations(
+      part_of_configuration(read_text(file), written.substr(name, written.find('/', name) - name)));
+  for (const std::string& source : listed.files) {
+    const fs::path found = resolve_path(sister, source).lexically_normal();
+    if (found.empty() || !fs::is_regular_file(found, ec)) continue;
+    const std::string kind = lower(found.extension().string());
+    if (kind == ".c" && !defines_main(found)) project.library_sources.push_back(found);
+    if (kind == ".s") project.assembler.push_back(found);
+  }
+  project.include_dirs.push_back(sister);
+  for (const std::string& list : listed.include_dirs)
+    for (std::istringstream in(list); std::getline(in, written, ';');)
+      if (const fs::path folder = resolve_path(sister, written).lexically_normal();
+          !folder.empty() && fs::is_directory(folder, ec))
+        project.include_dirs.push_back(folder);
+}
+
+/// A project and its home: the folder that its relative paths start from.
+std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
+  const std::string text = read_text(file);
+  const Listed listed =
+      lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
+  MplabProject project;
+  project.file = file;
+  project.defines = listed.options.defines;
+  project.standard = listed.options.standard;
+  project.level = listed.options.level;
+  bool has_main = false;
+  std::error_code ec;
+  for (const std::string& name : listed.files) {
+    const fs::path found = resolve_path(home, name).lexically_normal();
+    const std::string extension = lower(fs::path(name).extension().string());
+    const bool exists = !found.empty() && fs::is_regular_file(found, ec);
+    if (extension == ".s" && exists) project.assembler.push_back(found);
+    if ((extension == ".o" || extension == ".a") && exists) project.objects.push_back(found);
+    if (extension != ".c") continue;
+    if (!exists) {
+      ++project.missing;
+      std::string written = name;
+      std::replace(written.begin(), written.end(), '\\', '/');
+      if (const std::string place = library_place(written); !place.empty())
+        project.library_places.push_back(place);
+    }
+    if (!exists || std::find(project.sources.begin(), project.sources.end(), found) != project.sources.end())
+      continue;
+    project.sources.push_back(found);
+    has_main = has_main || defines_main(found);
+  }
+  if (!has_main) return std::nullopt;
+  for (const std::string& archive : listed.archives) add_archive(project, home, archive);
+  const auto add_folder = [&](const std::string& name) {
+    const fs::path found = resolve_path(home, name).lexically_normal();
+    if (!found.empty() && fs::is_directory(found, ec)) project.include_dirs.push_back(found);
+  };
+  for (const std::string& name : listed.options.include_dirs) add_folder(name);
+  for (const std::string& list : listed.include_dirs) {
+    std::istringstream in(list);
+    for (std::string name; std::getline(in, name, ';');) {
+      name.erase(std::remove(name.begin(), name.end(), '"'), name.end());
+      add_folder(name);
+    }
+  }
+  return project;
+}
+
+}  // namespace
+
+fs::path resolve_path(const fs::path& home, std::string text) {
+  std::replace(text.begin(), text.end(), '\\', '/');
+  const bool is_absolute = text.size() > 1 && (text[0] == '/' || text[1] == ':');
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, '/');)
+    if (!part.empty() && part.back() != ':') parts.push_back(part);
+  constexpr std::size_t kMostParts = 100;  // each is looked for in turn, and from every later one on
+  if (parts.empty() || parts.size() > kMostParts) return {};
+  if (!is_absolute) return below(home, parts, 0);
+  constexpr int kAncestors = 3;
+  for (std::size_t first = 0; first < parts.size(); ++first) {
+    fs::path at = home;
+    for (int up = 0; up <= kAncestors; ++up, at = at.parent_path())
+      if (fs::path found = below(at, parts, first); !found.empty()) return found;
+  }
+  return {};
+}
+
+namespace {
+
+/// "1" of "-O1" as ours; -O is -O1, -O3 does what -O2 does here.
+std::string level_of(const std::string& written) {
+  if (written == "0" || written == "1" || written == "2" || written == "s") return "-O" + written;
+  return written.empty() ? "-O1" : written == "3" ? "-O2" : "";
+}
+
+}  // namespace
+
+CompilerOptions compiler_options(const std::string& command_line) {
+  // words, in which quotes join
+  std::vector<std::string> words(1);
+  char quote = 0;
+  for (char c : command_line) {
+    if (quote ? c == quote : c == '"' || c == '\'')
+      quote = quote ? 0 : c;
+    else if (!quote && std::isspace(static_cast<unsigned char>(c)))
+      words.emplace_back();
+    else
+      words.back() += c;
+  }
+  CompilerOptions options;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const std::string& word = words[i];
+    const auto value = [&] {
+      return word.size() > 2 ? word.substr(2) : i + 1 < words.size() ? words[++i] : std::string();
+    };
+    if (word.rfind("-I", 0) == 0)
+      options.include_dirs.push_back(value());
+    else if (word.rfind("-D", 0) == 0)
+      options.defines.push_back(value());
+    else if (word.rfind("-std=", 0) == 0)
+      options.standard = word.substr(5);
+    else if (word.rfind("-O", 0) == 0)
+      options.level = level_of(word.substr(2));
+  }
+  return options;
+}
+
+bool defines_main(const fs::path& source) {
+  static const sim::Pattern kMain(R"(\bmain\s*\([^;{)]*\)\s*\{)");
+  return std::regex_search(without_comments(read_text(source)), kMain);
+}
+
+std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::string& told) {
+  const fs::path home = fs::absolute(folder).lexically_normal();
+  std::vector<std::pair<fs::path, fs::path>> files;  // project, its home
+  const auto add_configurations = [&](const fs::path& place) {
+    const fs::path file = place / "nbproject/configurations.xml";
+    look_at(file);
+    std::error_code ec;
+    if (fs::is_regular_file(file, ec)) files.emplace_back(file, place);
+  };
+  look_at(home);
+  add_configurations(home);
+  std::error_code ec;
+  for (fs::directory_iterator it(home, ec), end; !ec && it != end; it.increment(ec)) {
+    const std::string extension = lower(it->path().extension().string());
+    if (extension == ".mcp" && it->is_regular_file()) files.emplace_back(it->path(), home);
+    if (extension == ".x" && it->is_directory()) add_configurations(it->path());
+  }
+  std::sort(files.begin(), files.end());
+  std::vector<MplabProject> projects;
+  for (const auto& [file, at] : files)
+    if (auto project = read_project(file, at)) projects.push_back(*project);
+  if (projects.empty()) return std::nullopt;
+
+  const auto sorted = [](std::vector<fs::path> list) {
+    std::sort(list.begin(), list.end());
+    return list;
+  };
+  const bool agree = std::all_of(projects.begin(), projects.end(), [&](const MplabProject& p) {
+    return sorted(p.sources) == sorted(projects[0].sources);
+  });
+  if (agree) return projects[0];  // one program may have a project for each version of MPLAB
+
+  std::string names;
+  for (const MplabProject& p : projects)
+    names += (names.empty() ? "" : " and ") + p.file.lexically_relative(home).string();
+  const auto only = [&](const auto& is_good) -> const MplabProject* {
+    const auto first = std::find_if(projects.begin(), projects.end(), is_good);
+    if (first == projects.end() || std::find_if(first + 1, projects.end(), is_good) != projects.end())
+      return nullptr;
+    return &*first;
+  };
+  const int fewest = std::min_element(projects.begin(), projects.end(), [](const auto& a, const auto& b) {
+                       return a.missing < b.missing;
+                     })->missing;
+  const MplabProject* taken = only([&](const MplabProject& p) { return p.missing == fewest; });
+  std::string why = "all others list more files that are missing";
+  if (!taken) {
+    taken = only([&](const MplabProject& p) { return p.missing == fewest && p.file.extension() == ".xml"; });
+    why = "it is the project of the newer MPLAB X";
+  }
+  told = home.string() + ": project: got several that list different files (" + names + "), expected one; " +
+         (taken ? taken->file.lexically_relative(home).string() + " is taken, since " + why
+                : "none is taken, remove all but one");
+  return taken ? std::optional<MplabProject>(*taken) : std::nullopt;
+}
+
+}  // namespace cc
