@@ -93,7 +93,7 @@ bool measure_waits(int rounds) {
                         [&] {
                           cc::BuildOptions o;
                           o.source_dir = twin::project_root() + "/firmware/blink";
-                          o.output = scratch / "blink.so";
+                          o.output = scratch / "blink.elf";
                           o.cache_dir = scratch / "cache";
                           if (!cc::build_image(o).ok) std::exit(2);
                         }),

@@ -35,7 +35,7 @@ nlohmann::ordered_json json_of(const chip::Spread& s) {
 }  // namespace
 
 bool is_library_place(const std::string& place) {
-  for (const char* room : {"hal_dspic/", "hal_sim/", "firmware/library/", "firmware/webots/"})
+  for (const char* room : {"hal_dspic/", "firmware/libc/", "firmware/library/", "firmware/webots/"})
     if (place.rfind(room, 0) == 0) return true;
   return place.empty();
 }

@@ -264,10 +264,10 @@ void add_run(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<RunArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   verb->option_defaults()->group("Robots");
-  one_each(
-      verb->add_option("--fw", a->firmware,
-                       "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
-                       "every robot"));
+  one_each(verb->add_option(
+      "--fw", a->firmware,
+      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
+      "every robot"));
   add_hal(*verb, a->hal);
   one_each(verb->add_option(
       "--uart", a->uart1,

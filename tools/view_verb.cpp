@@ -66,10 +66,10 @@ void add_view(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("view", "See, touch and change a world in a browser");
   auto a = std::make_shared<ViewArguments>();
   verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
-  one_each(
-      verb->add_option("--fw", a->firmware,
-                       "[ROBOT=]FILE: a .so, a folder of C files, or a controller's name; without ROBOT, for "
-                       "every robot"));
+  one_each(verb->add_option(
+      "--fw", a->firmware,
+      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
+      "every robot"));
   verb->add_option("--port", a->port, "of 127.0.0.1; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();

@@ -17,7 +17,7 @@ namespace {
 /// In every image of the chip that was linked here (dspic30/memory/host_places.h).
 constexpr const char* kMadeHere = "_tp_hal";
 
-/// The linker's numbers, of its report (dspic30/llvm/link_report.cpp).
+/// The linker's numbers, of its report (dspic30/link/report.cpp).
 void take_sizes(const std::string& report, const fs::path& folder, BuildResult& result) {
   result.size_report = report;
   const auto number_behind = [&](const std::string& word) {

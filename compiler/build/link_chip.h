@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The last step of a build for the chip: .elf, .hex, .lst and .map, which appear together or not at all. For
-// hal_sim the linker takes out what the simulator fills (dspic30/llvm/link_host.cpp); then there is no .hex,
+// hal_sim the linker takes out what the simulator fills (dspic30/link/host.cpp); then there is no .hex,
 // and .lst and .map only with BuildOptions::with_texts.
 #pragma once
 #include <filesystem>

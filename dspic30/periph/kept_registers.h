@@ -2,9 +2,7 @@
 // Registers that hold what was written, with the few side effects that they have here.
 //
 //   CpuRegisters: 0x000 to 0x052. SR.IPL and DISICNT act; W0 to W15, accumulators, CORCON, TBLPAG, PSVPAG and
-//   the
-//     rest are words. A model of the core answers for this range itself; natively run code has other
-//     registers.
+//     the rest are words. A model of the core answers for this range itself.
 //   Can: CAN 1 and 2. REQOP is mirrored into OPMODE; no message is sent or received.
 //   PlainRegisters: BSRAM, SSRAM, PMD1 to 3 (their effect is the chip's).
 //

@@ -2,7 +2,7 @@
 // All routines that are known by heart: those of hal_dspic/runtime, of the firmware's C library, and of the
 // I2C master, as this compiler makes them. Each form is bound to the very code that it was made for
 // (KnownRoutine::code): after a change of the routine or of the compiler it is not found any more and the
-// routine runs, until its form is looked at again; tests/dspic30/routines_test.cpp tells.
+// routine runs, until its form is looked at again; tests/routines/routines_test.cpp tells.
 #pragma once
 #include <cstdint>
 #include <map>

@@ -210,13 +210,6 @@ bool Board::output_high(Pin pin) const {
   return (lat_[pin.port] & ~static_cast<unsigned>(tris_[pin.port]) & pin.mask()) != 0;
 }
 
-bool Board::latch_bit(char port, int n, Cycle at) const {
-  const int index = port_index(port);
-  // ring LEDs: no overlay
-  if (index == kA) return (lat_[kA] & bit(n)) != 0;
-  return (port_read(port, Register::Lat, at) & bit(n)) != 0;
-}
-
 void Board::latch_bit(char port, int n, bool level, Cycle at) {
   const std::uint16_t old = port_read(port, Register::Lat, at);
   port_write(port, Register::Lat, static_cast<std::uint16_t>(level ? old | bit(n) : old & ~bit(n)), at);

@@ -168,7 +168,6 @@ class Board {
   void port_write(char port, Register reg, std::uint16_t value, Cycle at);
   /// One latch bit, as BSET/BCLR do it (the read half of the instruction included).
   void latch_bit(char port, int bit, bool level, Cycle at);
-  bool latch_bit(char port, int bit, Cycle at) const;
   /// First cycle after `at` at which a PORT or LAT word can change by itself; kNever if it cannot.
   Cycle port_horizon(char port, Cycle at) const;
 

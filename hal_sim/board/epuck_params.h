@@ -4,7 +4,6 @@
 //   [lib: path]    what the original library's source does (fact restated)
 //   [FRM A1]       the collected robot reference (docs/sources.md), section A1
 //   [measured ..]  measured by us or by a named page
-//   [estimated: ..] counted by hand from the library's source
 //   [assumed: ..]  chosen, with the reason
 #pragma once
 #include <cstddef>

@@ -73,8 +73,8 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
   endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
   calls_ = std::make_unique<LibraryCalls>(image_->functions(), *processor_, *places_, chip_, board);
-  processor_->tell_calls(this, image_->functions().addresses());
   if (is_checked) check_memory();
+  tell_calls();
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   // a source of clock that the robot has not: no instruction is ever executed
   const std::string problem = chip::clock_problem(configuration.fosc);
@@ -96,10 +96,33 @@ void ChipRunner::check_memory() {
         report(Ending{host::kTrapSanitizer, "", message, place},
                places_->callers(processor_->pc_of_access(), place, kMostCallers));
       });
-  std::vector<std::uint32_t> addresses = image_->functions().addresses();
-  for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
-  processor_->tell_calls(this, std::move(addresses));
   processor_->check_memory(&memory_->check());
+}
+
+/// Which functions of the program entered() wants to hear of.
+void ChipRunner::tell_calls() {
+  std::vector<std::uint32_t> addresses = image_->functions().addresses();
+  if (memory_)
+    for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
+  addresses.insert(addresses.end(), agendas_.begin(), agendas_.end());
+  processor_->tell_calls(this, std::move(addresses));
+}
+
+/// For an observer: the calls of agendas by hal_dspic's own handler. Their functions are known once they are
+/// activated, and the place to which they return once one has been called.
+void ChipRunner::follow_agendas(unsigned address) {
+  const auto learn = [this](unsigned place) {
+    if (place != 0 && agendas_.insert(place).second) tell_calls();
+  };
+  if (image_->functions().activates_agenda(address)) return learn(processor_->w(0));
+  if (address == agenda_returns_to_) {
+    observer_->callback(0, processor_->now());
+    agenda_returns_to_ = 0;
+  } else if (agendas_.count(address) && device().nesting() > 0) {
+    observer_->callback(address, processor_->now());
+    agenda_depth_ = open_handlers_;
+    learn(agenda_returns_to_ = calls_->return_address());
+  }
 }
 
 void ChipRunner::program_eeprom() {
@@ -223,6 +246,8 @@ void ChipRunner::fill_ram() {
 
 void ChipRunner::tell_reset(Cycle at) {
   if (observer_) observer_->ended(at);
+  open_handlers_ = 0;
+  agenda_returns_to_ = 0;
   for (StepWatch* watch : watches_) watch->was_reset(at);
   calls_->forget_starts();
   if (memory_) memory_->restart();
@@ -376,7 +401,18 @@ void ChipRunner::run_watched(Cycle end) {
   }
 }
 
+void ChipRunner::handler_ends(Cycle at) {
+  // the first time the place behind the call was not known yet
+  if (agenda_returns_to_ != 0 && open_handlers_ == agenda_depth_) {
+    observer_->callback(0, at);
+    agenda_returns_to_ = 0;
+  }
+  --open_handlers_;
+  observer_->handler_ends(at);
+}
+
 void ChipRunner::handler_begins(int vector, Cycle entry, Cycle first) {
+  ++open_handlers_;
   if (vector < dspic::kFirstIrqVector)
     return observer_->handler_begins(host::kTrapVector + vector - 1, -1, entry, first);
   // one known by heart that is not held off needs no flag to come

@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -115,7 +116,7 @@ class ChipRunner final : public host::Runner,
     if (observer_->sees_registers) observer_->about_to_change(at);
   }
   void handler_begins(int vector, Cycle entry, Cycle first) override;
-  void handler_ends(Cycle at) override { observer_->handler_ends(at); }
+  void handler_ends(Cycle at) override;
   void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().nesting()); }
   void program_eeprom();
   void fill_ram();
@@ -123,6 +124,8 @@ class ChipRunner final : public host::Runner,
   void run_looked_at(Cycle end);
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_reset(Cycle at);
+  void tell_calls();
+  void follow_agendas(unsigned address);
   void trapped(dspic::Trap trap, unsigned from) override {
     chip_.digest().note(EventDigest::Kind::Trap, static_cast<std::uint64_t>(trap) << 32 | from,
                         processor_->now());
@@ -130,6 +133,7 @@ class ChipRunner final : public host::Runner,
   }
   void went_to_reset_vector(unsigned from) override;
   void entered(unsigned address) override {
+    if (observer_ && !library_) follow_agendas(address);
     if (!memory_ || !memory_->entered(address)) calls_->entered(address);
   }
   void called(api::HostFunction function) override { calls_->called(function); }
@@ -168,6 +172,9 @@ class ChipRunner final : public host::Runner,
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
+  std::set<std::uint32_t> agendas_;  // functions, and where they return to; of an observer's, with hal_dspic
+  unsigned agenda_returns_to_ = 0;   // of the one that runs
+  int open_handlers_ = 0, agenda_depth_ = 0;      // how many when it was called
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
   std::uint64_t turns_ = 0;

@@ -299,6 +299,18 @@ unsigned LibraryCalls::caller() const {
   return places_.caller();
 }
 
+unsigned LibraryCalls::return_address() const {
+  const unsigned at = caller();
+  for (const unsigned behind : {at + 2, at + 4})
+    if (places_.call_before(behind) == at) return behind;
+  return 0;
+}
+
+bool LibraryCalls::Functions::activates_agenda(unsigned address) const {
+  const Site* const site = at(address);
+  return site && site->prefix.empty() && site->known->function == Function::ActivateAgenda;
+}
+
 std::string LibraryCalls::where() const { return "; called at " + places_.text_of(places_.own(caller())); }
 
 void LibraryCalls::note_range(const Site& site, const std::string& what, int got, int least, int most,

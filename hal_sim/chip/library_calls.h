@@ -29,6 +29,8 @@ class LibraryCalls final {
 
   /// The function at `address` begins.
   void entered(unsigned address);
+  /// Where the function that begins will return to; 0: unknown.
+  unsigned return_address() const;
   /// A function of the host is called.
   void called(api::HostFunction function);
   /// The program has written an index of the library's that leads out of its array of `size`.
@@ -96,6 +98,8 @@ class LibraryCalls::Functions {
   explicit Functions(const dspic::FirmwareFile& file);
   /// Those that LibraryCalls wants to hear of, in order.
   const std::vector<std::uint32_t>& addresses() const { return addresses_; }
+  /// Is it e_activate_agenda()? The agenda's function is in W0 then.
+  bool activates_agenda(unsigned address) const;
 
  private:
   friend class LibraryCalls;

@@ -5,19 +5,6 @@ namespace chip {
 
 namespace {
 
-const char* reason_of(dspic::ResetKind kind) {
-  switch (kind) {
-    case dspic::ResetKind::Watchdog:
-      return "the watchdog was not cleared in time, so it resets the processor";
-    case dspic::ResetKind::TrapConflict:
-      return "a hard trap met another one, so the processor resets";
-    case dspic::ResetKind::IllegalOpcode:
-      return "an illegal opcode, or a pointer that was never written, resets the processor";
-    default:
-      return "the processor resets";
-  }
-}
-
 /// What to do about it; empty where the message says so.
 std::string hint_for(dspic::Cause cause) {
   using dspic::Cause;
@@ -100,17 +87,6 @@ void SolderedChip::begin_again(Cycle now) {
   next_reset_ = dspic::ResetKind::PowerOn;
 }
 
-const char* SolderedChip::note_reset_due() {
-  next_reset_ = *device_->reset_due(latest_);
-  return reason_of(next_reset_);
-}
-
-void SolderedChip::stop(Cycle now) {
-  device_->reset(dspic::ResetKind::Pin, at(now));
-  outside_.chip_was_reset();
-  board_.processor_reset(latest_);
-}
-
 void SolderedChip::end_window(Cycle now) {
   device_->run_to(at(now));
   outside_.end_window(*device_, latest_);
@@ -119,22 +95,6 @@ void SolderedChip::end_window(Cycle now) {
 void SolderedChip::watch(dspic::EventWatch* watch) {
   watch_ = watch;
   device_->watch(watch);
-}
-
-SolderedChip::Waiting SolderedChip::longest_waiting(Cycle now) {
-  const Cycle t = at(now);
-  const bool disi = device_->disi_active(t);
-  if (device_->cpu_level() == 0 && !disi) return {};
-  Waiting oldest;
-  for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v) {
-    const int priority = device_->priority(v);
-    if (!device_->is_enabled(v) || priority == 0 || !device_->has_flag(v, t)) continue;
-    const Cycle since = device_->flag_since(v);
-    if ((priority <= device_->cpu_level() || (disi && priority < 7)) &&
-        (oldest.vector == dspic::kNoVector || since < oldest.since))
-      oldest = {v, since};
-  }
-  return oldest;
 }
 
 // --- diagnoses ------------------------------------------------------------------------------------------

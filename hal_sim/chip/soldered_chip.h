@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The dsPIC30F6014A of one robot, soldered in: the models of the chip, their pins on the board, resets with
-// their causes, data EEPROM, and what the chip has to say about a program. Whoever runs programs on it, one
-// compiled for the PC or an image of the chip, gives it time and instructions.
+// their causes, data EEPROM, and what the chip has to say about a program. Its runner gives it time and
+// instructions.
 //
 //   runner --registers, interrupts, instants--> SolderedChip: Dspic30f6014a <--> BoardOutside <--> Board
 //
-// Its clock never goes back: at() moves an instant of the caller's to the latest one seen, since a runner
-// that estimates may ask twice for nearly the same cycle. Modelled: everything dspic30/ models. The processor
-// core is the runner's.
+// Its clock never goes back: at() moves an instant of the caller's to the latest one seen, since
+// whoever looks may ask once more for a cycle that has passed. Modelled: everything dspic30/ models. The
+// processor core is the runner's.
 #pragma once
 #include <functional>
 #include <memory>
@@ -33,10 +33,6 @@ class SolderedChip final : private dspic::DiagnosticSink {
   /// powered up, at `now`.
   void begin_again(Cycle now);
   void note_reset(dspic::ResetKind cause) { next_reset_ = cause; }
-  /// The chip wants a reset (look() said reset_due): its cause is noted. Returns one sentence that says why.
-  const char* note_reset_due();
-  /// The program has ended for good: pins are released.
-  void stop(Cycle now);
 
   // --- time
   Cycle at(Cycle now) {
@@ -62,12 +58,6 @@ class SolderedChip final : private dspic::DiagnosticSink {
   dspic::ChipParts& parts() { return *parts_; }
   /// Whoever draws registers over time, now and after every power-up. Null: nobody.
   void watch(dspic::EventWatch* watch);
-  /// An enabled interrupt whose flag is set and that level or DISI holds off, the oldest; kNoVector: none.
-  struct Waiting {
-    int vector = dspic::kNoVector;
-    Cycle since = 0;
-  };
-  Waiting longest_waiting(Cycle now);
 
   /// Whoever may add to the sentence of a diagnosis when it comes up: where the program is then.
   void comment_on(std::function<std::string(const dspic::Diagnosis&)> comment) {

@@ -537,12 +537,6 @@ bool Session::remove(int id) {
   return found;
 }
 
-const Breakpoint* Session::find(int id) const {
-  for (const Breakpoint& b : breakpoints_)
-    if (b.id == id) return &b;
-  return nullptr;
-}
-
 void Session::set_marks() {
   marks_.assign(Machine::code_end(), 0);
   marks_host_ = false;

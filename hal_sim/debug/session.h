@@ -129,7 +129,6 @@ class Session final : private chip::StepWatch {
   std::vector<std::size_t> files_meant(const std::string& path) const;
   bool remove(int id);
   std::vector<Breakpoint>& breakpoints() { return breakpoints_; }
-  const Breakpoint* find(int id) const;
 
  private:
   class SeenNames;

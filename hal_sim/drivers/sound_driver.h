@@ -5,8 +5,7 @@
 //   words
 //                                                      -> board::Codec
 //
-// The interrupt handler itself runs in the firmware image (hal_sim/api/e_sound.c), since it keeps two
-// variables that programs read and write; what it puts out is told to the codec in closed form. Modelled:
+// For programs of the PC: what the interrupt handler puts out is told to the codec in closed form. Modelled:
 // 7200 samples a second in groups of four, the pointer that is moved before it is read (so a sound lacks its
 // first sample and has one more at its end), lengths that are no multiple of four and never end, silence
 // without e_init_sound() or after e_close_sound(). Source: [lib: codec/], facts restated.

@@ -96,8 +96,8 @@ class Runner {
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Traps stay
   /// reported.
   virtual void restart() = 0;
-  /// Behind restart(): as when it was first switched on, not as behind the button. For code of the PC that is
-  /// the same.
+  /// Behind restart(): as when it was first switched on, not as behind the button. For a program of the PC
+  /// that is the same.
   virtual void begin_again() {}
 
   // --- how it has gone

@@ -220,7 +220,7 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
   Signal word;
   if (register_signal(name, word, error)) {
     if (has_chip) return {word};
-    error = "got '" + name + "', a register, which code of the PC has not; expected --hal sim or dspic";
+    error = "got '" + name + "', a register, which a program of the PC has not; expected firmware";
     return {};
   }
   if (!error.empty()) return {};

@@ -32,7 +32,7 @@ bool holds_c(const fs::path& folder) {
 
 // rooms of firmware/ that are no controllers
 bool is_room(const std::string& name) {
-  return name == "include" || name == "library" || name == "webots" || name == "lab";
+  return name == "include" || name == "libc" || name == "library" || name == "webots" || name == "lab";
 }
 
 std::vector<std::string> controller_names() {
@@ -196,17 +196,18 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   const fs::path path = found.path = find_firmware(name, from_folder, problems, &found.other);
   if (program) *program = found;
   std::error_code none;
-  if (path.empty() || (hal_of(options, path.string()).empty() && programs::is_pc_program(path.string())))
-    return path.string();
-  if (!fs::is_directory(path, none)) return path.string();
+  if (path.empty() || !fs::is_directory(path, none)) return path.string();
+  Options with_hal = options;  // which costs a look at all of its files
+  with_hal.hal = hal_of(options, path.string());
+  if (with_hal.hal.empty()) return path.string();
   cc::BuildOptions build;
   build.source_dir = path;
-  build.output = image_file(path.string(), options);
+  build.output = image_file(path.string(), with_hal);
   build.optimisation = options.optimisation;
   // so that each line has code of its own, and each condition its branch
   if (!options.coverage.empty() && build.optimisation.empty()) build.optimisation = "-O0";
   build.sanitize = options.sanitize;
-  build.hal = hal_of(options, path.string());
+  build.hal = with_hal.hal;
   build.webots_settings = options.webots_settings;
   const cc::BuildResult result = cc::build_image(build);
   if (program) program->files = result.files;

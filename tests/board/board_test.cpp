@@ -43,7 +43,7 @@ TEST(Pins, leds_sit_on_their_pins) {
   EXPECT_EQ(robot.leds(0), 1u << 8);
   robot.latch_bit('C', 1, true, 0);
   EXPECT_EQ(robot.leds(0), 3u << 8);
-  EXPECT_TRUE(robot.latch_bit('C', 1, 0));
+  EXPECT_EQ(robot.port_read('C', Register::Lat, 0) & 6u, 6u);
   robot.init_ports(0);
   EXPECT_EQ(robot.leds(0), 0u);
 }

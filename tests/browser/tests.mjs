@@ -355,7 +355,7 @@ export const tests = {
     const stands = "#include <p30F6014A.h>\n_FOSC(CSW_FSCM_OFF & EC_PLL8);  // a clock that the robot has not\nint main(void) { while (1); }\n";
     const [, other] = await start(browser, live, kWorld, { drive: stands });
     await other.click("#play"); await other.waitForFunction(() => document.querySelector("#stopped").textContent === "1 stopped");
-    assert.match(await other.textContent("#pane-problems"), /FOSC/);
+    await other.waitForFunction(() => /FOSC/.test(document.querySelector("#pane-problems").textContent));
   },
 
   // closed, reloaded or killed: the run is that of the same inputs

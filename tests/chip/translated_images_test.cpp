@@ -19,7 +19,9 @@ std::vector<std::string> controllers() {
   for (const char* parent : {"firmware", "firmware/lab"})
     for (const auto& entry : fs::directory_iterator(fs::path(TWINPUCK_SOURCE_DIR) / parent)) {
       const std::string name = entry.path().filename().string();
-      if (!entry.is_directory() || name == "library" || name == "include" || name == "webots") continue;
+      if (!entry.is_directory() || name == "libc" || name == "library" || name == "include" ||
+          name == "webots")
+        continue;
       const auto is_program = [](const auto& file) { return file.path().extension() == ".c"; };
       if (std::any_of(fs::directory_iterator(entry.path()), fs::directory_iterator(), is_program))
         all.push_back(name);

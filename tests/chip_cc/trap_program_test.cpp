@@ -43,6 +43,32 @@ TEST(TrapProgram, each_handler_that_clears_its_flag_is_entered_once_a_trap) {
   }
 }
 
+// LLVM takes a division by 0 for something that never happens
+TEST(TrapProgram, a_division_by_zero_traps_whatever_the_optimiser_knows) {
+  const char* source = R"(
+#include <p30F6014A.h>
+volatile int math, zero;
+volatile unsigned long none;
+volatile long sum;
+void __attribute__((interrupt, no_auto_psv)) _MathError(void) { ++math; INTCON1bits.MATHERR = 0; }
+static int over(int a, int b) { return a / b; }
+long bench_run(void) {
+  int z = 0;
+  sum += 5 / zero;
+  sum += 5 / z;
+  sum += 7u % (unsigned)z;
+  sum += over((int)sum, z);
+  sum += (int)(5 % none);  // two divisions of 16 bits
+  return math;
+}
+)";
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"}) {
+    ChipProgram p("zero", source, level);
+    ASSERT_TRUE(p.is_whole()) << p.error();
+    EXPECT_EQ(p.run(1'000'000), 6u) << level;
+  }
+}
+
 /// Of `bytes` of locals: once, or without end.
 std::string recursion(unsigned bytes, bool without_end) {
   return "#include <p30F6014A.h>\n"

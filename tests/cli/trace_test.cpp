@@ -147,10 +147,7 @@ TEST_P(TracesOfBoth, time_line_of_the_chips_code_has_waits_handlers_and_agendas)
   EXPECT_NEAR(busy + waiting, 5e5, 1);
   EXPECT_GT(waiting, 0.9 * busy);  // but for 5 % of T1's handlers, and their looks
   EXPECT_NEAR(handlers, 0.49 * 14745600 / 500, 100);
-  // hal_dspic calls its agendas by itself, and nobody tells of that
-  if (is_closed_form()) {
-    EXPECT_EQ(agendas, 9);
-  }
+  EXPECT_EQ(agendas, 9);
 }
 
 // hal_dspic's driver writes a motor's four pins one after the other, so the states in between are drawn, too:
@@ -258,9 +255,7 @@ TEST_P(TracesOfBoth, coils_variables_interrupts_and_bytes_have_their_times) {
     EXPECT_GE(args["latency_cycles"].get<int>(), 0);
     nested += args["interrupted_handlers"] == 1;
   }
-  if (is_closed_form()) {
-    EXPECT_EQ(beats, 9);
-  }
+  EXPECT_EQ(beats, 9);
   EXPECT_GE(nested, 9);
   for (const char* name : {"cpu load", "battery", "UART bytes sent", "UART bytes received"})
     EXPECT_TRUE(counters.count(name)) << name;

@@ -202,8 +202,7 @@ int main(void) {
 )");
   for (int i = 0; i < 100 && !robot.variable("started"); ++i) run_for(0.01);
   run_for(1.0);
-  // the library reckons 0.061 ms a frame; 1 s has 15,280 of 965 cycles. What it was estimated at is 0.7 %
-  // slower
+  // the library reckons 0.061 ms a frame; 1 s has 15,280 of 965 cycles
   EXPECT_NEAR(robot.variable<float>("elapsed"), 932.1, 9);
   const auto prox = robot.variables("prox", 8);
   EXPECT_GT(prox[0], 300);
