@@ -281,7 +281,6 @@ static BuildResult lint_here(const BuildOptions& options) {
   BuildResult result;
   BuildOptions o = options;
   o.strict = true;
-  std::error_code ec;
   auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
   if (sources.empty()) {
     result.errors.push_back(no_program(o.source_dir));

@@ -77,7 +77,7 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   tell_calls();
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
   // a source of clock that the robot has not: no instruction is ever executed
-  const std::string problem = chip::clock_problem(configuration.fosc);
+  const std::string problem = clock_problem(configuration.fosc);
   has_clock_ = problem.empty();
   if (!has_clock_) report({host::kTrapUnsimulated, "Reset", problem, 0});
   if (start <= 0) return;
@@ -345,10 +345,10 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
     // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
     const unsigned here = processor_->pc(), own = places_->own(here);
     const host::Place place = place_of(own);
-    const auto find = [&] { return chip::is_written_by_none(*this, place, by_name); };
+    const auto find = [&] { return is_written_by_none(*this, place, by_name); };
     const std::string line = place.file + ":" + std::to_string(place.line);
     if (enabled ? own == here && image_->is_endless(line, enabled, find) : place.line > 0)
-      wait_ = chip::endless_wait(*this, place, since);
+      wait_ = endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);
 }
