@@ -54,6 +54,10 @@ struct Opening {
 };
 Json to_json(const Opening& opening);
 
+/// A whole recording of a run up to `end`; each input with its tick, "at".
+std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
+                           std::uint64_t digest);
+
 /// Writes inputs down as they happen.
 class Recorder {
  public:
