@@ -28,6 +28,7 @@ constexpr Verb kVerbs[] = {
     {"cycles", add_cycles}, {"dis", add_dis},     {"asm", add_asm},         {"flash", add_flash},
     {"debug", add_debug},   {"new", add_new},     {"inspect", add_inspect}, {"list", add_list},
     {"import", add_import}, {"view", add_view},   {"lab", add_lab},         {"timings", add_timings},
+    {"test", add_test},     {"grade", add_grade},
 };
 
 }  // namespace

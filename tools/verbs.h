@@ -38,5 +38,7 @@ void add_timings(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
+void add_test(CLI::App& app, int& exit_code);
+void add_grade(CLI::App& app, int& exit_code);
 
 }  // namespace tools

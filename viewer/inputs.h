@@ -88,6 +88,8 @@ class Replay {
   void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
   /// Does all that are due now.
   void apply_due(Inputs& inputs, sim::Clicks now);
+  /// From the first input on.
+  void rewind() { at_ = 0; }
   /// Where the recording ends, and with which digest; negative: it was cut off.
   sim::Clicks end() const { return end_; }
   std::uint64_t digest() const { return digest_; }

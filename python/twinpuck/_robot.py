@@ -172,6 +172,7 @@ class SerialLine:
         that came before the call counts. Bytes are matched by a pattern of bytes. at_most: simulated seconds; then
         ExpectTimeout is raised, with the last lines and where the program stands. re.escape() makes text a pattern.
         """
+        __tracebackhide__ = True  # a test's failure shows the test's line
         compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
         is_bytes = isinstance(compiled.pattern, bytes)
         seen, found = -1, None
@@ -234,7 +235,7 @@ class Robot:
     @property
     def heading_deg(self) -> float:
         """Where it looks (degrees), above -180 and up to 180; 0 east, 90 north."""
-        return -((180.0 - math.degrees(self.heading_rad)) % 360.0 - 180.0)
+        return 180.0 - (180.0 - math.degrees(self.heading_rad)) % 360.0
 
     @property
     def position_m(self) -> tuple[float, float]:

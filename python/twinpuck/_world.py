@@ -129,6 +129,7 @@ class World:
             raise WorldError(f"World: optimise: got {optimise!r}, expected '-O0', '-O1', '-O2' or '-Os'")
         if threads < 1 or threads > 256:
             raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
+        __tracebackhide__ = True
         self._text, self._file = _read(source)
         self._options: dict[str, typing.Any] = {
             "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
@@ -142,6 +143,7 @@ class World:
         self.robots = Robots([Robot(self, i, name) for i, name in enumerate(self._core.names)])
 
     def _open(self) -> None:
+        __tracebackhide__ = True
         try:
             self._core = _core.World(self._text, self._file, self._options)
         except ValueError as wrong:
@@ -171,6 +173,7 @@ class World:
         Raises FirmwareFault when a program traps (unless traps is "report"). Ctrl-C ends it at a tick. Other Python
         threads run meanwhile, if no callable is called each tick.
         """
+        __tracebackhide__ = True
         self._run(seconds, None)
 
     def run_until(self, condition: collections.abc.Callable[[], object], at_most: float) -> bool:
@@ -178,15 +181,18 @@ class World:
 
         Raises as run() does, and whatever the condition raises.
         """
+        __tracebackhide__ = True
         return bool(condition()) or self._run(at_most, condition)
 
     def step(self, ticks: int = 1) -> None:
         """Runs for so many ticks."""
+        __tracebackhide__ = True
         for _ in range(ticks):
             self._run(self.tick_s / 2, None)
 
     def _run(self, seconds: float, condition: collections.abc.Callable[[], object] | None) -> bool:
-        if not (0 <= seconds <= 1e8):
+        __tracebackhide__ = True
+        if not 0 <= seconds <= 1e8:
             raise ValueError(f"run: got {seconds} s, expected 0 to 1e8")
         each_tick = condition
         if self._callables:
