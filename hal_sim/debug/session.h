@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "hal_sim/debug/machine.h"
 #include "hal_sim/debug/values.h"
 #include "hal_sim/twin/twin.h"
 
@@ -92,7 +93,7 @@ class Session final : private chip::StepWatch {
 
   // --- data
   /// What the program's names mean; without `pc`, where it stands. Until it runs on.
-  Values values(std::optional<std::uint32_t> pc = {}) const { return Values(*machine_, pc); }
+  Values values(std::optional<std::uint32_t> pc = {}) const { return Values(machine_->runner(), pc); }
   /// As C's assignment. False: `error` says why.
   bool assign(const std::string& name, const std::string& expression, std::string& error);
   /// As the debugger's doing, again in each repetition. False: not a place that can be written.

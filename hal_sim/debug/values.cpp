@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "dspic30/asm/expression.h"
-#include "dspic30/memory/sfr_table.h"
+#include "hal_sim/debug/machine.h"
 
 namespace debug {
 
@@ -66,9 +66,9 @@ bool Values::find_other(const std::string& name, CValue& value) const {
     value.raw = static_cast<std::uint64_t>(raw);
     return true;
   };
-  if (name == "pc") return known(CType::Kind::Signed, 64, machine_.pc());
-  if (name == "cycle") return known(CType::Kind::Signed, 64, machine_.now());
-  if (name == "nesting") return known(CType::Kind::Signed, 64, machine_.nesting());
+  if (name == "pc") return known(CType::Kind::Signed, 64, runner_.processor().pc());
+  if (name == "cycle") return known(CType::Kind::Signed, 64, runner_.processor().now());
+  if (name == "nesting") return known(CType::Kind::Signed, 64, runner_.device().nesting());
   if (const auto data = find_untyped(name)) {
     Data some = *data;
     some.bytes = std::min(data->bytes, 4u);
@@ -76,8 +76,8 @@ bool Values::find_other(const std::string& name, CValue& value) const {
     value.data = some;
     return true;
   }
-  const auto code = machine_.file().functions.find(name);
-  return code != machine_.file().functions.end() &&
+  const auto code = runner_.file().functions.find(name);
+  return code != runner_.file().functions.end() &&
          known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
 }
 
@@ -109,7 +109,7 @@ std::optional<Address> Values::address_of(const Part& part) const {
   if (!place || place->in == In::Value) return {};
   Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
   if (place->in == In::Frame) {
-    base += machine_.register_value(place->base);
+    base += read(Machine::register_data(place->base));
   } else if (place->in != In::Memory) {
     base = Machine::register_data(place->value).address;
   }
@@ -122,11 +122,11 @@ std::optional<std::uint64_t> Values::raw_value(const Part& part) const {
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    machine_.read({*address, bytes_of(type, part.found)}, &raw);
+    raw = read({*address, bytes_of(type, part.found)});
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
-    raw = place->in == In::Register ? machine_.register_value(place->value)
+    raw = place->in == In::Register ? read(Machine::register_data(place->value))
                                     : static_cast<std::uint64_t>(std::int64_t{place->value});
   }
   const unsigned bits = bits_of(type, part.found);
@@ -215,19 +215,17 @@ std::optional<Data> Values::find_data(const std::string& name) const {
 }
 
 std::optional<Data> Values::find_untyped(const std::string& name) const {
-  const auto& file = machine_.file();
+  const auto& file = runner_.file();
   if (const auto object = file.objects.find(name); object != file.objects.end()) {
     const auto bytes = file.object_bytes.find(name);
     return Data{object->second, bytes == file.object_bytes.end() ? 2u : bytes->second};
   }
-  return machine_.find_register(name);
+  return Machine::find_register(name);
 }
 
 std::uint64_t Values::read(const Data& data) const {
   std::uint64_t value = 0;
-  Data some = data;
-  some.bytes = std::min(data.bytes, 8u);
-  machine_.read(some, &value);
+  runner_.read_memory(data.address & kAddressMask, &value, std::min(data.bytes, 8u));
   return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 

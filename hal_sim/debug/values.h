@@ -5,16 +5,16 @@
 #include <optional>
 #include <string>
 
+#include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/debug/expression.h"
-#include "hal_sim/debug/machine.h"
 
 namespace debug {
 
 class Values final : public Names {
  public:
-  /// `machine` outlives it. With `pc` values are not the program's yet: nothing is refused for its value.
-  explicit Values(const Machine& machine, std::optional<std::uint32_t> pc = {})
-      : machine_(machine), pc_(pc.value_or(machine.pc())), is_tried_(pc.has_value()) {}
+  /// `runner` outlives it. With `pc` values are not the program's yet: nothing is refused for its value.
+  explicit Values(const chip::ChipRunner& runner, std::optional<std::uint32_t> pc = {})
+      : runner_(runner), pc_(pc.value_or(runner.processor().pc())), is_tried_(pc.has_value()) {}
 
   /// An expression of C (expression.h): variables and their parts (motors[n].speed, m->speed, *p), registers
   /// (LATA, LATA.LATA6, w0, sr), pc, cycle, nesting. False: `error` says why.
@@ -41,7 +41,7 @@ class Values final : public Names {
   std::string locals() const;
 
   // --- Names
-  const dspic::DebugInfo& debug_info() const override { return machine_.file().debug.info(); }
+  const dspic::DebugInfo& debug_info() const override { return runner_.file().debug.info(); }
   bool find_variable(const std::string& name, Part& part) const override;
   bool find_other(const std::string& name, CValue& value) const override;
   std::optional<Address> address_of(const Part& part) const override;
@@ -52,7 +52,7 @@ class Values final : public Names {
   /// Symbols and registers, whatever the debug information says.
   std::optional<Data> find_untyped(const std::string& name) const;
 
-  const Machine& machine_;
+  const chip::ChipRunner& runner_;
   const std::uint32_t pc_;
   const bool is_tried_;
 };

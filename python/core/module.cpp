@@ -276,7 +276,7 @@ py::tuple cost_of(Handle& handle, int robot, const std::string& function) {
 void assign_to(Handle& handle, int robot, const std::string& expression, const py::object& value) {
   const debug::Machine& machine = machine_of(handle, robot);
   const std::string name = handle.world().twin().world().robots[static_cast<std::size_t>(robot)].name;
-  assign(machine, expression, value, [&](const debug::Data& to, std::uint64_t raw) {
+  assign(machine.runner(), expression, value, [&](const debug::Data& to, std::uint64_t raw) {
     debug::Data whole = to;
     whole.width = 0;
     if (to.width > 0) {
@@ -408,7 +408,7 @@ void bind_robots(py::class_<Handle>& world) {
       .def("profile", &profile_of)
       .def("cost_of", &cost_of)
       .def("picture", &picture_of)
-      .def("value", [](Handle& h, int r, const std::string& e) { return value_of(machine_of(h, r), e); })
+      .def("value", [](Handle& h, int r, const std::string& e) { return value_of(machine_of(h, r).runner(), e); })
       .def("assign", &assign_to)
       .def("program",
            [](Handle& h, int r) {

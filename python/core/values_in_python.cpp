@@ -118,8 +118,8 @@ void plan(const debug::Values& values, const std::string& expression, const py::
 
 }  // namespace
 
-py::object value_of(const debug::Machine& machine, const std::string& expression) {
-  const debug::Values values(machine);
+py::object value_of(const chip::ChipRunner& runner, const std::string& expression) {
+  const debug::Values values(runner);
   debug::CValue value;
   std::string error;
   if (!values.compute(expression, debug::Want::Place, value, error)) throw std::invalid_argument(error);
@@ -128,10 +128,10 @@ py::object value_of(const debug::Machine& machine, const std::string& expression
   return number_of(value);
 }
 
-void assign(const debug::Machine& machine, const std::string& expression, const py::object& value,
+void assign(const chip::ChipRunner& runner, const std::string& expression, const py::object& value,
             const Write& write) {
   std::vector<Change> changes;
-  plan(debug::Values(machine), expression, value, changes);
+  plan(debug::Values(runner), expression, value, changes);
   for (const Change& change : changes) write(change.to, change.raw);
 }
 
