@@ -21,6 +21,7 @@
 
 #include "hal_sim/debug/expression.h"
 #include "hal_sim/debug/machine.h"
+#include "hal_sim/debug/program_names.h"
 #include "hal_sim/twin/twin.h"
 
 namespace debug {
@@ -131,11 +132,7 @@ class Session final : private chip::StepWatch {
   std::vector<Breakpoint>& breakpoints() { return breakpoints_; }
 
  private:
-  class SeenNames;
-  /// Symbols and registers, whatever the debug information says.
-  std::optional<Data> find_untyped(const std::string& name) const;
-  std::optional<Address> address_of(const Part& part) const;
-  std::optional<std::uint64_t> raw_value(const Part& part) const;
+  ProgramNames names() const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
     Cycle at = 0;

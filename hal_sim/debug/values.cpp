@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "dspic30/asm/expression.h"
-#include "dspic30/memory/sfr_table.h"
+#include "hal_sim/debug/program_names.h"
 #include "hal_sim/debug/session.h"
 
 namespace debug {
@@ -14,29 +13,6 @@ namespace debug {
 namespace {
 
 using Kind = dspic::DebugInfo::Kind;
-using In = dspic::DebugInfo::Place::In;
-
-unsigned bits_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Found& found) {
-  return found.width > 0 ? static_cast<unsigned>(found.width) : 8 * type.bytes;
-}
-
-/// A bit-field may reach beyond the type that it was declared with.
-unsigned bytes_of(const dspic::DebugInfo::Type& type, const dspic::DebugInfo::Found& found) {
-  if (found.width <= 0) return type.bytes;
-  return std::min(8u, std::max(type.bytes, (static_cast<unsigned>(found.bit + found.width) + 7) / 8));
-}
-
-/// Conditions are judged on a small stack.
-bool is_too_deep(const std::string& expression) {
-  constexpr int kMost = 8;
-  int brackets = 0, stars = 0, deepest = 0;
-  for (const char c : expression) {
-    brackets += (c == '[') - (c == ']');
-    stars = c == '*' ? stars + 1 : c == ' ' ? stars : 0;
-    deepest = std::max({deepest, brackets, stars});
-  }
-  return deepest > kMost;
-}
 
 /// "-5536 (0xea60)", "1.5", "0x0a3c": as the type wants it.
 std::string number_text(const CValue& value) {
@@ -53,58 +29,10 @@ std::string number_text(const CValue& value) {
 
 }  // namespace
 
-/// What expressions see of the program.
-class Session::SeenNames final : public Names {
- public:
-  SeenNames(const Session& session, std::optional<std::uint32_t> pc)
-      : session_(session), pc_(pc.value_or(session.pc())) {}
-
-  const dspic::DebugInfo& debug_info() const override { return session_.file().debug.info(); }
-  bool find_variable(const std::string& name, Part& part) const override {
-    std::string none;
-    part = {{}, {}, pc_};
-    return debug_info().find(name, pc_, part.found, none);
-  }
-  bool find_other(const std::string& name, CValue& value) const override {
-    const auto known = [&](CType::Kind kind, unsigned bits, std::int64_t raw) {
-      value = {};
-      value.type = {kind, bits};
-      value.raw = static_cast<std::uint64_t>(raw);
-      return true;
-    };
-    if (name == "pc") return known(CType::Kind::Signed, 64, session_.pc());
-    if (name == "cycle") return known(CType::Kind::Signed, 64, session_.now());
-    if (name == "nesting") return known(CType::Kind::Signed, 64, session_.machine().nesting());
-    if (const auto data = session_.find_untyped(name)) {
-      Data some = *data;
-      some.bytes = std::min(data->bytes, 4u);
-      known(CType::Kind::Unsigned, some.width > 0 ? static_cast<unsigned>(some.width) : 8 * some.bytes, 0);
-      value.data = some;
-      return true;
-    }
-    const auto code = session_.file().functions.find(name);
-    return code != session_.file().functions.end() &&
-           known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
-  }
-  std::optional<Address> address_of(const Part& part) const override { return session_.address_of(part); }
-  std::optional<std::uint64_t> raw_value(const Part& part) const override { return session_.raw_value(part); }
-  std::optional<std::uint64_t> raw_value(const Data& data) const override {
-    if (data.bytes > 8) return {};
-    return session_.read(data);
-  }
-
- private:
-  const Session& session_;
-  const std::uint32_t pc_;
-};
-
 bool Session::compute(const std::string& expression, Want want, CValue& value, std::string& error,
                       std::optional<std::uint32_t> at_pc) const {
-  if (!is_too_deep(expression))
-    return debug::compute(SeenNames(*this, at_pc), dspic::assembly::trimmed(expression), want,
-                          at_pc.has_value(), value, error);
-  error = "got '" + expression + "', expected at most 8 [ or * within one another";
-  return false;
+  return compute_in(ProgramNames(machine_->runner(), at_pc), expression, want, at_pc.has_value(), value,
+                    error);
 }
 
 bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
@@ -115,38 +43,11 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
   return true;
 }
 
+ProgramNames Session::names() const { return ProgramNames(machine_->runner()); }
+
+std::uint64_t Session::read(const Data& data) const { return names().read(data); }
+
 // --- parts of variables
-
-// registers are data, too
-std::optional<Address> Session::address_of(const Part& part) const {
-  if (part.pointed) return (*part.pointed + part.found.offset) & kAddressMask;
-  const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
-  if (!place || place->in == In::Value) return {};
-  Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
-  if (place->in == In::Frame) {
-    base += machine_->register_value(place->base);
-  } else if (place->in != In::Memory) {
-    base = Machine::register_data(place->value).address;
-  }
-  return (base + part.found.offset) & kAddressMask;
-}
-
-/// Its bits, from the lowest on; none: it is kept nowhere, or no number.
-std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
-  const auto& type = file().debug.info().types[static_cast<std::size_t>(part.found.type)];
-  if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
-  std::uint64_t raw = 0;
-  if (const auto address = address_of(part)) {
-    machine_->read({*address, bytes_of(type, part.found)}, &raw);
-  } else {
-    const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
-    if (!place) return {};
-    raw = place->in == In::Register ? machine_->register_value(place->value)
-                                    : static_cast<std::uint64_t>(std::int64_t{place->value});
-  }
-  const unsigned bits = bits_of(type, part.found);
-  return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
-}
 
 std::string Session::typed(const Part& whole) const {
   constexpr unsigned kMostElements = 32;
@@ -172,7 +73,7 @@ std::string Session::typed(const Part& whole) const {
     return "{" + text + "}";
   }
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
-  const auto raw = raw_value(whole);
+  const auto raw = names().raw_value(whole);
   if (!raw) return "(not kept here)";
   CValue value;
   value.type = type_of(debug, whole.found.type);
@@ -205,7 +106,7 @@ std::string Session::locals() const {
 
 std::optional<Data> Session::place_of(const CValue& value) const {
   if (!value.part) return value.data;
-  const auto address = address_of(*value.part);
+  const auto address = names().address_of(*value.part);
   if (!address) return {};
   const dspic::DebugInfo::Found& found = value.part->found;
   return Data{*address, bytes_of(file().debug.info().types[static_cast<std::size_t>(found.type)], found),
@@ -218,24 +119,8 @@ std::optional<Data> Session::find_data(const std::string& name) const {
   if (compute(name, Want::Place, value, error))
     if (const auto place = place_of(value); place && value.part) return place;
   // a symbol is as large as it is, a register's place its own
-  if (const auto known = find_untyped(name)) return known;
+  if (const auto known = names().find_untyped(name)) return known;
   return error.empty() ? value.data : std::nullopt;
-}
-
-std::optional<Data> Session::find_untyped(const std::string& name) const {
-  if (const auto object = file().objects.find(name); object != file().objects.end()) {
-    const auto bytes = file().object_bytes.find(name);
-    return Data{object->second, bytes == file().object_bytes.end() ? 2u : bytes->second};
-  }
-  return machine_->find_register(name);
-}
-
-std::uint64_t Session::read(const Data& data) const {
-  std::uint64_t value = 0;
-  Data some = data;
-  some.bytes = std::min(data.bytes, 8u);
-  machine_->read(some, &value);
-  return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 
 bool Session::assign(const std::string& name, const std::string& expression, std::string& error) {
