@@ -253,4 +253,17 @@ bool Values::assignment(const std::string& name, const std::string& expression, 
   return true;
 }
 
+bool number_of(const chip::ChipRunner& runner, const std::string& expression, bool is_tried, double& value,
+               std::string& error) {
+  CValue number;
+  if (!Values(runner, 0, is_tried).compute(expression, Want::Number, number, error)) return false;
+  if (number.type.is_float())
+    value = number.real;
+  else if (number.type.kind == CType::Kind::Unsigned || number.type.stars > 0)
+    value = static_cast<double>(number.raw);
+  else
+    value = static_cast<double>(static_cast<std::int64_t>(number.raw));
+  return true;
+}
+
 }  // namespace debug

@@ -14,7 +14,10 @@ class Values final : public Names {
  public:
   /// `runner` outlives it. With `pc` values are not the program's yet: nothing is refused for its value.
   explicit Values(const chip::ChipRunner& runner, std::optional<std::uint32_t> pc = {})
-      : runner_(runner), pc_(pc.value_or(runner.processor().pc())), is_tried_(pc.has_value()) {}
+      : Values(runner, pc.value_or(runner.processor().pc()), pc.has_value()) {}
+  /// The same, said apart.
+  Values(const chip::ChipRunner& runner, std::uint32_t pc, bool is_tried)
+      : runner_(runner), pc_(pc), is_tried_(is_tried) {}
 
   /// An expression of C (expression.h): variables and their parts (motors[n].speed, m->speed, *p), registers
   /// (LATA, LATA.LATA6, w0, sr), pc, cycle, nesting. False: `error` says why.
@@ -56,5 +59,10 @@ class Values final : public Names {
   const std::uint32_t pc_;
   const bool is_tried_;
 };
+
+/// A number by the names that are known everywhere, globals and statics, as the program has it now.
+/// `is_tried`: it has not run yet, so its values mean nothing. False: `error` says why, "got ..., expected ...".
+bool number_of(const chip::ChipRunner& runner, const std::string& expression, bool is_tried, double& value,
+               std::string& error);
 
 }  // namespace debug
