@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <thread>
 
+#include "hal_sim/signals/condition.h"
+#include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/world_file.h"
 #include "python/core/values_in_python.h"
 #include "python/core/world.h"
@@ -80,6 +82,19 @@ class Handle {
   std::unique_ptr<World> world_;
   std::atomic<bool> is_running_{false};
   std::thread::id runner_;
+};
+
+/// A condition over signals of a world, for as long as that is open.
+class Watch {
+ public:
+  Watch(Handle& handle, const std::string& text, int robot)
+      : handle_(handle), condition_(text, handle.world().twin(), robot) {}
+  double value() { return condition_.value(handle_.world().twin()); }
+  bool holds() { return condition_.holds(handle_.world().twin()); }
+
+ private:
+  Handle& handle_;
+  signals::Condition condition_;
 };
 
 template <typename T>
@@ -348,6 +363,14 @@ void bind_arrays(py::module_& module) {
       .def_property_readonly("rows", [](const Record& r) { return rows_of(r); });
 }
 
+/// Name, unit, least, most and what it is, of all signals.
+py::list signal_table() {
+  py::list table;
+  for (const signals::Signal& s : signals::all())
+    table.append(py::make_tuple(s.count > 0 ? std::string(s.name) + "0" : s.name, s.unit, s.least, s.most, s.what));
+  return table;
+}
+
 void bind_robots(py::class_<Handle>& world) {
   world
       .def("pose",
@@ -432,7 +455,12 @@ PYBIND11_MODULE(_core, module) {
   });
   module.def("project_root", &twin::project_root);
   bind_arrays(module);
+  module.def("signals", &signal_table);
   py::class_<Handle> world(module, "World");
+  py::class_<Watch>(module, "Watch")
+      .def(py::init<Handle&, const std::string&, int>(), py::keep_alive<1, 2>())
+      .def_property_readonly("value", &Watch::value)
+      .def("holds", &Watch::holds);
   world.def(py::init(&open_world))
       .def("close", &Handle::close)
       .def_property_readonly("is_open", &Handle::is_open)
@@ -458,6 +486,12 @@ PYBIND11_MODULE(_core, module) {
                                for (const auto& lamp : h.world().twin().world().lamps) names.push_back(lamp.name);
                                return names;
                              })
+      .def("signal",
+           [](Handle& h, int robot, const std::string& name) {
+             twin::Twin& twin = h.world().twin();
+             const signals::Named found = signals::find(twin, robot, name);
+             return py::make_tuple(found.value(twin), found.unit);
+           })
       .def_property_readonly("notices", [](Handle& h) { return h.world().notices(); })
       .def_property_readonly("outcome",
                              [](Handle& h) {

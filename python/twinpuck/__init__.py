@@ -22,10 +22,10 @@ pytest   `twinpuck test` runs pytest with fixtures for these; docs/testing.md is
 from ._errors import ExpectTimeout, FirmwareFault, TwinpuckError, WorldError
 from ._records import Recording, read_recording
 from ._robot import CameraPicture, Cycles, Diagnosis, Interrupt, Place, Profile, Robot, SerialLine, Trap
-from ._world import Body, Lamp, Robots, World
+from ._world import Body, Condition, Lamp, Robots, World
 
 __all__ = [
-    "Body", "CameraPicture", "Cycles", "Diagnosis", "ExpectTimeout", "FirmwareFault", "Interrupt", "Lamp", "Place",
+    "Body", "CameraPicture", "Condition", "Cycles", "Diagnosis", "ExpectTimeout", "FirmwareFault", "Interrupt", "Lamp", "Place",
     "Profile", "Recording", "Robot", "Robots", "SerialLine", "Trap", "TwinpuckError", "World", "WorldError",
     "read_recording",
 ]

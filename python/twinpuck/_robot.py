@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 import math
 import re
 import typing
@@ -135,7 +134,7 @@ class SerialLine:
     """One of a robot's serial lines: UART 1, which is its Bluetooth module's, or UART 2. Times are the baud rate's."""
 
     def __init__(self, robot: Robot, port: int) -> None:
-        self._robot, self._port = robot, port
+        self._robot, self._port, self._found = robot, port, False
 
     @property
     def _searched(self) -> int:
@@ -174,25 +173,31 @@ class SerialLine:
         """
         __tracebackhide__ = True  # a test's failure shows the test's line
         compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
-        is_bytes = isinstance(compiled.pattern, bytes)
-        seen, found = -1, None
+        if not self._robot.world.run_until(lambda: self.has(compiled), at_most):
+            raise ExpectTimeout(self.missing(compiled, at_most))
+        found = self._match(compiled)
+        assert found is not None
+        self._robot._searched[self._port] = found.end()
+        return found
 
-        def look() -> bool:
-            nonlocal seen, found
-            sent = self._robot._core.heard_bytes(self._robot.index, self._port)
-            if sent != seen:
-                seen = sent
-                found = compiled.search(self.data if is_bytes else self.text, self._searched)
-            return found is not None
+    def has(self, pattern: Pattern) -> bool:
+        """Would expect() find the pattern at once? Looks at what came since it was asked last."""
+        compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
+        state = (compiled, self._searched, self._robot._core.heard_bytes(self._robot.index, self._port))
+        if state != self._robot._looked_at.get(self._port):
+            self._robot._looked_at[self._port] = state
+            self._found = self._match(compiled) is not None
+        return self._found
 
-        if self._robot.world.run_until(look, at_most) and found is not None:
-            self._robot._searched[self._port] = found.end()
-            return found
+    def _match(self, compiled: re.Pattern[typing.Any]) -> re.Match[typing.Any] | None:
+        return compiled.search(self.data if isinstance(compiled.pattern, bytes) else self.text, self._searched)
+
+    def missing(self, pattern: re.Pattern[typing.Any], at_most: float) -> str:
+        """What expect() says when it has waited in vain."""
         rest = self.text[self._searched:]
         came = f"got {rest[-400:]!r} behind the last match" if rest else "nothing came"
-        raise ExpectTimeout(
-            f"robot '{self._robot.name}' uart{self._port}: expected {compiled.pattern!r} within {at_most:g} s, {came}; "
-            f"at {self._robot.world.time_s:.3f} s the program stands in {self._robot.place}")
+        return (f"robot '{self._robot.name}' uart{self._port}: expected {pattern.pattern!r} within {at_most:g} s, {came}; "
+                f"at {self._robot.world.time_s:.3f} s the program stands in {self._robot.place}")
 
     def __repr__(self) -> str:
         return f"<uart{self._port} of {self._robot.name}, {len(self.data)} bytes>"
@@ -203,7 +208,8 @@ class Robot:
 
     def __init__(self, world: World, index: int, name: str) -> None:
         self.world, self.index, self.name = world, index, name
-        self._searched: dict[int, int] = {}
+        self._searched: dict[int, int] = {}  # by line, as the next: behind the last match; what was looked at last
+        self._looked_at: dict[int, tuple[typing.Any, int, int]] = {}
         self.uart1, self.uart2 = SerialLine(self, 1), SerialLine(self, 2)
 
     def __repr__(self) -> str:
@@ -332,6 +338,10 @@ class Robot:
     def press_reset(self) -> None:
         """Its reset button: the program begins anew, also after a trap."""
         self._apply("reset")
+
+    def signal(self, name: str) -> float:
+        """A signal of this robot now, in its unit (`twinpuck list signals`): "speed_m_s", "pin(D3)", "$state"."""
+        return self.world.condition(name, self).value
 
     # --- its program
     @property

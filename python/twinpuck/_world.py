@@ -93,6 +93,36 @@ class Lamp:
         self._world._apply({"do": "lamp", "lamp": self._index, "on": bool(on), **more})
 
 
+class Condition:
+    """A condition over named signals (`twinpuck list signals`): "abs(x_m) < 0.3 && led0", "left.x_m > right.x_m",
+    "$state == 3" for a variable of the program. Called, it says whether it holds now; value is the number behind it."""
+
+    def __init__(self, world: World, text: str, robot: Robot | None) -> None:
+        self._world, self.text, self._robot = world, text, robot
+        self._bound_to: typing.Any = None
+        self._bind()
+
+    def _bind(self) -> typing.Any:
+        if self._bound_to is not self._world._core:
+            try:
+                self._watch = _core.Watch(self._world._core, self.text, -1 if self._robot is None else self._robot.index)
+            except RuntimeError as wrong:
+                raise WorldError(f"condition {self.text!r}: {wrong}") from None
+            self._bound_to = self._world._core
+        return self._watch
+
+    def __call__(self) -> bool:
+        return self._bind().holds()
+
+    @property
+    def value(self) -> float:
+        """What the text computes to now: of "x_m - 0.1" the number, of "x_m > 0.1" 1 or 0."""
+        return self._bind().value
+
+    def __repr__(self) -> str:
+        return f"<Condition {self.text!r}>"
+
+
 class World:
     """A world with its robots and their programs, at its time 0 when it is opened.
 
@@ -176,12 +206,15 @@ class World:
         __tracebackhide__ = True
         self._run(seconds, None)
 
-    def run_until(self, condition: collections.abc.Callable[[], object], at_most: float) -> bool:
+    def run_until(self, condition: str | collections.abc.Callable[[], object], at_most: float) -> bool:
         """Runs until condition() is true, which is asked now and after each tick; False: not within `at_most` seconds.
 
-        Raises as run() does, and whatever the condition raises.
+        A text is a condition over signals: run_until("distance_m > 0.5", at_most=10). Raises as run() does, and
+        whatever the condition raises.
         """
         __tracebackhide__ = True
+        if isinstance(condition, str):
+            condition = self.condition(condition)
         return bool(condition()) or self._run(at_most, condition)
 
     def step(self, ticks: int = 1) -> None:
@@ -230,6 +263,7 @@ class World:
         self._open()
         for robot in self.robots:
             robot._searched.clear()
+            robot._looked_at.clear()
 
     def close(self) -> None:
         """Ends programs of the PC and writes coverage. What is asked or run later raises RuntimeError."""
@@ -241,6 +275,16 @@ class World:
     def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
                  trace: types.TracebackType | None) -> None:
         self.close()
+
+    # --- signals
+    def condition(self, text: str, robot: Robot | str | None = None) -> Condition:
+        """A condition over signals, to be called. robot: whose a name is that stands without a robot's; in a world of
+        one robot it need not be said. Raises WorldError, with a guess for names that are near."""
+        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else robot)
+
+    def signal(self, name: str) -> float:
+        """A signal now, in its unit: "time_s", "puck.x_m", "puck.$speed"."""
+        return self.condition(name).value
 
     # --- all robots at once
     @property

@@ -10,6 +10,7 @@
 from __future__ import annotations
 
 import collections.abc
+import itertools
 import pathlib
 import re
 import shlex
@@ -18,7 +19,7 @@ import typing
 
 import pytest
 
-from . import _matrix
+from . import _declarative, _matrix
 from ._errors import TwinpuckError, WorldError
 from ._robot import Robot
 from ._world import World
@@ -43,6 +44,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "world(source, **options): the world of the fixture `world`, as twinpuck.World")
     config.addinivalue_line("markers", "robot(name): the robot of the fixture `robot`; else the world's first")
+    config.addinivalue_line("markers", "points(n): what passing is worth in `twinpuck grade`; else 1")
     config.addinivalue_line("markers", "seeds(1..50): run with each of these seeds")
     config.addinivalue_line("markers", "hals(sim, dspic): run with programs linked with each of these HALs")
     config.addinivalue_line("markers", "selectors(0..15): run with each of these positions of the selector")
@@ -152,6 +154,55 @@ def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, 
         for each in world.robots:
             each.selector = chosen["selector"]
     return world
+
+
+# --- tests without a program
+
+def pytest_collect_file(file_path: pathlib.Path, parent: pytest.Collector) -> pytest.Collector | None:
+    if not file_path.name.endswith(".test.toml"):
+        return None
+    return DeclarativeFile.from_parent(parent, path=file_path)
+
+
+class DeclarativeFile(pytest.File):
+    """A *.test.toml file: a test for each seed, HAL and selector."""
+
+    def collect(self) -> collections.abc.Iterator[pytest.Item]:
+        file = _declarative.TestFile(self.path)
+        axes = [[(axis.name, value) for value in axis.values(self.config.getoption(axis.option)) or file.values(axis)]
+                for axis in _matrix.AXES]
+        for chosen in itertools.product(*(values for values in axes if values)):
+            matrix = "-".join(f"{name}={value}" for name, value in chosen)
+            yield DeclarativeTest.from_parent(self, name=file.title + (f"[{matrix}]" if matrix else ""), file=file,
+                                              chosen=dict(chosen))
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
+        return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
+
+
+class DeclarativeTest(pytest.Item):
+    """One run of a *.test.toml file."""
+
+    def __init__(self, *, file: _declarative.TestFile, chosen: dict[str, typing.Any], **more: typing.Any) -> None:
+        super().__init__(**more)
+        self.file, self._chosen = file, chosen
+        self.add_marker(pytest.mark.points(file.table.get("points", 1)))
+
+    def runtest(self) -> None:
+        table = self.file.table
+        world = open_world(self.config, self.path.parent, table["world"], self._chosen, table.get("firmware"))
+        self.stash[_WORLDS] = [world]
+        _declarative.Run(self.file, world).run()
+
+    def teardown(self) -> None:
+        for world in self.stash.get(_WORLDS, []):
+            world.close()
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
+        return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
+
+    def reportinfo(self) -> tuple[pathlib.Path, int, str]:
+        return self.path, 0, self.name
 
 
 # --- what a failure shows
