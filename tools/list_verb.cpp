@@ -8,6 +8,7 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -52,7 +53,7 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
 }
 
 int list(const std::string& what) {
-  const fs::path root = twin::project_root();
+  const fs::path root = places::share_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
   for (const char* room : {"", "lab/"})

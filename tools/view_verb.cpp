@@ -7,6 +7,7 @@
 #include <iostream>
 #include <thread>
 
+#include "install/places.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -48,8 +49,8 @@ int view(const ViewArguments& a) {
   opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
                              : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
 
-  auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
-                                     (fs::path(twin::build_folder()) / "page").string(), problems);
+  auto live =
+      viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(), problems);
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});
