@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The translator of hot code (dspic30/translate). Its library is one of the product's tools; what earlier runs
-// translated lies in the user's cache.
+// The translator of hot code (dspic30/translate). Its library is one of the product's tools; what earlier
+// runs translated lies in the user's cache.
 #pragma once
 #include <filesystem>
 
