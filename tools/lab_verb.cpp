@@ -16,6 +16,7 @@
 
 #include "compiler/cache/child_process.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/lab_mine.h"
 #include "tools/lab_report.h"
@@ -125,7 +126,7 @@ StepResult run_step(const LabStep& step, const LabArguments& a, const LabProgram
     return result;
   }
   if (step.kind == LabStep::Kind::Answer) {
-    std::ifstream answers(fs::path(twin::project_root()) / "docs/lab-answers.md");
+    std::ifstream answers(places::share_root() / "docs/lab-answers.md");
     for (std::string line; std::getline(answers, line);)
       if (line == "## " + step.answer) return result;
     result.problem = "docs/lab-answers.md: got no heading '" + step.answer + "', expected an answer";
@@ -165,8 +166,7 @@ std::vector<const LabExercise*> choose(const std::vector<LabExercise>& all,
 
 int lab(const LabArguments& a) {
   std::vector<std::string> problems;
-  const std::string table =
-      a.table.empty() ? (fs::path(twin::project_root()) / "docs/lab.toml").string() : a.table;
+  const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
   const bool mine = !a.mine.empty();
   auto all = read_lab_table(table, problems);
   if (mine) all = own_exercises(std::move(all));

@@ -10,6 +10,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -61,7 +62,7 @@ int list(const std::string& what) {
               << "  pin(D3)  reg(T2CON.TCKPS)  var(C EXPRESSION)  $NAME: a pin, a register, a variable\n";
     return kPass;
   }
-  const fs::path root = twin::project_root();
+  const fs::path root = places::share_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
   for (const char* room : {"", "lab/"})

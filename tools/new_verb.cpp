@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -148,7 +149,7 @@ int make(const std::string& name, bool supervisor) {
   }
   const std::string room = supervisor ? "programs/supervisors" : "firmware";
   const char* const what = supervisor ? "new supervisor" : "new controller";
-  const fs::path folder = fs::path(twin::project_root()) / room / name;
+  const fs::path folder = places::share_root() / room / name;
   if (fs::exists(folder)) {
     complain({folder.string() + ": " + what + ": got a folder that exists, expected a new name"});
     return kBadInput;

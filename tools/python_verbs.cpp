@@ -7,7 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
-#include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -25,7 +25,7 @@ std::string interpreter() {
 
 /// Becomes `python3 -m MODULE ARGUMENTS`. Returns only when that cannot be.
 int become(const char* module, const std::vector<std::string>& arguments) {
-  const fs::path folder = fs::path(twin::build_folder()) / "python";
+  const fs::path folder = places::tools_folder() / "python";
   const std::string python = interpreter();
   if (!fs::exists(folder / "twinpuck" / "__init__.py")) {
     complain({folder.string() + ": got no Python module, expected twinpuck; build it with `make build`"});

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <thread>
 
+#include "install/places.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -66,7 +67,7 @@ int view(const ViewArguments& a) {
   opening.options.threads = a.threads;
 
   auto live = viewer::LiveView::open(std::move(opening), a.record, std::move(replay), a.port,
-                                     (fs::path(twin::build_folder()) / "page").string(), problems);
+                                     places::page_folder().string(), problems);
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});

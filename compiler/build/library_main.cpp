@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck-library STAMP DEPFILE: compiles what is linked behind every program, for `make build`. Writes a
-// rule with everything it looked at.
+// twinpuck-library STAMP DEPFILE: compiles what is linked behind every program into the folder of STAMP, for
+// `make build`. Writes a rule with everything it looked at.
 #include <algorithm>
 #include <iostream>
 #include <thread>
@@ -17,7 +17,8 @@ int main(int argc, char** argv) {
   const cc::NotingInputs noting(inputs);
   std::string wrong;
   for (const cc::Library& library :
-       cc::provide_usual_libraries(int(std::max(1u, std::thread::hardware_concurrency()))))
+       cc::provide_usual_libraries(std::filesystem::absolute(argv[1]).parent_path(),
+                                   int(std::max(1u, std::thread::hardware_concurrency()))))
     if (!library.ok) wrong += library.messages;
   std::string rule = std::string(argv[1]) + ":";
   for (const auto& [path, input] : inputs.all) {

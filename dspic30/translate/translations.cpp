@@ -62,7 +62,7 @@ bool load(const fs::path& file, const std::string& key, MachineCode& code) {
 
 }  // namespace
 
-// a library that was built anew has another time or size
+// a library that was built anew has another time or size; those of others may be in use
 void Translations::open() {
   is_open_ = true;
   const fs::path all = std::exchange(folder_, {});
@@ -71,10 +71,6 @@ void Translations::open() {
   if (failed || all.empty()) return;
   folder_ =
       all / name_of(hash_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed))));
-  for (fs::directory_iterator it(all, failed), end; !failed && it != end; it.increment(failed)) {
-    std::error_code none;
-    if (it->path() != folder_) fs::remove_all(it->path(), none);
-  }
   kept_ = hashes_in(folder_);
   warm_ = warm_in(folder_);
   if (std::max(kept_.size(), warm_.size()) > kMostKept) {

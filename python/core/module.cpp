@@ -14,6 +14,7 @@
 #include "hal_sim/signals/condition.h"
 #include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/world_file.h"
+#include "install/places.h"
 #include "python/core/values_in_python.h"
 #include "python/core/world.h"
 #include "sim_core/base/input_file.h"
@@ -453,7 +454,7 @@ PYBIND11_MODULE(_core, module) {
     if (!wrong.empty()) throw std::invalid_argument(path + ": " + wrong);
     return text;
   });
-  module.def("project_root", &twin::project_root);
+  module.def("project_root", [] { return places::share_root().string(); });
   bind_arrays(module);
   module.def("signals", &signal_table);
   py::class_<Handle> world(module, "World");
