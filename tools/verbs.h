@@ -31,6 +31,8 @@ void add_dis(CLI::App& app, int& exit_code);
 void add_asm(CLI::App& app, int& exit_code);
 void add_flash(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
+void add_init(CLI::App& app, int& exit_code);
+void add_paths(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
