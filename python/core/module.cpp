@@ -479,7 +479,15 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("bodies",
                              [](Handle& h) {
                                const sim::Layout& layout = h.world().simulation().scene().layout();
-                               return std::vector<std::string>(layout.moving_name.begin(), layout.moving_name.end());
+                               std::vector<std::string> names = layout.moving_name;
+                               const std::size_t robots = names.size() - layout.loose_object.size();
+                               // as the file calls them; "box 2" where it does not
+                               for (std::size_t i = robots; i < names.size(); ++i)
+                                 if (const auto& object = h.world().twin().world().objects[static_cast<std::size_t>(
+                                         layout.loose_object[i - robots])];
+                                     !object.name.empty())
+                                   names[i] = object.name;
+                               return names;
                              })
       .def_property_readonly("lamps",
                              [](Handle& h) {

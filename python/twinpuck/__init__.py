@@ -13,7 +13,7 @@ A program is the robot's own code, built as `twinpuck build` does it. The simula
 virtual time: the same world, programs, seed and touches give the same run, to the bit.
 
 Units are in the names: metres, seconds, degrees, volts, counts (as the robot's converter gives them), steps (of a
-motor; 1000 are a turn of a wheel) and cycles (of the processor; 7,372,800 are a second).
+motor; 1000 are a turn of a wheel) and cycles (of the processor; 14,745,600 are a second).
 
 World    a world with its robots, opened from a file, a text or a dict
 Robot    one robot: pose, sensors, LEDs, pins, serial lines, variables, cycles, traps

@@ -75,7 +75,7 @@ class Diagnosis:
 
 @dataclasses.dataclass(frozen=True)
 class Cycles:
-    """What calls of a function, services of an interrupt or waits took, in cycles of the processor (135.6 ns).
+    """What calls of a function, services of an interrupt or waits took, in cycles of the processor (14,745,600 a second).
 
     count: how many; 0: not from a run, by the code alone. mean: None when only the code is known and has several ways
     """
