@@ -2,6 +2,7 @@
 // twinpuck new NAME: a controller that builds, runs and passes its own test, to start from.
 #include <algorithm>
 #include <cctype>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -149,7 +150,10 @@ int make(const std::string& name, bool supervisor) {
   }
   const std::string room = supervisor ? "programs/supervisors" : "firmware";
   const char* const what = supervisor ? "new supervisor" : "new controller";
-  const fs::path folder = places::share_root() / room / name;
+  // what was installed is nobody's to add to
+  const char* const root = std::getenv("TWINPUCK_ROOT");
+  const bool is_here = places::is_installed() && !(root && *root);
+  const fs::path folder = is_here ? fs::path(name) : places::share_root() / room / name;
   if (fs::exists(folder)) {
     complain({folder.string() + ": " + what + ": got a folder that exists, expected a new name"});
     return kBadInput;
@@ -167,6 +171,11 @@ int make(const std::string& name, bool supervisor) {
       return kBadInput;
     }
   }
+  if (is_here) {
+    std::cout << "Made ./" << name << ".\n  twinpuck run maze "
+              << (supervisor ? "--supervisor ./" : "--fw ./") << name << "\n";
+    return kPass;
+  }
   if (supervisor) {
     std::cout << "Made programs/supervisors/" << name << ".\n  build/twinpuck run maze --supervisor " << name
               << "\n";
@@ -183,7 +192,10 @@ void add_new(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand(
       "new", "Make a new controller, or a supervisor, that builds and runs, to start from");
   auto name = std::make_shared<std::string>();
-  verb->add_option("NAME", *name, "its name: a folder under firmware/ or programs/supervisors/")->required();
+  verb->add_option("NAME", *name,
+                   "its name: a folder under firmware/ or programs/supervisors/; once installed, in the "
+                   "current folder")
+      ->required();
   auto supervisor = std::make_shared<bool>(false);
   verb->add_flag("--supervisor", *supervisor, "a supervisor instead of a controller");
   verb->callback([name, supervisor, &exit_code] { exit_code = make(*name, *supervisor); });
