@@ -11,7 +11,7 @@
 #include <set>
 
 #include "hal_sim/chip/code_cycles.h"
-#include "hal_sim/twin/library_sources.h"
+#include "hal_sim/chip/library_sources.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
 #include "tools/profile_report.h"
@@ -36,7 +36,7 @@ std::string image_of(const std::string& name, dspic::FirmwareFile& file, std::ve
   twin::Options options;
   options.hal = "dspic";  // with the code of all drivers
   const std::string image = twin::provide_image(name, "", options, problems);
-  file = twin::firmware_file();
+  file = chip::firmware_file();
   std::string bytes, error;
   if (image.empty()) return "";
   if (!fs::is_regular_file(image))

@@ -4,7 +4,7 @@
 #include "dspic30/load/firmware_file.h"
 #include "install/places.h"
 
-namespace twin {
+namespace chip {
 
 /// For dspic::load_firmware(): a file whose lines will name the library's sources where they are here.
 inline dspic::FirmwareFile firmware_file() {
@@ -14,4 +14,4 @@ inline dspic::FirmwareFile firmware_file() {
   return file;
 }
 
-}  // namespace twin
+}  // namespace chip
