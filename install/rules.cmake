@@ -21,6 +21,14 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/library DESTINATION ${tools} PATTERN made 
 # without npm there is none, and view and --report say so
 install(DIRECTORY ${CMAKE_BINARY_DIR}/page DESTINATION ${tools} OPTIONAL)
 
+# for C++ programs: find_package(twinpuck)
+install(TARGETS embed EXPORT twinpuck LIBRARY DESTINATION lib)
+install(DIRECTORY embed/twinpuck DESTINATION include)
+install(EXPORT twinpuck NAMESPACE twinpuck:: DESTINATION lib/cmake/twinpuck FILE twinpuckConfig.cmake)
+include(CMakePackageConfigHelpers)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/twinpuckConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${CMAKE_BINARY_DIR}/twinpuckConfigVersion.cmake DESTINATION lib/cmake/twinpuck)
+
 # sources that the compiler reads, and what people name or copy
 foreach(folder firmware hal_dspic worlds editors examples programs/supervisors programs/controller/include
                programs/controller/python)
@@ -59,7 +67,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_NAME twinpuck)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SECTION science)
 # what is linked, dpkg-shlibdeps finds; these are loaded when they are needed (LAZY_LIBRARY), or started
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libvpx7")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libvpx7")
 # programs of the PC: compiled, or run by Python; `new` makes a Makefile
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_RECOMMENDS "g++, make, python3, bash-completion")
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SUGGESTS "default-jdk-headless, gdb")

@@ -19,6 +19,15 @@ namespace {
 
 constexpr char kWordMark = '#', kKnownMark = '!';
 
+/// The program or library that holds the core: one that was loaded for its loader alone, as a module of
+/// Python is, shows its functions to nobody else.
+void* own_object() {
+  Dl_info info;
+  return dladdr(reinterpret_cast<void*>(&own_object), &info) != 0 && info.dli_fname
+             ? dlopen(info.dli_fname, RTLD_LAZY | RTLD_NOLOAD)
+             : nullptr;
+}
+
 void* address_of(const std::string& name, void* self, const std::vector<Item>& items) {
   if (name.empty()) return self;
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
@@ -37,7 +46,9 @@ void* address_of(const std::string& name, void* self, const std::vector<Item>& i
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(
         function_of(static_cast<std::uint32_t>(std::strtoul(name.c_str() + 1, nullptr, 16))));
-  return dlsym(RTLD_DEFAULT, name.c_str());
+  static void* const own = own_object();
+  void* const found = own ? dlsym(own, name.c_str()) : nullptr;
+  return found ? found : dlsym(RTLD_DEFAULT, name.c_str());
 }
 
 std::uint32_t sum_of(std::string_view text) {
