@@ -23,6 +23,10 @@ std::filesystem::path share_root();
 /// does.
 std::filesystem::path product_share();
 
+/// What files of product_share() are called in what was compiled with the product: below this folder,
+/// wherever they lay and wherever they lie. It is right where the Debian package is installed.
+inline constexpr const char* kUsualShare = "/usr/share/twinpuck";
+
 /// Holds twinpuck-cc, twinpuck-translate.so, libcontroller.so, Controller.jar and library/, the objects that
 /// are linked behind every program.
 std::filesystem::path tools_folder();

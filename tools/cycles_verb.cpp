@@ -11,6 +11,7 @@
 #include <set>
 
 #include "hal_sim/chip/code_cycles.h"
+#include "hal_sim/chip/library_sources.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
 #include "tools/profile_report.h"
@@ -35,6 +36,7 @@ std::string image_of(const std::string& name, dspic::FirmwareFile& file, std::ve
   twin::Options options;
   options.hal = "dspic";  // with the code of all drivers
   const std::string image = twin::provide_image(name, "", options, problems);
+  file = chip::firmware_file();
   std::string bytes, error;
   if (image.empty()) return "";
   if (!fs::is_regular_file(image))

@@ -78,14 +78,18 @@ int list(const std::string& what) {
   for (const auto& entry : fs::directory_iterator(root / "programs" / "supervisors", none))
     supervisors.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
   if (controllers.empty() && worlds.empty()) {
-    complain(
-        {root.string() +
-         ": list: got no controllers and no worlds, expected a checkout of Twinpuck; set TWINPUCK_ROOT"});
+    complain({root.string() + ": list: got no controllers and no worlds, expected those of Twinpuck; "
+                              "TWINPUCK_ROOT may say another "
+                              "place"});
     return kNothing;
   }
   const auto wanted = [&](const char* kind) { return what.empty() || what == kind; };
-  if (wanted("controllers")) print("Controllers (make run FW=...)", controllers);
-  if (wanted("worlds")) print("Worlds (make run WORLD=...)", worlds);
+  if (wanted("controllers"))
+    print(places::is_installed() ? "Controllers (twinpuck run WORLD --fw ...)"
+                                 : "Controllers (make run FW=...)",
+          controllers);
+  if (wanted("worlds"))
+    print(places::is_installed() ? "Worlds (twinpuck run ...)" : "Worlds (make run WORLD=...)", worlds);
   if (wanted("supervisors")) print("Supervisors (twinpuck run WORLD --supervisor ...)", supervisors);
   if (!wanted("parts")) return kPass;
   std::vector<std::pair<std::string, std::string>> parts;

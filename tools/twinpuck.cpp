@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tools/command_line.h"
+#include "tools/manual.h"
 #include "tools/printable.h"
 #include "tools/run_guard.h"
 #include "tools/twinpuck.h"
@@ -33,6 +34,11 @@ constexpr Verb kVerbs[] = {
 
 }  // namespace
 
+void add_verbs(CLI::App& app, int& exit_code) {
+  for (const Verb& verb : kVerbs) verb.add(app, exit_code);
+  add_help(app);
+}
+
 int twinpuck(int argc, char** argv) {
   const PrintableStream out(std::cout), error(std::cerr);
   // what cannot be written is an error of the call, not the end of the program
@@ -49,6 +55,7 @@ int twinpuck(int argc, char** argv) {
       std::any_of(std::begin(kVerbs), std::end(kVerbs), [&](const Verb& v) { return v.name == called; });
   for (const Verb& verb : kVerbs)
     if (!is_verb || verb.name == called) verb.add(app, exit_code);
+  if (called == "manual") add_manual(app, exit_code);
   add_help(app);
   try {
     app.parse(argc, argv);

@@ -125,7 +125,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
-    p.user.push_back({s, flags, salt, contract.string(), true});
+    p.user.push_back({s, flags, salt, contract.string(), {}, {}, true});
 
   for (const auto& s : program.assembler)
     if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {

@@ -34,7 +34,8 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 std::string names_of_headers(const std::vector<fs::path>& folders) {
   std::string names;
   for (const fs::path& folder : folders)
-    for (const fs::path& header : files_below(folder, ".h")) names += header.string() + "\n";
+    for (const fs::path& header : files_below(folder, ".h"))
+      names += header.lexically_relative(folder).string() + "\n";
   return content_hash(names);
 }
 
@@ -62,7 +63,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
       names_of_headers({contract, root / "firmware/libc", api, root / "firmware/library"});
   std::vector<CompileJob> jobs;
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
-    jobs.push_back({source, with, salt, root.string()});
+    jobs.push_back({source, with, salt, root.string(), root.string(), places::kUsualShare});
     if (is_precompiled(source)) jobs.back().flags.front() = "-O1";
     // what the drivers do with a program's variables and functions, those do not
     jobs.back().has_facts = !is_precompiled(source) && source.extension() == ".c";
@@ -131,6 +132,7 @@ Library library_in(const BuildOptions& o, bool is_webots, const ObjectFolders& f
   library.ok = true;
   for (const CompileOutcome& outcome : outcomes) {
     library.messages += outcome.messages;
+    library.objects.push_back(outcome.object);
     if (!outcome.facts.empty()) library.facts.push_back(outcome.facts);
     if (outcome.ok && outcome.source.extension() == ".s" && !is_precompiled(outcome.source))
       library.facts.push_back(facts_of_assembler(outcome.object));

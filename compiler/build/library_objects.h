@@ -27,6 +27,7 @@ struct Library {
   std::filesystem::path archive;
   std::string messages;            ///< of compilers and archiver
   std::vector<std::string> facts;  ///< what the drivers do with addresses (shared_variables.h)
+  std::vector<std::filesystem::path> objects;
   int compiled = 0, reused = 0;
 };
 

@@ -120,6 +120,44 @@ std::vector<std::string> names_of_rule(const std::string& rule) {
   return names;
 }
 
+/// What of a compiler stays the same when it is copied, moved or stripped: the linker's note of its content.
+std::string identity_of(const fs::path& program) {
+  std::ifstream in(program, std::ios::binary);
+  std::string head(std::size_t{64} << 10, '\0');
+  in.read(head.data(), std::streamsize(head.size()));
+  head.resize(std::size_t(std::max<std::streamsize>(0, in.gcount())));
+  static const std::string kOwner("\3\0\0\0GNU\0", 8);  // NT_GNU_BUILD_ID's, behind the two lengths
+  constexpr std::size_t kIdBytes = 20;
+  if (const std::size_t at = head.find(kOwner); at != std::string::npos)
+    return content_hash(head.substr(at + kOwner.size(), kIdBytes));
+  std::error_code ec;
+  return program.string() + " " +
+         std::to_string(fs::last_write_time(program, ec).time_since_epoch().count()) + " " +
+         std::to_string(fs::file_size(program, ec));
+}
+
+std::string with_each(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// Names of files that stay right when the job's home has moved.
+class Names {
+ public:
+  explicit Names(const CompileJob& job) : home_(job.home) {}
+  std::string told(const std::string& text) const {
+    return home_.empty() ? text : with_each(text, home_ + "/", kHome);
+  }
+  std::string here(const std::string& told) const {
+    return told.rfind(kHome, 0) == 0 ? home_ + "/" + told.substr(std::strlen(kHome)) : told;
+  }
+
+ private:
+  static constexpr const char* kHome = "@/";
+  std::string home_;
+};
+
 /// What a compilation leaves, by the name without its kind.
 struct Files {
   explicit Files(std::string base) : base_(std::move(base)) {}
@@ -137,12 +175,13 @@ std::string name_of(const std::string& object, const std::string& messages, cons
 /// Takes what an earlier build left at `base`, if it would come out the same.
 bool recall(const std::string& base, const CompileJob& job, BuildInputs& inputs, CompileOutcome& outcome) {
   std::ifstream in(base + ".deps");
+  const Names names(job);
   std::string name, hash, path;
   if (!std::getline(in, name)) return false;
   bool any = false;
   while (std::getline(in, hash, '\t') && std::getline(in, path)) {
     any = true;
-    if (inputs.look_at(path) != hash) return false;
+    if (inputs.look_at(names.here(path)) != hash) return false;
   }
   const Files files(base + "." + name);
   std::string messages = bytes_of(files.messages());
@@ -161,9 +200,10 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   CompileOutcome outcome;
   outcome.source = job.source;
   // debug information and messages name the files as the compiler was given them, from where it ran
-  std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
+  const Names names(job);
+  std::string key = names.told(job.source.string()) + "\n" + job.salt + "\n" + salt;
   if (job.source.is_relative()) key += "\n" + fs::current_path().string();
-  for (const auto& f : job.flags) key += "\n" + f;
+  for (const auto& f : job.flags) key += "\n" + names.told(f);
   const std::string stem = job.source.stem().string() + "-" + content_hash(key);
   if (!folders.ready.empty() && recall((folders.ready / stem).string(), job, inputs, outcome)) return outcome;
   const std::string base = (folders.cache / stem).string();
@@ -176,6 +216,10 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
   if (job.has_facts) argv.insert(argv.end(), {"--facts", half + ".facts"});
+  // from the top folder, so that no name in it is relative
+  if (!job.home.empty())
+    argv.insert(argv.end(),
+                {"-fdebug-compilation-dir=/", "-ffile-prefix-map=" + job.home + "=" + job.called});
   const int64_t began_ns = now_ns();
   std::error_code ec;
   fs::create_directories(folders.cache, ec);  // somebody may have removed it since
@@ -187,11 +231,11 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
     const std::string name = name_of(bytes_of(half), outcome.messages, outcome.facts);
     std::string lines = name + "\n";
     for (const auto& read : names_of_rule(bytes_of(half + ".d")))
-      lines += inputs.look_at(read, began_ns) + "\t" + read + "\n";
+      lines += inputs.look_at(read, began_ns) + "\t" + names.told(read) + "\n";
     std::istringstream missing(bytes_of(half + ".d.missing"));
     for (std::string path; std::getline(missing, path);)
       if (job.listed_below.empty() || path.rfind(job.listed_below, 0) != 0)
-        lines += inputs.look_at(path, began_ns) + "\t" + path + "\n";
+        lines += inputs.look_at(path, began_ns) + "\t" + names.told(path) + "\n";
     const Files files(base + "." + name);
     outcome.object = files.object();
     inputs.take(outcome.object);
@@ -214,11 +258,7 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
 
 std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, const fs::path& compiler,
                                         const ObjectFolders& folders, int parallel) {
-  std::error_code ec;
-  // a rebuilt compiler invalidates everything; its time and size tell
-  auto time = fs::last_write_time(compiler, ec).time_since_epoch().count();
-  std::string salt =
-      compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
+  const std::string salt = identity_of(compiler);  // a rebuilt compiler invalidates everything
   look_at(compiler);
   std::vector<CompileOutcome> outcomes(jobs.size());
   BuildInputs& inputs = *inputs_of_build();

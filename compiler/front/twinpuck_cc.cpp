@@ -129,6 +129,8 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 /// neither .lst nor .map.
 int link(int argc, char** argv) {
   dspic::link::Options o;
+  o.moved_from = places::kUsualShare;
+  o.moved_to = places::product_share().string();
   for (int i = 2; i < argc; ++i) {
     const StringRef a = argv[i];
     const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
