@@ -9,6 +9,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/chip/code_cycles.h"
+#include "hal_sim/chip/named_functions.h"
 #include "hal_sim/chip/profile.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
@@ -91,14 +92,17 @@ Cost Robot::cost_of(const std::string& function, Caller caller) const {
   const auto* const runner = dynamic_cast<const chip::ChipRunner*>(test_->twin().mind(index_).runner());
   const auto* const known = runner ? runner->file().code.function_named(function) : nullptr;
   if (!known) {
-    ADD_FAILURE_AT(caller.file, caller.line) << "no function '" << function << "' in the firmware";
+    ADD_FAILURE_AT(caller.file, caller.line)
+        << "no function '" << function << "' in the firmware"
+        << (runner ? ": it " + chip::why_no_code(runner->file(), function) : "");
     return {};
   }
   const chip::PathCycles code = chip::CodeCycles(runner->file()).of_function(known->begin);
   if (!code.is_known())
     ADD_FAILURE_AT(caller.file, caller.line)
         << function << "(): only a run tells what it takes: it " << code.why_not
-        << (profile_ ? "; it was not called" : "; call measured() of the robot before the first run");
+        << (profile_ ? "; it was not called" : "; call measured() of the robot before the first run")
+        << chip::copies_note(runner->file(), function);
   const auto least = static_cast<double>(code.least), most = static_cast<double>(code.most);
   return {0, least, code.least == code.most ? least : -1, most};
 }
