@@ -2,6 +2,7 @@
 #include "hal_sim/chip/call_cost.h"
 
 #include "hal_sim/chip/code_cycles.h"
+#include "hal_sim/chip/named_functions.h"
 
 namespace chip {
 
@@ -18,13 +19,14 @@ bool cost_of_call(const dspic::FirmwareFile& file, const Profile* profile, const
   }
   const auto* const known = file.code.function_named(function);
   if (!known) {
-    error = "no function '" + function + "' in the firmware";
+    error = "no function '" + function + "' in the firmware: it " + why_no_code(file, function);
     return false;
   }
   const PathCycles code = CodeCycles(file).of_function(known->begin);
   if (!code.is_known()) {
     error = function + "(): only a run tells what it takes: it " + code.why_not +
-            (profile ? "; it was not called" : "; have the robot measured, from before the first run");
+            (profile ? "; it was not called" : "; have the robot measured, from before the first run") +
+            copies_note(file, function);
     return false;
   }
   const auto least = static_cast<double>(code.least), most = static_cast<double>(code.most);

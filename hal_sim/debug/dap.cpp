@@ -240,6 +240,7 @@ nlohmann::json DapServer::told(const Breakpoint* b, const std::string& error) {
   const std::size_t colon = b->what.rfind(':');
   if (!b->addresses.empty() && colon != std::string::npos)
     out["line"] = std::atoi(b->what.c_str() + colon + 1);
+  if (const std::string note = session_->note_of(*b); !note.empty()) out["message"] = note;
   return out;
 }
 

@@ -172,7 +172,8 @@ std::string Monitor::set_break(const std::string& rest, bool once) {
   std::string text = fmt::format("breakpoint {} at", id);
   for (const std::uint32_t a : b->addresses)
     text += fmt::format(" {:#08x} {}", a, session_.file().code.describe(a));
-  return text + "\n";
+  const std::string note = session_.note_of(*b);
+  return text + "\n" + (note.empty() ? "" : note + "\n");
 }
 
 std::string Monitor::watch(const std::string& rest) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "hal_sim/chip/named_functions.h"
 #include "sim_core/base/input_file.h"
 
 namespace debug {
@@ -440,7 +441,11 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
     else
       b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
-    b.addresses = {label->second};
+    b.addresses = chip::copies_of(file(), where);
+    b.addresses.insert(b.addresses.begin(), label->second);
+    b.what = where;
+  } else if (const auto copies = chip::copies_of(file(), where); !copies.empty()) {
+    b.addresses = copies;
     b.what = where;
   } else {
     std::int64_t address = 0;
@@ -451,6 +456,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
       b.what = where;
     } else {
       error = "got '" + where + "', expected a function, file:line, or an address of code such as 0x1a0";
+      if (!is_address) error += "; as a function, it " + chip::why_no_code(file(), where);
     }
   }
   std::int64_t value = 0;
@@ -465,6 +471,12 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   breakpoints_.push_back(std::move(b));
   set_marks();
   return &breakpoints_.back();
+}
+
+std::string Session::note_of(const Breakpoint& b) const {
+  const bool is_inlined =
+      !b.addresses.empty() && !file().functions.count(b.what) && !chip::copies_of(file(), b.what).empty();
+  return is_inlined ? b.what + "() " + chip::why_no_code(file(), b.what) : "";
 }
 
 std::vector<std::size_t> Session::files_meant(const std::string& path) const {

@@ -103,6 +103,8 @@ class Session final : private chip::StepWatch {
   /// `where`: a function or label, file:line, line (of the current file), 0x-address. Null with `error`.
   const Breakpoint* add_breakpoint(const std::string& where, const std::string& condition,
                                    std::string& error);
+  /// What is to be said of it: "weight() is part of main(); to measure it alone, ..."; empty: nothing.
+  std::string note_of(const Breakpoint& b) const;
   /// `what`: a variable, a register or *address.
   const Breakpoint* add_watchpoint(const std::string& what, const std::string& condition, std::string& error);
   /// The program's source files (of file().code.files) that a path means: the very file, or, of a path that
