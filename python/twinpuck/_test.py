@@ -6,7 +6,7 @@ import sys
 
 
 def main(arguments: list[str]) -> int:
-    """Exit codes: 0 all passed, 1 a test failed, 2 bad input, 5 no test was found, 6 internal error, 130 interrupted."""
+    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal error, 130 interrupted."""
     try:
         import numpy  # noqa: F401  what is missing shall be said in one line
         import pytest
@@ -14,9 +14,19 @@ def main(arguments: list[str]) -> int:
         print(f"twinpuck test: got no Python package '{missing.name}', expected numpy and pytest (Debian: "
               "python3-numpy, python3-pytest; python3-pytest-xdist for -n)", file=sys.stderr)
         return 2
-    codes = {pytest.ExitCode.INTERRUPTED: 130, pytest.ExitCode.INTERNAL_ERROR: 6, pytest.ExitCode.USAGE_ERROR: 2}
-    code = pytest.main(["-p", "twinpuck.pytest_plugin", *arguments])
-    return int(codes.get(pytest.ExitCode(code), code))
+    class Interrupted:
+        """Notes whether it was Ctrl-C: pytest says the same of files that cannot be read."""
+
+        by_user = False
+
+        def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+            self.by_user = excinfo.type is KeyboardInterrupt
+
+    interrupted = Interrupted()
+    code = pytest.main(["-p", "twinpuck.pytest_plugin", *arguments], plugins=[interrupted])
+    if code == pytest.ExitCode.INTERRUPTED:
+        return 130 if interrupted.by_user else 2
+    return int({pytest.ExitCode.INTERNAL_ERROR: 6, pytest.ExitCode.USAGE_ERROR: 2}.get(pytest.ExitCode(code), code))
 
 
 if __name__ == "__main__":

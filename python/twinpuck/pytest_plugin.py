@@ -73,16 +73,31 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
             raise pytest.UsageError(f"{metafunc.definition.nodeid}: {wrong}") from None
         if values:
             metafunc.fixturenames.append(axis.fixture)
-            metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values])
+            metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)
 
 
 # --- fixtures
 
+@pytest.fixture(name="_seed")
+def _seed_of(request: pytest.FixtureRequest) -> int:
+    return request.param
+
+
+@pytest.fixture(name="_hal")
+def _hal_of(request: pytest.FixtureRequest) -> str:
+    return request.param
+
+
+@pytest.fixture(name="_selector")
+def _selector_of(request: pytest.FixtureRequest) -> int:
+    return request.param
+
+
 @pytest.fixture
 def _chosen(request: pytest.FixtureRequest) -> dict[str, typing.Any]:
     """What the matrix says of this test: seed, hal, selector."""
-    return {axis.name: request.getfixturevalue(axis.fixture) for axis in _matrix.AXES
-            if axis.fixture in request.fixturenames}
+    parameters = request.node.callspec.params if hasattr(request.node, "callspec") else {}
+    return {axis.name: parameters[axis.fixture] for axis in _matrix.AXES if axis.fixture in parameters}
 
 
 @pytest.fixture

@@ -3,11 +3,17 @@
 import hashlib
 import os
 import pathlib
+import re
 import subprocess
 
 import pytest
 
 import twinpuck
+
+def pytest_make_parametrize_id(val):
+    """Names of tests hold no sentences."""
+    return re.sub(r"\W+", "_", val)[:24].strip("_") if isinstance(val, str) else None
+
 
 TWINPUCK = os.environ["TWINPUCK"]
 
