@@ -44,6 +44,7 @@ MAY_INCLUDE = {
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/signals": ["hal_sim/board", "hal_sim/chip", "hal_sim/debug", "hal_sim/host", "hal_sim/trace", "hal_sim/twin", "sim_core"],
     "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base", "install"],
+    "hal_sim/faults": ["hal_sim/board", "hal_sim/host", "hal_sim/signals", "hal_sim/twin", "sim_core"],
     "hal_dspic": ["firmware/include", "firmware/library"],
     "programs/process": ["programs/link"],
     "programs/build": ["compiler/cache/child_process.h", "compiler/cache/memory_limit.h", "sim_core/base", "install"],
@@ -61,7 +62,7 @@ MAY_INCLUDE = {
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],
