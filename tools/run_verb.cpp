@@ -194,7 +194,7 @@ int run(const RunArguments& arguments) {
   while (simulation.now() < end && !team->has_ended()) {
     is_stepping = true;
     if (replay) replay->apply_due(inputs, simulation.now());
-    simulation.advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
+    inputs.faults().advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
     is_stepping = false;
     outputs.after_tick();
     serial.show();

@@ -94,7 +94,7 @@ class TypedLine final : public board::UartEnd {
 Inputs::~Inputs() = default;
 
 bool Inputs::is_input(const std::string& what) {
-  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp", "write", "world"})
+  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp", "write", "faults", "end_fault", "world"})
     if (what == known) return true;
   return false;
 }
@@ -163,6 +163,16 @@ void Inputs::apply(const Json& input) {
                     simulation.scene().z_m(body));
     return;
   }
+  if (what == "faults") {
+    const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
+    if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
+    for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+    return;
+  }
+  if (what == "end_fault") {
+    faults_.end(whole(input, "fault", 0, static_cast<int>(faults_.statuses().size()) - 1));
+    return;
+  }
   if (what == "lamp") {
     const auto& lamps = twin_.world().lamps;
     const int lamp = whole(input, "lamp", 0, static_cast<int>(lamps.size()) - 1);
@@ -214,6 +224,12 @@ void Inputs::apply(const Json& input) {
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
   for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
   simulation.note_intervention(hash);
+}
+
+void Inputs::step() {
+  faults_.look();
+  twin_.simulation().step();
+  faults_.look();
 }
 
 // --- recordings

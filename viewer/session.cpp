@@ -246,7 +246,7 @@ void Session::advance_slice() {
       }
       until = std::min(until, due);
     }
-    simulation.advance(until);
+    inputs_->faults().advance(until);
   }
   after_ticks();
   if (Wall::now() - pace_wall_ > kPaceOver) {
@@ -275,9 +275,9 @@ void Session::step_ticks(double span_s, int count) {
     do {
       const sim::Clicks due = replay_due();
       if (span_s <= 0)
-        simulation.step();
+        inputs_->step();
       else
-        simulation.run_until(std::min(end, due));
+        inputs_->faults().advance(std::min(end, due));
     } while (simulation.now() < end);
   }
   after_ticks();
@@ -291,7 +291,7 @@ bool Session::step_interrupt(int robot) {
   const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
   while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended()) {
     replay_due();
-    simulation.step();
+    inputs_->step();
   }
   after_ticks();
   return program->interrupts_served() != served;

@@ -8,9 +8,11 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <numeric>
 #include <stdexcept>
 #include <thread>
 
+#include "hal_sim/faults/kinds.h"
 #include "hal_sim/signals/condition.h"
 #include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/world_file.h"
@@ -323,6 +325,25 @@ void apply(Handle& handle, const std::string& json) {
   }
 }
 
+py::dict dict_of(const faults::Status& status) {
+  const auto time = [](double s) { return s < 0 ? py::object(py::none()) : py::float_(s); };
+  py::dict d;
+  d["what"] = faults::said(status.fault);
+  d["begun_s"] = time(status.begun_s);
+  d["took_effect_s"] = time(status.took_effect_s);
+  d["ended_s"] = time(status.ended_s);
+  return d;
+}
+
+/// Numbers of the faults that the text of a file asks for.
+std::vector<int> add_faults(Handle& handle, const std::string& text) {
+  const auto before = static_cast<int>(handle.world().faults().statuses().size());
+  handle.world().apply({{"do", "faults"}, {"text", text}});
+  std::vector<int> ids(handle.world().faults().statuses().size() - static_cast<std::size_t>(before));
+  std::iota(ids.begin(), ids.end(), before);
+  return ids;
+}
+
 template <typename T>
 py::array_t<T> view(std::vector<T>& numbers, std::vector<py::ssize_t> shape, const py::object& owner) {
   py::array_t<T> array(std::move(shape), numbers.data(), owner);
@@ -457,6 +478,7 @@ PYBIND11_MODULE(_core, module) {
   module.def("project_root", [] { return places::share_root().string(); });
   bind_arrays(module);
   module.def("signals", &signal_table);
+  module.def("fault_kinds", [] { return faults::kind_names(); });
   py::class_<Handle> world(module, "World");
   py::class_<Watch>(module, "Watch")
       .def(py::init<Handle&, const std::string&, int>(), py::keep_alive<1, 2>())
@@ -509,6 +531,15 @@ PYBIND11_MODULE(_core, module) {
                              })
       .def("run", &run)
       .def("apply", &apply)
+      .def("add_faults", &add_faults)
+      .def("fault", [](Handle& h, int id) { return dict_of(h.world().faults().status(id)); })
+      .def("faults",
+           [](Handle& h) {
+             py::list list;
+             for (const auto& status : h.world().faults().statuses()) list.append(dict_of(status));
+             return list;
+           })
+      .def("fault_problems", [](Handle& h) { return h.world().faults().problems(); })
       .def("recording", [](Handle& h) { return py::bytes(h.world().recording()); })
       .def("draw",
            [](Handle& h, const std::string& file, const std::string& caption, bool rays, int width_px) {

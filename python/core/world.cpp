@@ -114,9 +114,9 @@ World::Why World::run(sim::Clicks end, const std::function<bool()>& each_tick, b
   while (simulation.now() < end) {
     if (team_->has_ended()) return Why::Ended;
     if (each_tick)
-      simulation.step();
+      inputs_->step();
     else
-      simulation.advance(std::min(end, next_look()));
+      inputs_->faults().advance(std::min(end, next_look()));
     sample();
     if (stops_at_traps && traps_seen() != traps) return Why::Trap;
     if (each_tick && each_tick()) return Why::Asked;

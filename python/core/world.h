@@ -97,6 +97,8 @@ class World {
   /// The run so far, for `twinpuck run --replay`.
   std::string recording() const;
 
+  faults::Injector& faults() { return inputs_->faults(); }
+
   // --- asking
   /// All that a robot has sent over UART 1 or 2.
   const std::string& heard(int robot, int port);

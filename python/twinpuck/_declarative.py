@@ -15,6 +15,7 @@ from . import _matrix
 from ._errors import TwinpuckError
 from ._robot import Robot
 from ._world import Condition, World
+from ._worldtext import toml_value
 
 
 @dataclasses.dataclass(frozen=True)
@@ -73,6 +74,10 @@ TABLES: dict[str, tuple[str, tuple[Key, ...]]] = {
 }
 
 
+#: tables that are read as those of a file of faults are
+_FAULTS = ("fault", "stimulus")
+
+
 class TestFileError(TwinpuckError, ValueError):
     """A test file is wrong; a line a problem."""
 
@@ -92,7 +97,7 @@ class TestFile:
         except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as wrong:
             raise TestFileError(f"{path}: {wrong}") from None
         self._problems: list[str] = []
-        self._check("", self.table, {name for name in TABLES if name}, str(path))
+        self._check("", self.table, {*(name for name in TABLES if name), *_FAULTS}, str(path))
         for kind in list(TABLES)[1:]:
             for number, table in enumerate(self.tables(kind)):
                 self._check(kind, table, set(), self.where(kind, number))
@@ -203,6 +208,14 @@ class Run:
             _Watch(file.where(kind, number), kind, self._condition(kind, number, table, "that"),
                    table.get("from_s", 0.0), table.get("to_s", math.inf), _because(table))
             for kind in ("always", "never") for number, table in enumerate(file.tables(kind))]
+
+        for kind in _FAULTS:
+            for number, table in enumerate(file.tables(kind)):
+                text = "".join(f"{key} = {toml_value(value, key)}\n" for key, value in table.items())
+                try:
+                    world._add_faults(f"[[{kind}]]\n{text}")
+                except ValueError as wrong:
+                    raise TestFileError(f"{file.where(kind, number)}: {wrong}") from None
 
     def run(self) -> None:
         """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps."""
@@ -315,7 +328,7 @@ def page() -> str:
     text = ["# Test files", "", "<!-- Made by `python3 -m twinpuck._declarative` from its table of keys; do not edit. -->",
             "", "A file `NAME.test.toml` is a test: a world, what is done to a robot, and what must be so. `twinpuck test` "
             "runs it, pytest", "with the plug-in finds it. Times are simulated. Conditions are over signals "
-            "([signals](faults.md), `twinpuck list signals`):", "names, numbers and C's operators; `$state` is a variable of the "
+            "([faults.md](faults.md), `twinpuck list signals`):", "names, numbers and C's operators; `$state` is a variable of the "
             "program, `left.x_m` a signal of the robot `left`.", "", "```toml", *EXAMPLE.strip().splitlines(), "```", ""]
     for name, (does, keys) in TABLES.items():
         text += [f"## {f'`[[{name}]]`' if name else 'Top of the file'}", "", does, "",
@@ -329,6 +342,8 @@ def page() -> str:
                 kind += ", or number (s)"
             text.append(f"| `{key.name}` | {kind} | {key.unit} | {limits} | {usual} | {key.does} |")
         text.append("")
+    text += ["## `[[fault]]` and `[[stimulus]]`", "", "What befalls the robots meanwhile, with the keys of a file of faults "
+             "([faults.md](faults.md)). A test whose faults", "never took effect does not pass.", ""]
     return "\n".join(text)
 
 

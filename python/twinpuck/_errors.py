@@ -36,3 +36,7 @@ class FirmwareFault(TwinpuckError):
 
 class ExpectTimeout(TwinpuckError, AssertionError):
     """What SerialLine.expect() waits for did not come in time."""
+
+
+class InvalidRun(TwinpuckError):
+    """A fault or stimulus of the run never took effect, so the run shows nothing; a line for each."""

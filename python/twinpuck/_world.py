@@ -15,10 +15,11 @@ import typing
 import numpy
 
 from . import _core
-from ._errors import FirmwareFault, TwinpuckError, WorldError
+from ._errors import FirmwareFault, InvalidRun, WorldError
+from ._faults import Fault
 from ._records import Recording
 from ._robot import Robot, Trap
-from ._worldtext import toml_text
+from ._worldtext import toml_text, toml_value
 
 Source = typing.Union[str, "os.PathLike[str]", "collections.abc.Mapping[str, typing.Any]"]
 Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[str, str | os.PathLike[str]]"]
@@ -285,6 +286,40 @@ class World:
     def signal(self, name: str) -> float:
         """A signal now, in its unit: "time_s", "puck.x_m", "puck.$speed"."""
         return self.condition(name).value
+
+    # --- faults
+    def inject(self, kind: str, robot: Robot | str | None = None, *, at_s: float | None = None, when: str | None = None,
+               for_s: float | None = None, **values: typing.Any) -> Fault:
+        """A fault: inject("sensor_blocked", "puck", sensor=0, at_s=2, for_s=1.5), inject("bump", when="x_m > 0.2").
+
+        It begins now, at a time (s) or when a condition over signals holds, for robot `robot` (None: for each), and ends
+        `for_s` later, or never. `twinpuck list faults` names kinds and their values. Raises ValueError.
+        """
+        table = {"kind": kind, "robot": robot.name if isinstance(robot, Robot) else robot, "at_s": at_s, "when": when,
+                 "for_s": for_s, **values}
+        text = "".join(f"{key} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
+        return self._add_faults("[[fault]]\n" + text)[0]
+
+    def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
+        """Faults and stimuli of a file (docs/faults.md). Raises OSError, or ValueError with all that is wrong."""
+        return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"))
+
+    def _add_faults(self, text: str) -> list[Fault]:
+        try:
+            return [Fault(self, number) for number in self._core.add_faults(text)]
+        except RuntimeError as wrong:
+            raise ValueError(str(wrong)) from None
+
+    @property
+    def faults(self) -> list[Fault]:
+        """All that were asked for in this run."""
+        return [Fault(self, number) for number in range(len(self._core.faults()))]
+
+    def check_faults(self) -> None:
+        """Raises InvalidRun when a fault never began, or never changed anything for a program or the world."""
+        __tracebackhide__ = True
+        if problems := self._core.fault_problems():
+            raise InvalidRun("\n".join(problems))
 
     # --- all robots at once
     @property

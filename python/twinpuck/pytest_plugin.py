@@ -20,7 +20,7 @@ import typing
 import pytest
 
 from . import _declarative, _matrix
-from ._errors import TwinpuckError, WorldError
+from ._errors import InvalidRun, TwinpuckError, WorldError
 from ._robot import Robot
 from ._world import World
 
@@ -222,12 +222,21 @@ class DeclarativeTest(pytest.Item):
 
 # --- what a failure shows
 
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_call(item: pytest.Item) -> None:
+    """Behind a test that passed: a run whose faults never took effect shows nothing, so it did not pass."""
+    for world in item.stash.get(_WORLDS, []):
+        world.check_faults()
+
+
 @pytest.hookimpl(hookwrapper=True)
 def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> collections.abc.Iterator[None]:
     outcome = yield
     report: pytest.TestReport = outcome.get_result()
     if call.when != "call" or not report.failed:
         return
+    if call.excinfo is not None and isinstance(call.excinfo.value, InvalidRun):
+        item.user_properties.append(("twinpuck_invalid", str(call.excinfo.value)))
     for number, world in enumerate(item.stash.get(_WORLDS, [])):
         properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
         try:
