@@ -33,7 +33,7 @@ def main(arguments: list[str]) -> int:
             self.invalid += report.failed and any(key == "twinpuck_invalid" for key, _ in report.user_properties)
 
     interrupted, outcome = Interrupted(), Invalid()
-    code = pytest.main(["-p", "twinpuck.pytest_plugin", *arguments], plugins=[interrupted, outcome])
+    code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])
     if code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:
         return 7
     if code == pytest.ExitCode.INTERRUPTED:
