@@ -102,7 +102,7 @@ endif
 
 # what is installed: the tool, its manual, the page
 product: tool page
-	@$(NINJA) manual embed
+	@$(NINJA) manual embed python_core
 
 PREFIX  ?= /usr/local
 ## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/install.md

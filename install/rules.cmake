@@ -21,6 +21,28 @@ install(DIRECTORY ${CMAKE_BINARY_DIR}/library DESTINATION ${tools} PATTERN made 
 # without npm there is none, and view and --report say so
 install(DIRECTORY ${CMAKE_BINARY_DIR}/page DESTINATION ${tools} OPTIONAL)
 
+# for Python: where `twinpuck test` has it, and a link from where Python looks, with what pytest looks for
+install(TARGETS python_core LIBRARY DESTINATION ${tools}/python/twinpuck)
+install(DIRECTORY python/twinpuck DESTINATION ${tools}/python FILES_MATCHING PATTERN *.py PATTERN py.typed
+        PATTERN __pycache__ EXCLUDE)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/dist-info/METADATA
+     CONTENT "Metadata-Version: 2.1\nName: twinpuck\nVersion: @PROJECT_VERSION@\nSummary: firmware twin of the e-puck robot\n" @ONLY)
+file(CONFIGURE OUTPUT ${CMAKE_BINARY_DIR}/dist-info/entry_points.txt
+     CONTENT "[pytest11]\ntwinpuck.pytest_plugin = twinpuck.pytest_plugin\n")
+install(CODE "
+  if(CMAKE_INSTALL_PREFIX STREQUAL \"/usr\")
+    set(packages lib/python3/dist-packages)
+  else()
+    set(packages lib/python${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}/dist-packages)
+  endif()
+  set(whole \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/\${packages})
+  file(MAKE_DIRECTORY \${whole}/twinpuck-${PROJECT_VERSION}.dist-info)
+  file(COPY ${CMAKE_BINARY_DIR}/dist-info/ DESTINATION \${whole}/twinpuck-${PROJECT_VERSION}.dist-info)
+  file(RELATIVE_PATH module /\${packages} /${tools}/python/twinpuck)
+  file(REMOVE \${whole}/twinpuck)
+  file(CREATE_LINK \${module} \${whole}/twinpuck SYMBOLIC)
+")
+
 # for C++ programs: find_package(twinpuck)
 install(TARGETS embed EXPORT twinpuck LIBRARY DESTINATION lib)
 install(DIRECTORY embed/twinpuck DESTINATION include)
@@ -67,8 +89,8 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_NAME twinpuck)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SECTION science)
 # what is linked, dpkg-shlibdeps finds; these are loaded when they are needed (LAZY_LIBRARY), or started
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libvpx7")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libvpx7, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-pytest")
 # programs of the PC: compiled, or run by Python; `new` makes a Makefile
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_RECOMMENDS "g++, make, python3, bash-completion")
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SUGGESTS "default-jdk-headless, gdb")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_RECOMMENDS "g++, make, python3-pytest-xdist, bash-completion")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SUGGESTS "default-jdk-headless, gdb, python3-pandas")
 include(CPack)

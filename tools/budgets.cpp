@@ -8,6 +8,7 @@
 
 #include "dspic30/periph/vectors.h"
 #include "hal_sim/board/cycle.h"
+#include "hal_sim/chip/named_functions.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/toml_parser.h"
 #include "sim_core/load/world_loader.h"
@@ -120,25 +121,30 @@ bool Budgets::add(const std::string& budget, std::vector<std::string>& problems)
 }
 
 std::vector<std::string> Budgets::unknown(const dspic::FirmwareFile& program) const {
-  std::vector<std::string> problems, functions, vectors;
-  for (const auto& f : program.code.functions) functions.push_back(f.name);
+  std::vector<std::string> problems, vectors;
   for (int v = 1; v < dspic::kVectors; ++v) vectors.push_back(dspic::vector_name(v));
   for (const Budget& b : budgets_) {
-    if (b.of == Of::Program) continue;
-    const auto& known = b.of == Of::Function ? functions : vectors;
-    if (std::find(known.begin(), known.end(), b.name) != known.end()) continue;
-    const std::string guess = sim::did_you_mean(b.name, known);
-    problems.push_back(fmt::format("{}: got {} '{}', which the program has not{}", b.place,
-                                   b.of == Of::Function ? "function" : "interrupt", b.name,
+    if (b.of == Of::Function) {
+      const std::string why = chip::why_no_code(program, b.name);
+      if (!why.empty())
+        problems.push_back(fmt::format("{}: got function '{}', which {}", b.place, b.name, why));
+    }
+    if (b.of != Of::Interrupt || std::find(vectors.begin(), vectors.end(), b.name) != vectors.end()) continue;
+    const std::string guess = sim::did_you_mean(b.name, vectors);
+    problems.push_back(fmt::format("{}: got interrupt '{}', which the program has not{}", b.place, b.name,
                                    guess.empty() ? "" : "; did you mean '" + guess + "'?"));
   }
   return problems;
 }
 
 std::vector<Budgets::Verdict> Budgets::judge(const chip::ProfileReport& report,
+                                             const dspic::FirmwareFile& program,
                                              const std::map<std::string, double>& most) const {
   std::vector<Verdict> all;
-  for (const Budget& budget : budgets_) all.push_back(judge(budget, report, most));
+  for (const Budget& budget : budgets_) {
+    all.push_back(judge(budget, report, most));
+    if (budget.of == Of::Function) all.back().text += chip::copies_note(program, budget.name);
+  }
   return all;
 }
 

@@ -22,15 +22,17 @@ class Budgets {
   bool read(const std::string& file, std::vector<std::string>& problems);
   /// "control=1000": what a call of a function may take at most, in cycles. False: a line in `problems`.
   bool add(const std::string& budget, std::vector<std::string>& problems);
-  /// Names that the program has not; empty: all are known.
+  /// Names that the program has not, and functions without code of their own, and how they are measured;
+  /// empty: there are none.
   std::vector<std::string> unknown(const dspic::FirmwareFile& program) const;
 
   struct Verdict {
     bool passes = true;
     std::string text;  ///< "pass  control: max 1,204 of 2,949 cycles"
   };
-  /// `most`: what functions take at most by their code, for those that were not called.
-  std::vector<Verdict> judge(const chip::ProfileReport& report,
+  /// `program`: what was measured. `most`: what functions take at most by their code, for those that were not
+  /// called.
+  std::vector<Verdict> judge(const chip::ProfileReport& report, const dspic::FirmwareFile& program,
                              const std::map<std::string, double>& most = {}) const;
 
  private:

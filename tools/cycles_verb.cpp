@@ -12,6 +12,7 @@
 
 #include "hal_sim/chip/code_cycles.h"
 #include "hal_sim/chip/library_sources.h"
+#include "hal_sim/chip/named_functions.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
 #include "tools/profile_report.h"
@@ -25,16 +26,18 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CyclesArguments {
-  std::string file, world = "maze", budgets;
+  std::string file, world = "maze", budgets, optimisation;
   std::vector<std::string> budget;
   double period_ms = 10, seconds = 2;
   bool with_library = false, lines = false;
 };
 
 /// The program of the chip that was asked for: built for it, or a file. Empty: lines in `problems`.
-std::string image_of(const std::string& name, dspic::FirmwareFile& file, std::vector<std::string>& problems) {
+std::string image_of(const std::string& name, const std::string& optimisation, dspic::FirmwareFile& file,
+                     std::vector<std::string>& problems) {
   twin::Options options;
   options.hal = "dspic";  // with the code of all drivers
+  options.optimisation = optimisation;
   const std::string image = twin::provide_image(name, "", options, problems);
   file = chip::firmware_file();
   std::string bytes, error;
@@ -138,8 +141,7 @@ void show_row(const CyclesArguments& a, const FunctionRow& row) {
   const std::string name = row.name + (is_handler(row.name) ? " (interrupt)" : ""),
                     in = fmt::format("{}", fmt::join(row.part_of, ", "));
   if (!row.has_code && !row.run) {
-    std::cout << fmt::format("{:<32} part of {}: to measure it, declare it __attribute__((noinline))  {}\n",
-                             name, in, from_here(row.place));
+    std::cout << fmt::format("{:<32} part of {}  {}\n", name, in, from_here(row.place));
     return;
   }
   std::string run = fmt::format("{:>9} {:>9} {:>9} {:>11} {:>10} {:>7} {:>9}", "", "", "", "", "", 0, "");
@@ -172,6 +174,10 @@ void show(const CyclesArguments& a, const std::vector<FunctionRow>& rows) {
       ++of_library;
     else
       show_row(a, row);
+  if (std::any_of(rows.begin(), rows.end(), [&](const FunctionRow& row) {
+        return !row.part_of.empty() && (all || !is_library_place(from_here(row.place)));
+      }))
+    std::cout << "part of others" << chip::kMeasureAlone << '\n';
   if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
 }
 
@@ -212,7 +218,7 @@ int cycles(const CyclesArguments& a) {
   for (const std::string& budget : a.budget) budgets.add(budget, problems);
   dspic::FirmwareFile file;
   chip::ProfileReport report;
-  const std::string image = problems.empty() ? image_of(a.file, file, problems) : "";
+  const std::string image = problems.empty() ? image_of(a.file, a.optimisation, file, problems) : "";
   if (problems.empty())
     for (std::string& line : budgets.unknown(file)) problems.push_back(std::move(line));
   if (problems.empty()) measure(a, image, report, problems);
@@ -225,7 +231,7 @@ int cycles(const CyclesArguments& a) {
   std::map<std::string, double> most;
   for (const FunctionRow& row : rows)
     if (row.has_code && row.code.is_known()) most[row.name] = static_cast<double>(row.code.most);
-  for (const Budgets::Verdict& v : budgets.judge(report, most)) {
+  for (const Budgets::Verdict& v : budgets.judge(report, file, most)) {
     std::cout << v.text << '\n';
     if (!v.passes) exit_code = kTestFailed;
   }
@@ -244,6 +250,9 @@ void add_cycles(CLI::App& app, int& exit_code) {
   verb->add_option("--for", a->seconds, "simulated seconds that it runs")
       ->check(between(0.001, 1e5))
       ->capture_default_str();
+  verb->add_option("--opt", a->optimisation,
+                   "level for a program that is built; default: the project's, else -O1")
+      ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->add_flag("--lines", a->lines, "source lines with the cycles of their instructions, too");
   verb->add_option(
       "--budget", a->budget,

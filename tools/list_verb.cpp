@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck list: what there is to run: controllers, worlds and parts of robots.
+// twinpuck list: what there is to run: controllers, worlds and parts of robots; and by what names things are
+// asked for.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/board/part.h"
+#include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/twin.h"
 #include "install/places.h"
 #include "tools/command_line.h"
@@ -53,6 +55,13 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
 }
 
 int list(const std::string& what) {
+  // tables that are the same wherever one stands
+  if (what == "signals") {
+    std::cout << "Signals (conditions of faults and tests; ROBOT.NAME of another robot)\n"
+              << signals::text_table()
+              << "  pin(D3)  reg(T2CON.TCKPS)  var(C EXPRESSION)  $NAME: a pin, a register, a variable\n";
+    return kPass;
+  }
   const fs::path root = places::share_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
@@ -92,10 +101,11 @@ int list(const std::string& what) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts");
+  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts; signals");
   auto what = std::make_shared<std::string>();
-  verb->add_option("KIND", *what, "controllers, worlds, supervisors or parts; all of them without it")
-      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts"}));
+  verb->add_option("KIND", *what,
+                   "controllers, worlds, supervisors or parts, all of them without it; signals")
+      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "signals"}));
   verb->callback([what, &exit_code] { exit_code = list(*what); });
 }
 

@@ -40,15 +40,15 @@ bool ProfileOutputs::finish(std::vector<std::string>& problems) {
   bool kept = true;
   const auto reports = profiles_.reports();
   if (arguments_.profile)
-    for (const auto& [robot, report] : reports) std::cout << '\n' << to_text(robot, report);
+    for (const auto& [robot, report, program] : reports) std::cout << '\n' << to_text(robot, report);
   if (!arguments_.file.empty()) {
     std::ofstream out(arguments_.file, std::ios::binary | std::ios::trunc);
     if (!(out << to_json(reports)).flush())
       problems.push_back(arguments_.file + ": --profile-json: cannot be written: " + std::strerror(errno));
   }
   if (arguments_.budgets.empty()) return true;
-  for (const auto& [robot, report] : reports)
-    for (const Budgets::Verdict& v : budgets_.judge(report)) {
+  for (const auto& [robot, report, program] : reports)
+    for (const Budgets::Verdict& v : budgets_.judge(report, *program)) {
       std::cout << robot << ": " << v.text << '\n';
       kept = kept && v.passes;
     }

@@ -75,7 +75,8 @@ Profiles::~Profiles() {
 std::vector<Profiles::Named> Profiles::reports() const {
   std::vector<Named> all;
   for (const Watched& w : watched_)
-    all.push_back({twin_.world().robots[static_cast<std::size_t>(w.robot)].name, w.profile->report()});
+    all.push_back({twin_.world().robots[static_cast<std::size_t>(w.robot)].name, w.profile->report(),
+                   &w.runner->file()});
   return all;
 }
 
@@ -136,7 +137,7 @@ std::string to_json(const std::vector<Profiles::Named>& profiles) {
   nlohmann::ordered_json all;
   all["version"] = TWINPUCK_VERSION;
   all["fcy_hz"] = board::kFcyHz;
-  for (const auto& [robot, r] : profiles) {
+  for (const auto& [robot, r, program] : profiles) {
     nlohmann::ordered_json j;
     j["robot"] = robot;
     j["from_cycle"] = r.from;

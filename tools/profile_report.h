@@ -25,6 +25,7 @@ class Profiles {
   struct Named {
     std::string robot;
     chip::ProfileReport report;
+    const dspic::FirmwareFile* program;  ///< the runner's
   };
   std::vector<Named> reports() const;
 

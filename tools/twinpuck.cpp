@@ -25,10 +25,11 @@ struct Verb {
   void (*add)(CLI::App&, int& exit_code);
 };
 constexpr Verb kVerbs[] = {
-    {"run", add_run},       {"check", add_check}, {"build", add_build},     {"lint", add_lint},
-    {"cycles", add_cycles}, {"dis", add_dis},     {"asm", add_asm},         {"flash", add_flash},
-    {"debug", add_debug},   {"new", add_new},     {"inspect", add_inspect}, {"list", add_list},
-    {"import", add_import}, {"view", add_view},   {"lab", add_lab},         {"timings", add_timings},
+    {"run", add_run},         {"check", add_check},     {"build", add_build},   {"lint", add_lint},
+    {"cycles", add_cycles},   {"dis", add_dis},         {"asm", add_asm},       {"flash", add_flash},
+    {"debug", add_debug},     {"new", add_new},         {"init", add_init},     {"paths", add_paths},
+    {"inspect", add_inspect}, {"list", add_list},       {"import", add_import}, {"view", add_view},
+    {"lab", add_lab},         {"timings", add_timings}, {"test", add_test},     {"grade", add_grade},
 };
 
 }  // namespace

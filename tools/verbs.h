@@ -34,6 +34,8 @@ void add_dis(CLI::App& app, int& exit_code);
 void add_asm(CLI::App& app, int& exit_code);
 void add_flash(CLI::App& app, int& exit_code);
 void add_new(CLI::App& app, int& exit_code);
+void add_init(CLI::App& app, int& exit_code);
+void add_paths(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
@@ -41,5 +43,7 @@ void add_timings(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
+void add_test(CLI::App& app, int& exit_code);
+void add_grade(CLI::App& app, int& exit_code);
 
 }  // namespace tools

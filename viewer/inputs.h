@@ -54,6 +54,10 @@ struct Opening {
 };
 Json to_json(const Opening& opening);
 
+/// A whole recording of a run up to `end`; each input with its tick, "at".
+std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
+                           std::uint64_t digest);
+
 /// Writes inputs down as they happen.
 class Recorder {
  public:
@@ -84,6 +88,8 @@ class Replay {
   void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
   /// Does all that are due now.
   void apply_due(Inputs& inputs, sim::Clicks now);
+  /// From the first input on.
+  void rewind() { at_ = 0; }
   /// Where the recording ends, and with which digest; negative: it was cut off.
   sim::Clicks end() const { return end_; }
   std::uint64_t digest() const { return digest_; }

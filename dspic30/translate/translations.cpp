@@ -122,6 +122,7 @@ void Translations::note_warm(const Cpu& cpu, const Decoded* head) {
 bool Translations::has_compiler() {
   if (!is_loaded_) {
     is_loaded_ = true;
+    find_own_functions();
     void* const library = dlopen(library_.c_str(), RTLD_LAZY | RTLD_LOCAL);
     const auto* const cpu_bytes =
         library ? static_cast<const std::size_t*>(dlsym(library, "dspic_translate_cpu_bytes")) : nullptr;

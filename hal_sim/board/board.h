@@ -212,6 +212,7 @@ class Board {
     return is_any_used_ && (uarts_[0].next_arrival(at) < kNever || uarts_[1].next_arrival(at) < kNever);
   }
   Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
+  const Uart& uart(int number) const { return uarts_[static_cast<std::size_t>(number - 1)]; }
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }

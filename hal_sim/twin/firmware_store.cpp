@@ -161,7 +161,9 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
                        (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
     return "";
   }
-  if (!other) return path.string();
+  // "." and ".." are nobody's names
+  if (!other || fs::path(name).filename().string().find_first_not_of('.') == std::string::npos)
+    return path.string();
   const fs::path of_lab = places::share_root() / "firmware" / "lab" / name;
   const bool is_name = name.find('/') == std::string::npos;
   for (const fs::path& same : {fs::path(name), fs::path(stored_controller(name)), is_name ? of_lab : ""})

@@ -17,8 +17,8 @@ class Command : public CommandTest {};
 TEST_F(Command, help_names_every_verb) {
   const Said s = twinpuck("--help");
   EXPECT_EQ(s.exit_code, 0);
-  for (const char* verb :
-       {"run", "check", "build", "lint", "cycles", "inspect", "new", "list", "lab", "timings"})
+  for (const char* verb : {"run", "check", "build", "lint", "cycles", "inspect", "new", "init", "paths",
+                           "list", "lab", "timings"})
     EXPECT_NE(s.text.find(verb), std::string::npos) << verb;
 }
 
@@ -423,22 +423,6 @@ TEST_F(Command, warnings_of_the_build_come_with_each_run_and_strict_ends_in_1) {
   const Said image = twinpuck("build " + path("thin") + " -o " + path("thin.elf"));
   for (const char* part : {"RAM        2 of 8192 bytes (0 %)", "stack      4 bytes at most"})
     EXPECT_NE(image.text.find(part), std::string::npos) << image.text;
-}
-
-TEST_F(Command, new_makes_a_controller_that_builds_and_runs) {
-  // in a tree of its own, so the checkout stays clean
-  fs::create_directories(folder / "root" / "worlds");
-  fs::create_directory_symlink(fs::path(TWINPUCK_SOURCE_DIR) / "firmware" / "include",
-                               folder / "include_link");
-  fs::create_directories(folder / "root" / "firmware");
-  fs::copy(fs::path(TWINPUCK_SOURCE_DIR) / "worlds" / "maze.toml", folder / "root" / "worlds" / "maze.toml");
-  const Said made = twinpuck("new my_robot", "TWINPUCK_ROOT=" + path("root"));
-  ASSERT_EQ(made.exit_code, 0) << made.text;
-  EXPECT_TRUE(fs::exists(folder / "root/firmware/my_robot/test.cpp"));
-  const Said s = twinpuck("run maze --fw '*=" + path("root/firmware/my_robot") + "' --for 5 --summary " +
-                          path("s.json"));
-  EXPECT_EQ(s.exit_code, 0) << s.text;
-  EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["distance_m"].get<double>(), 0.1);
 }
 
 TEST_F(Command, the_summary_counts_radio_packets_where_there_is_a_radio) {

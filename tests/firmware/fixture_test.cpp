@@ -49,6 +49,16 @@ TEST_F(Fixture, a_variable_or_function_that_is_not_there_is_told_at_the_line_tha
   EXPECT_NE(robot.variable("there"), 0);
 }
 
+TEST_F(Fixture, a_function_that_became_part_of_others_is_told_with_what_to_do) {
+  Robot& robot = add_robot_with_source(
+      "volatile int n;\nstatic int weight(int x) { return 3 * x; }\nint main(void) { while (1) n = "
+      "weight(n); }");
+  run_for(0.01);
+  expect_here([&] { robot.cost_of("weight"); }, __LINE__,
+              "it is part of main(); to measure it alone, declare it __attribute__((noinline))");
+  expect_here([&] { robot.cost_of("wieght"); }, __LINE__, "did you mean 'weight'?");
+}
+
 // -O1: what is called with a constant stands in its caller
 TEST_F(Fixture, cost_is_that_of_the_chip) {
   const std::string program =

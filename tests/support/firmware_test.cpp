@@ -8,7 +8,6 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/chip/chip_runner.h"
-#include "hal_sim/chip/code_cycles.h"
 #include "hal_sim/chip/profile.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
@@ -83,24 +82,12 @@ Robot& Robot::measured() {
   return *this;
 }
 Cost Robot::cost_of(const std::string& function, Caller caller) const {
-  if (profile_)
-    for (const auto& f : profile_->report().functions)
-      if (f.name == function && f.cycles.count > 0)
-        return {f.cycles.count, static_cast<double>(f.cycles.min), f.cycles.mean(),
-                static_cast<double>(f.cycles.max)};
   const auto* const runner = dynamic_cast<const chip::ChipRunner*>(test_->twin().mind(index_).runner());
-  const auto* const known = runner ? runner->file().code.function_named(function) : nullptr;
-  if (!known) {
-    ADD_FAILURE_AT(caller.file, caller.line) << "no function '" << function << "' in the firmware";
-    return {};
-  }
-  const chip::PathCycles code = chip::CodeCycles(runner->file()).of_function(known->begin);
-  if (!code.is_known())
-    ADD_FAILURE_AT(caller.file, caller.line)
-        << function << "(): only a run tells what it takes: it " << code.why_not
-        << (profile_ ? "; it was not called" : "; call measured() of the robot before the first run");
-  const auto least = static_cast<double>(code.least), most = static_cast<double>(code.most);
-  return {0, least, code.least == code.most ? least : -1, most};
+  Cost cost;
+  std::string error = "no function '" + function + "' in the firmware";
+  if (!runner || !chip::cost_of_call(runner->file(), profile_.get(), function, cost, error))
+    ADD_FAILURE_AT(caller.file, caller.line) << error;
+  return cost;
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
   const auto found = mind().runner()->read_variable(name, bytes);

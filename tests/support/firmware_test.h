@@ -18,13 +18,10 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/chip/call_cost.h"
 #include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
-
-namespace chip {
-class Profile;
-}
 
 namespace firmware_test {
 
@@ -40,11 +37,7 @@ struct Caller {
   }
 };
 
-/// What calls of a function took, in cycles.
-struct Cost {
-  std::int64_t calls = 0;             ///< 0: by its code alone
-  double min = 0, mean = 0, max = 0;  ///< mean: -1 when only the code is known and has several ways
-};
+using Cost = chip::CallCost;
 
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {

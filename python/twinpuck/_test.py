@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: MIT
+"""`twinpuck test`: pytest with our plug-in, and Twinpuck's exit codes."""
+from __future__ import annotations
+
+import sys
+
+
+def main(arguments: list[str]) -> int:
+    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal error, 130 interrupted."""
+    try:
+        import numpy  # noqa: F401  what is missing shall be said in one line
+        import pytest
+    except ImportError as missing:
+        print(f"twinpuck test: got no Python package '{missing.name}', expected numpy and pytest (Debian: "
+              "python3-numpy, python3-pytest; python3-pytest-xdist for -n)", file=sys.stderr)
+        return 2
+    class Interrupted:
+        """Notes whether it was Ctrl-C: pytest says the same of files that cannot be read."""
+
+        by_user = False
+
+        def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+            self.by_user = excinfo.type is KeyboardInterrupt
+
+    interrupted = Interrupted()
+    code = pytest.main(["-p", "twinpuck.pytest_plugin", *arguments], plugins=[interrupted])
+    if code == pytest.ExitCode.INTERRUPTED:
+        return 130 if interrupted.by_user else 2
+    return int({pytest.ExitCode.INTERNAL_ERROR: 6, pytest.ExitCode.USAGE_ERROR: 2}.get(pytest.ExitCode(code), code))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
