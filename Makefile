@@ -110,10 +110,11 @@ install: product
 	@DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)' --strip >$(BUILD)/install.log || { cat $(BUILD)/install.log; exit 1; }
 	@echo "installed in $(DESTDIR)$(PREFIX)"
 
-## deb: the Debian package, in build/
+## deb: the Debian package, in build/package/
 deb: product
+	@rm -rf $(BUILD)/package && mkdir $(BUILD)/package
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
-	@ls $(BUILD)/twinpuck_*.deb
+	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
 ## check: rules of the code: includes, sources of numbers, formatting, contract, timings
 check: tool

@@ -31,7 +31,9 @@ std::string world_file(const std::string& name) {
   std::error_code none;
   const fs::path ours = places::share_root() / "worlds" / (name + ".toml");
   const bool is_plain = name.find('/') == std::string::npos;
-  return !fs::is_regular_file(name, none) && is_plain && fs::exists(ours, none) ? ours.string() : name;
+  if (fs::exists(fs::symlink_status(name, none))) return name;
+  if (is_plain && fs::exists(ours, none)) return ours.string();
+  refuse(name + ": world: got a name that is neither a file nor a world of " + ours.parent_path().string());
 }
 
 sim::WorldDesc checked(sim::LoadedWorld loaded, const std::string& name, const Settings& settings) {

@@ -260,7 +260,7 @@ std::string manual_of_verb(const CLI::App& verb) {
   return text + kEnvironment + kFiles + see_also(verb.get_name());
 }
 
-std::string bash_completion(const CLI::App& app) {
+std::string bash_completion(const CLI::App& app, std::string text) {
   std::string verbs, options, kinds;
   for (const CLI::App* verb : verbs_of(app)) {
     const std::string& name = verb->get_name();
@@ -294,109 +294,6 @@ std::string bash_completion(const CLI::App& app) {
       kinds += fmt::format("    \"{} {}\"{}) echo '{}' ;;\n", name, i, goes_on ? "*" : "", places[i]);
     }
   }
-  std::string text =
-      R"bash(# bash completion for twinpuck; made by `twinpuck manual` of the command's own options
-_twinpuck_options() {
-  case $1 in
-@OPTIONS@  esac
-}
-
-# what follows an option, or stands in the place of a number: "= WORD..." or what it is a name of
-_twinpuck_kind() {
-  case "$1 $2" in
-@KINDS@  esac
-}
-
-_twinpuck_names() {
-  twinpuck list "$1" 2>/dev/null | sed -n 's/^  \([^ ]*\).*/\1/p'
-}
-
-_twinpuck_files() {
-  compopt -o filenames 2>/dev/null
-  compgen -f -- "$1"
-}
-
-_twinpuck() {
-  # words as the shell counts them, but for = and :, which ROBOT=FILE is full of
-  local line=${COMP_LINE:0:COMP_POINT} words word cur verb prev option='' kind place=0 i
-  read -r -a words <<<"$line"
-  case $line in *[[:space:]]) words+=('') ;; esac
-  cur=${words[${#words[@]}-1]}
-  verb=${words[1]}
-  COMPREPLY=()
-  if [ ${#words[@]} -le 2 ]; then
-    COMPREPLY=($(compgen -W '@VERBS@ --help --version' -- "$cur"))
-    return
-  fi
-  for ((i = 2; i < ${#words[@]} - 1; i++)); do
-    word=${words[i]}
-    if [ -n "$option" ]; then
-      option=
-    elif [[ $word == -* ]]; then
-      [[ $word == *=* || -z $(_twinpuck_kind "$verb" "$word") ]] || option=$word
-    else
-      place=$((place + 1))
-    fi
-  done
-  local before=''
-  if [ -n "$option" ]; then
-    kind=$(_twinpuck_kind "$verb" "$option")
-  elif [[ $cur == --*=* ]]; then
-    option=${cur%%=*} before=${cur%%=*}=
-    kind=$(_twinpuck_kind "$verb" "$option")
-    cur=${cur#*=}
-  elif [[ $cur == -* ]]; then
-    COMPREPLY=($(compgen -W "$(_twinpuck_options "$verb")" -- "$cur"))
-    return
-  else
-    kind=$(_twinpuck_kind "$verb" "$place")
-  fi
-  local world=''
-  for word in "${words[@]:2:${#words[@]}-3}";
-  do [[$word == -*]] || {
-      world = $word;
-      break;
-    }
-  done
-  local names=''
-  case $kind in
-    '= '*) names=${kind#= } ;
-  ;
-    worlds) names=$(_twinpuck_names worlds)$'\n'$(_twinpuck_files "$cur" | grep -E '\.toml$|/') ;
-    ;
-    firmware)
-      if [[ $cur == *=* ]];
-    then before = $before${cur % %= * } = cur = ${cur # *= } elif[-n "$world"];
-    then names = $(twinpuck manual-- robots "$world" 2 > / dev / null | sed 's/$/=/') fi names +=
-        $ '\n' $(_twinpuck_names controllers) $ '\n' $(_twinpuck_files "$cur");
-    ;
-    controllers) names=$(_twinpuck_names controllers)$'\n'$(_twinpuck_files "$cur") ;
-    ;
-    supervisors) names=$(_twinpuck_names supervisors)$'\n'$(_twinpuck_files "$cur") ;
-    ;
-    robots) [ -z "$world" ] || names=$(twinpuck manual --robots "$world" 2>/dev/null) ;
-    ;
-    verbs) names='@VERBS@' ;
-    ;
-    none) return ;
-    ;
-    *) names=$(_twinpuck_files "$cur") ;
-    ;
-  esac
-  local IFS=$' \t\n'
-  COMPREPLY=($(compgen -W "$names" -- "$cur"))
-#readline replaces what stands behind the last = or : only
-  local kept=$before$cur
-  case $COMP_WORDBREAKS in
-    *=*) before=${before##*=} ;
-  ;
-  esac[-z "$before"] || COMPREPLY =
-      ("${COMPREPLY[@]/#/$before}") [[$ { #COMPREPLY[@] } - eq 1 && ${COMPREPLY[0]} == *= ]] &&
-      compopt - o nospace 2 > / dev / null[[$ { #COMPREPLY[@] } - eq 1 && -d ${COMPREPLY[0]}]] &&
-      compopt - o nospace 2 > / dev / null && COMPREPLY[0] += / return 0
-}
-complete -F _twinpuck twinpuck
-)bash";
   const auto put = [&](const std::string& key, const std::string& value) {
     for (std::size_t at = 0; (at = text.find(key, at)) != std::string::npos; at += value.size())
       text.replace(at, key.size(), value);

@@ -12,7 +12,8 @@ std::string manual_of_command(const CLI::App& app);
 /// twinpuck-VERB.1.
 std::string manual_of_verb(const CLI::App& verb);
 /// For bash: verbs, options, values that are known, names of worlds, controllers, supervisors and robots.
-std::string bash_completion(const CLI::App& app);
+/// `frame`: completion.bash.in.
+std::string bash_completion(const CLI::App& app, std::string frame);
 
 /// A verb that help does not list: writes all of it into a folder, or says a world's robots for completion.
 void add_manual(CLI::App& app, int& exit_code);

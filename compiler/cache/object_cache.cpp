@@ -136,25 +136,28 @@ std::string identity_of(const fs::path& program) {
          std::to_string(fs::file_size(program, ec));
 }
 
-std::string with_each(std::string text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-    text.replace(at, from.size(), to);
-  return text;
-}
-
 /// Names of files that stay right when the job's home has moved.
 class Names {
  public:
   explicit Names(const CompileJob& job) : home_(job.home) {}
-  std::string told(const std::string& text) const {
-    return home_.empty() ? text : with_each(text, home_ + "/", kHome);
+  /// Of a path, or of a word with paths in it: "-I@/hal_dspic".
+  std::string told(std::string text) const {
+    if (home_.empty()) return text;
+    for (std::size_t at = 0; (at = text.find(home_, at)) != std::string::npos;) {
+      const std::size_t end = at + home_.size();
+      if (end == text.size() || text[end] == '/')
+        text.replace(at, home_.size(), kHome);
+      else
+        at = end;
+    }
+    return text;
   }
   std::string here(const std::string& told) const {
-    return told.rfind(kHome, 0) == 0 ? home_ + "/" + told.substr(std::strlen(kHome)) : told;
+    return told.rfind(kHome, 0) == 0 ? home_ + told.substr(1) : told;
   }
 
  private:
-  static constexpr const char* kHome = "@/";
+  static constexpr const char* kHome = "@";
   std::string home_;
 };
 

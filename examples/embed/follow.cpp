@@ -14,9 +14,13 @@ int main() {
     twinpuck::World world("maze", settings);
     twinpuck::Robot puck = world.robot(world.robots().front());
 
-    // until it is near something in front, ten simulated seconds at most
-    const bool is_near =
-        world.run_until([&] { return puck.proximity(0) > 300 || puck.proximity(7) > 300; }, 10);
+    // until one of its eight sensors sees something near, ten simulated seconds at most
+    const auto sees_something = [&] {
+      for (int sensor = 0; sensor < 8; ++sensor)
+        if (puck.proximity(sensor) > 200) return true;
+      return false;
+    };
+    const bool is_near = world.run_until(sees_something, 10);
     std::printf("%s after %.2f s\n", is_near ? "near a wall" : "nothing near", world.time_s());
 
     world.run(20);
