@@ -9,12 +9,9 @@
 
 namespace tools {
 
-struct TrialResult {
+struct TrialResult : TrialEnd {
+  explicit TrialResult(Trial which) : trial(std::move(which)) {}
   Trial trial;
-  bool ran = false;
-  Measures measures;
-  std::string said;  ///< by a supervisor, at last
-  std::vector<std::string> problems;
 };
 
 /// One step of an exercise with all its trials, in order.
@@ -31,8 +28,19 @@ bool has_run(const StepResult& result);
 double share_of(const StepResult& result, double noise_scale);
 bool is_passed(const StepResult& result);
 
+/// What the step asks of its trials: "needs 9 of 10: escape at most 60 s, wall touch at most 0.5 s". Empty:
+/// nothing.
+std::string asked_by(const LabStep& step, std::size_t trials);
+
+/// A trial that tells why the step has failed: the first that kept its bounds not, or that should not have;
+/// null: there is none.
+const TrialResult* telling_trial(const StepResult& result);
+
 /// "30 of 30 escape, median escape 9.1 s". `times` false leaves out what depends on the PC.
 std::string to_text(const StepResult& result, bool times);
+
+/// What a trial measured of what its step asks or shows: "standstill 3.31 s, wall touch 0 s".
+std::string measures_text(const TrialResult& trial);
 
 std::string lab_csv_header();
 /// A line per trial.

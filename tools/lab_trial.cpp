@@ -26,6 +26,7 @@ constexpr double kStartClearanceM = 0.01;   // free room around a robot that sta
 constexpr int kMostTries = 10000;           // places tried for one robot
 constexpr std::uint32_t kStreamStart = 50;  // below the boards' streams
 constexpr double kLiftM = 0.05;
+constexpr sim::Clicks kTrapLook = sim::kClicksPerSecond / 4;
 constexpr double kSlipWindowS = 1, kSlipM = 0.002;  // less than this in a window is rounding of whole steps
 
 double uniform(const sim::RandomKey& key, std::uint64_t counter, Span span) {
@@ -146,11 +147,12 @@ class Lifts {
   std::vector<double> heights_m_;
 };
 
-void run(twin::Twin& twin, programs::Team& team, const Trial& trial, Measures& m) {
+void run(twin::Twin& twin, programs::Team& team, const Trial& trial, Measures& m, TrialOnlooker* onlooker) {
   const LabStep& step = *trial.step;
   auto& simulation = twin.simulation();
   Lifts lifts(simulation);  // sees the kick-off
   team.before_first_tick();
+  if (onlooker) onlooker->before_run();
   std::vector<Watch> watches;
   for (int i = 0; i < twin.robots(); ++i) {
     const auto* model = twin.world().model_of(twin.world().robots[static_cast<std::size_t>(i)]);
@@ -163,10 +165,18 @@ void run(twin::Twin& twin, programs::Team& team, const Trial& trial, Measures& m
     return !step.region.empty() && std::all_of(watches.begin(), watches.end(),
                                                [](const Watch& w) { return std::isfinite(w.escape_s); });
   };
-  while (simulation.now() < end && !all_out() && !team.has_ended()) {
+  // who has trapped has failed: a program that resets for ever would take its time
+  sim::Clicks next_look = 0;
+  const auto has_trapped = [&] {
+    if (simulation.now() < next_look) return false;
+    next_look = simulation.now() + kTrapLook;
+    return !twin.traps().empty();
+  };
+  while (simulation.now() < end && !all_out() && !team.has_ended() && !has_trapped()) {
     simulation.step();
     for (Watch& w : watches) w.look();
     lifts.look();
+    if (onlooker) onlooker->after_tick();
   }
   team.finish();
   m[Measure::Restarts] = lifts.restarts;
@@ -238,21 +248,23 @@ void measure_sensor(const sim::WorldDesc& world, Measures& m) {
 
 }  // namespace
 
-bool run_trial(const Trial& trial, Measures& measures, std::string& said,
-               std::vector<std::string>& problems) {
+TrialEnd run_trial(const Trial& trial, TrialOnlooker* onlooker) {
+  TrialEnd result;
+  auto& problems = result.problems;
   const LabStep& step = *trial.step;
   const std::string file = (places::share_root() / "worlds" / (trial.world + ".toml")).string();
   sim::LoadedWorld loaded = twin::load_world(file);
   if (!loaded.world) {
     problems.push_back(loaded.report(file));
-    return false;
+    return result;
   }
   sim::WorldDesc& world = *loaded.world;
   world.seed = trial.seed;
   if (!std::isnan(trial.noise_scale)) world.proximity.noise_scale = trial.noise_scale;
   if (step.kind == LabStep::Kind::Sensor) {
-    measure_sensor(world, measures);
-    return true;
+    measure_sensor(world, result.measures);
+    result.ran = true;
+    return result;
   }
   for (sim::RobotDesc& robot : world.robots) {
     robot.variation.gain_spread = step.gain_spread;
@@ -261,27 +273,30 @@ bool run_trial(const Trial& trial, Measures& measures, std::string& said,
   }
   if (!place_robots(world, step.start)) {
     problems.push_back(file + ": start: got no free place for every robot, expected more room");
-    return false;
+    return result;
   }
   twin::Options options;
   options.world_folder = std::filesystem::path(file).parent_path().string();
   options.hal = trial.hal;
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
   auto twin = twin::Twin::open(std::move(world), options, problems);
-  if (!twin) return false;
+  if (!twin) return result;
   std::vector<std::string> supervisors;
   if (!step.supervisor.empty()) supervisors.push_back(step.supervisor);
   const auto team = programs::Team::open(*twin, options, supervisors, problems);
-  if (!team) return false;
+  if (!team || (onlooker && !onlooker->open(*twin, *team, problems))) return result;
   // "NAME TIME s: TEXT"
-  team->say = [&said](const std::string& line) {
+  team->say = [&result](const std::string& line) {
     const auto colon = line.find(": ");
-    said = line.substr(colon == std::string::npos ? 0 : colon + 2);
+    result.said = line.substr(colon == std::string::npos ? 0 : colon + 2);
   };
-  run(*twin, *team, trial, measures);
+  run(*twin, *team, trial, result.measures, onlooker);
+  result.digest = twin->simulation().digest();
+  result.ran = twin->traps().empty() && team->outcome().code == 0;
   if (team->outcome().code != 0) problems.push_back(file + ": supervisor: " + team->outcome().text);
   for (const auto& trap : twin->traps()) problems.push_back(to_text(trap));
-  return twin->traps().empty() && team->outcome().code == 0;
+  if (onlooker) onlooker->finish(problems);
+  return result;
 }
 
 }  // namespace tools

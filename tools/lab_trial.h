@@ -4,10 +4,18 @@
 // spread and where they start.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/lab_table.h"
+
+namespace twin {
+class Twin;
+}
+namespace programs {
+class Team;
+}
 
 namespace tools {
 
@@ -21,8 +29,27 @@ struct Trial {
   std::uint64_t seed = 1;
 };
 
-/// Runs it. False, with lines in `problems`, when it could not run or a firmware trapped. `said`: the last
-/// line of a supervisor of the world.
-bool run_trial(const Trial& trial, Measures& measures, std::string& said, std::vector<std::string>& problems);
+/// What a trial came to.
+struct TrialEnd {
+  bool ran = false;  ///< to its end, without a trap
+  Measures measures;
+  std::string said;                     ///< by a supervisor, at last
+  std::optional<std::uint64_t> digest;  ///< of the whole run; none of a look at a sensor
+  std::vector<std::string> problems;    ///< why it could not run, or what trapped
+};
+
+/// Whoever looks on while a trial runs, and changes nothing.
+class TrialOnlooker {
+ public:
+  virtual ~TrialOnlooker() = default;
+  /// False, with lines in `problems`: the trial does not run.
+  virtual bool open(twin::Twin& twin, programs::Team& team, std::vector<std::string>& problems) = 0;
+  virtual void before_run() = 0;
+  virtual void after_tick() = 0;
+  virtual void finish(std::vector<std::string>& problems) = 0;
+};
+
+/// Runs it. The run is the same with and without somebody who looks on.
+TrialEnd run_trial(const Trial& trial, TrialOnlooker* onlooker = nullptr);
 
 }  // namespace tools

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT
-// twinpuck lab: the exercises of docs/lab.md, headless, one line each with what was measured. Trials are
-// shared among processes (an image holds its robots' globals, so two worlds cannot run it side by side in one
-// process); results come back by the trial's number and do not depend on how many processes there are.
+// twinpuck lab: the exercises of docs/lab.md, headless: one line each with what was measured and what is
+// asked, for our solutions or somebody's programs; a table for a class; one run again, to be looked at.
 #include <fmt/format.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
-#include <map>
 #include <memory>
 
-#include "compiler/cache/child_process.h"
 #include "hal_sim/twin/twin.h"
 #include "install/places.h"
+#include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
+#include "tools/lab_class.h"
+#include "tools/lab_class_table.h"
 #include "tools/lab_mine.h"
+#include "tools/lab_replay.h"
 #include "tools/lab_report.h"
+#include "tools/lab_run.h"
+#include "tools/output_folder.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -28,214 +28,240 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kUsualLimit_s = 60, kFullLimit_s = 900;
+
 struct LabArguments {
   std::vector<std::string> ids;
-  std::string table, csv, plot, mine, hal;
-  int seeds = 0, jobs = 1;
-  bool full = false, no_times = false, list = false;
+  std::string table, csv, runs, html, junit, plot, mine;
+  LabSetting setting;
+  ReplayArguments replay;
+  double limit_s = 0;
+  bool no_times = false, trusted = false;
 };
-
-// every firmware is built once, before anything runs
-LabPrograms build_images(const std::vector<const LabExercise*>& chosen, twin::Options options,
-                         std::vector<std::string>& problems) {
-  LabPrograms programs;
-  options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
-  for (const LabExercise* e : chosen)
-    for (const LabStep& s : e->steps)
-      if (!s.firmware.empty() && !programs.images.count(s.firmware))
-        programs.images[s.firmware] = twin::provide_image(s.firmware, "", options, problems);
-  return programs;
-}
-
-std::vector<TrialResult> trials_of(const LabStep& step, int seeds, double seconds, const std::string& image,
-                                   const LabArguments& a) {
-  std::vector<TrialResult> all;
-  const std::vector<double> as_written{std::nan("")};
-  const auto& scales = step.noise_scales.empty() ? as_written : step.noise_scales;
-  for (const std::string& world : step.worlds)
-    for (double scale : scales)
-      for (int seed = 1; seed <= (step.kind == LabStep::Kind::Sensor ? 1 : seeds); ++seed)
-        all.push_back({{&step, world, image, a.hal, scale, seconds, static_cast<std::uint64_t>(seed)},
-                       false,
-                       {},
-                       "",
-                       {}});
-  return all;
-}
-
-void run_one(TrialResult& t) { t.ran = run_trial(t.trial, t.measures, t.said, t.problems); }
-
-// what a child process tells of one trial; its problems go to stderr at once
-struct Told {
-  std::size_t index;
-  bool ran;
-  Measures measures;
-  char said[96];
-};
-
-void run_in_processes(std::vector<TrialResult>& trials, int jobs) {
-  std::vector<std::pair<pid_t, int>> children;
-  std::vector<std::unique_ptr<cc::ChildGroup>> groups;  // of theirs; they end with this process
-  for (int j = 0; j < jobs; ++j) {
-    int ends[2];
-    if (pipe(ends) != 0) throw std::runtime_error("no pipe");
-    const pid_t parent = getpid(), pid = fork();
-    if (pid < 0) throw std::runtime_error("no process");
-    if (pid == 0) {
-      cc::lead_child_group(parent);
-      close(ends[0]);
-      for (std::size_t i = static_cast<std::size_t>(j); i < trials.size();
-           i += static_cast<std::size_t>(jobs)) {
-        run_one(trials[i]);
-        complain(trials[i].problems);
-        Told told{i, trials[i].ran, trials[i].measures, ""};
-        trials[i].said.copy(told.said, sizeof told.said - 1);
-        if (write(ends[1], &told, sizeof told) != sizeof told) _exit(kInternal);
-      }
-      _exit(0);
-    }
-    close(ends[1]);
-    groups.push_back(std::make_unique<cc::ChildGroup>(pid));
-    children.emplace_back(pid, ends[0]);
-  }
-  for (std::size_t c = 0; c < children.size(); ++c) {
-    const auto [pid, end] = children[c];
-    Told told;
-    for (std::size_t got = 0;;) {
-      const ssize_t n = read(end, reinterpret_cast<char*>(&told) + got, sizeof told - got);
-      if (n <= 0) break;
-      got += static_cast<std::size_t>(n);
-      if (got < sizeof told) continue;
-      got = 0;
-      trials[told.index].ran = told.ran;
-      trials[told.index].measures = told.measures;
-      trials[told.index].said = told.said;
-    }
-    close(end);
-    groups[c].reset();  // what is waited for has no number any more
-    int status;
-    waitpid(pid, &status, 0);
-  }
-}
-
-StepResult run_step(const LabStep& step, const LabArguments& a, const LabPrograms& programs) {
-  StepResult result{&step, {}, ""};
-  const auto broken = programs.broken.find(step.firmware);
-  if (broken != programs.broken.end()) {
-    result.problem = broken->second;
-    return result;
-  }
-  if (step.kind == LabStep::Kind::Answer) {
-    std::ifstream answers(places::share_root() / "docs/lab-answers.md");
-    for (std::string line; std::getline(answers, line);)
-      if (line == "## " + step.answer) return result;
-    result.problem = "docs/lab-answers.md: got no heading '" + step.answer + "', expected an answer";
-    return result;
-  }
-  const int seeds = a.seeds > 0 ? a.seeds : a.full ? step.full_seeds : step.quick_seeds;
-  const auto image = programs.images.find(step.firmware);
-  result.trials = trials_of(step, seeds, a.full ? step.full_seconds : step.seconds,
-                            image == programs.images.end() ? "" : image->second, a);
-  bool timed = false;
-  for (const Shown& s : step.shown) timed = timed || s.measure == Measure::Speed;
-  if (a.jobs > 1 && !timed) {
-    run_in_processes(result.trials, a.jobs);
-  } else {
-    for (TrialResult& t : result.trials) {
-      run_one(t);
-      complain(t.problems);
-    }
-  }
-  return result;
-}
 
 std::vector<const LabExercise*> choose(const std::vector<LabExercise>& all,
                                        const std::vector<std::string>& ids,
                                        std::vector<std::string>& problems) {
   std::vector<const LabExercise*> chosen;
-  std::string known;
+  std::vector<std::string> known;
   for (const LabExercise& e : all) {
-    known += (known.empty() ? "" : " ") + e.id;
+    known.push_back(e.id);
     if (ids.empty() || std::find(ids.begin(), ids.end(), e.id) != ids.end()) chosen.push_back(&e);
   }
-  for (const std::string& id : ids)
-    if (std::none_of(all.begin(), all.end(), [&](const LabExercise& e) { return e.id == id; }))
-      problems.push_back("command line: lab: got '" + id + "', expected one of " + known);
+  for (const std::string& id : ids) {
+    if (std::find(known.begin(), known.end(), id) != known.end()) continue;
+    const std::string guess = sim::did_you_mean(id, known);
+    problems.push_back(fmt::format("command line: lab: got '{}', expected one of {}{}", id,
+                                   fmt::join(known, " "),
+                                   guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+  }
   return chosen;
 }
 
-int lab(const LabArguments& a) {
+/// A file that is written at the end; it is opened before anything runs.
+bool write_file(const std::string& file, const char* option, const std::string& text,
+                std::vector<std::string>& problems) {
+  if (file.empty()) return true;
+  std::ofstream out(file, std::ios::trunc | std::ios::binary);
+  out << text;
+  if (out.flush()) return true;
+  problems.push_back(file + ": " + option + ": cannot be written");
+  return false;
+}
+
+/// What a command needs besides, to do the same run again.
+std::string options_text(const LabArguments& a) {
+  std::string text;
+  const auto add = [&](const std::string& words) { text += (text.empty() ? "" : " ") + words; };
+  if (!a.setting.hal.empty()) add("--hal " + a.setting.hal);
+  if (a.setting.full) add("--full");
+  if (!a.table.empty()) add("--table " + shell_word(a.table));
+  return text;
+}
+
+void write_tables(const LabArguments& a, const Class& all, std::vector<std::string>& problems) {
+  if (!a.html.empty())
+    write_file(a.html, "--html", class_html(all, a.mine.empty() ? "The lab" : "The lab: " + a.mine),
+               problems);
+  if (!a.junit.empty()) write_file(a.junit, "--junitxml", class_junit(all), problems);
+}
+
+int judge_class(const LabArguments& a, const std::vector<const LabExercise*>& chosen, twin::Options options) {
+  Class all;
+  all.exercises = chosen;
+  all.setting = a.setting;
+  // on the chip's machine a program reaches nothing of this PC
+  if (all.setting.hal.empty() && !a.trusted) all.setting.hal = options.hal = "sim";
+  LabArguments as_run = a;
+  as_run.setting = all.setting;
+  all.options = options_text(as_run);
+  std::size_t width = std::string("student").size();
+  for (fs::directory_iterator it(a.mine), end; it != end; ++it)
+    width = std::max(width, it->path().filename().string().size());
+  std::cout << class_header(all, width) << std::flush;
+  try_class(a.mine, options, !a.ids.empty(),
+            a.limit_s > 0    ? a.limit_s
+            : a.setting.full ? kFullLimit_s
+                             : kUsualLimit_s,
+            all, [&](const Student& student) { std::cout << class_row(all, student, width) << std::flush; });
+  std::cout << '\n' << class_notes(all);
   std::vector<std::string> problems;
-  const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
-  const bool mine = !a.mine.empty();
-  auto all = read_lab_table(table, problems);
-  if (mine) all = own_exercises(std::move(all));
-  const auto chosen = choose(all, a.ids, problems);
-  if (mine && !fs::is_directory(a.mine))
-    problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
-  LabPrograms programs;
-  twin::Options options;
-  options.hal = a.hal;
+  if (!a.csv.empty()) write_file(a.csv, "--csv", class_csv(all), problems);
+  if (!a.runs.empty()) write_file(a.runs, "--runs", class_runs_csv(all), problems);
+  write_tables(a, all, problems);
+  complain(problems);
+  if (!problems.empty()) return kInvalidRun;
+  for (const Student& student : all.students)
+    for (const LabCell& cell : student.cells)
+      if (is_failure(cell.verdict)) return kTestFailed;
+  return kPass;
+}
+
+/// The share against the noise scale, of the steps that have several; how many plots.
+int draw_plots(const std::string& file, const LabCell& cell, std::vector<std::string>& problems) {
+  int plots = 0;
+  for (const StepResult& step : cell.steps) {
+    if (file.empty() || step.step->noise_scales.size() < 2 || step.trials.empty()) continue;
+    const std::string wrong = sim::write_share_plot(file, share_plot(step));
+    if (!wrong.empty()) problems.push_back(wrong);
+    ++plots;
+  }
+  return plots;
+}
+
+int judge_one(const LabArguments& a, const std::vector<const LabExercise*>& chosen,
+              const LabPrograms& programs) {
+  std::vector<std::string> problems;
   std::ofstream csv;
-  if (problems.empty() && !a.csv.empty()) {
-    csv.open(a.csv, std::ios::trunc);
-    if (!csv) problems.push_back(a.csv + ": --csv: cannot be written");
+  const std::string runs = !a.csv.empty() ? a.csv : a.runs;
+  const char* const runs_option = !a.csv.empty() ? "--csv" : "--runs";
+  if (!runs.empty()) {
+    csv.open(runs, std::ios::trunc);
+    if (!csv) {
+      complain({runs + ": " + runs_option + ": cannot be written"});
+      return kBadInput;
+    }
     csv << lab_csv_header();
   }
+  Class all;
+  all.exercises = chosen;
+  all.setting = a.setting;
+  all.options = options_text(a);
+  Student one{a.mine.empty() ? "solutions" : fs::path(a.mine).lexically_normal().filename().string(),
+              a.mine,
+              programs,
+              {}};
+  if (one.name.empty() || one.name == ".") one.name = fs::canonical(a.mine).filename().string();
+  int passed = 0, failed = 0, seen = 0, missing = 0, plots = 0;
+  for (const LabExercise* e : chosen) {
+    LabCell cell = try_exercise(*e, a.setting, programs, complain);
+    for (const StepResult& step : cell.steps)
+      if (csv.is_open()) csv << lab_csv(e->id, step);
+    plots += draw_plots(a.plot, cell, problems);
+    ++(cell.verdict == LabVerdict::None   ? missing
+       : is_failure(cell.verdict)         ? failed
+       : cell.verdict == LabVerdict::Pass ? passed
+                                          : seen);
+    std::cout << fmt::format("{:<6} {}  {}: {}\n", e->id, verdict_text(cell.verdict), e->title,
+                             to_text(cell, a.setting, !a.no_times));
+    const std::string command = replay_command(cell, a.mine, all.options);
+    if (!command.empty()) std::cout << "             " << command << '\n';
+    std::cout << std::flush;
+    one.cells.push_back(std::move(cell));
+  }
+  all.students.push_back(std::move(one));
+  if (!a.plot.empty() && plots == 0)
+    problems.push_back(
+        "command line: --plot: got exercises with one noise scale, expected one with several, S15");
+  csv.flush();
+  if (csv.is_open() && !csv) problems.push_back(runs + ": " + runs_option + ": cannot be written");
+  write_tables(a, all, problems);
+  complain(problems);
+  if (!problems.empty()) return kInvalidRun;
+  if (chosen.size() > 1) {
+    std::cout << fmt::format("{} of {} pass", passed, passed + failed);
+    if (seen > 0) std::cout << fmt::format(", {} seen", seen);
+    if (missing > 0) std::cout << fmt::format(", {} without a program", missing);
+    std::cout << '\n';
+  }
+  return failed > 0 ? kTestFailed : passed + seen > 0 ? kPass : kNothing;
+}
+
+/// The names of all programs that a table asks a student for.
+std::set<std::string> programs_of(const std::vector<LabExercise>& all) {
+  std::vector<const LabExercise*> each;
+  for (const LabExercise& e : all) each.push_back(&e);
+  return wanted_programs(each);
+}
+
+/// One run again, with the programs that were asked for.
+int replay(const LabArguments& a, const std::vector<LabExercise>& all, const twin::Options& options) {
+  std::vector<std::string> problems;
+  const LabExercise* const e = replayed_exercise(a.replay.trial, all, problems);
+  if (e && !a.mine.empty() && is_class(a.mine, programs_of(all), wanted_programs({e}), true))
+    problems.push_back(a.mine + ": --mine: got a class's folder, expected one student's with --replay");
+  LabPrograms programs;
   if (problems.empty())
-    programs = mine ? own_programs(a.mine, options, chosen, !a.ids.empty())
-                    : build_images(chosen, options, problems);
+    programs = a.mine.empty() ? reference_programs({e}, options, problems)
+                              : own_programs(a.mine, options, {e}, true, true);
+  complain(problems);
+  return problems.empty() ? replay_trial(a.replay, *e, a.setting, programs) : kBadInput;
+}
+
+/// What does not go together.
+void check_together(const LabArguments& a, std::vector<std::string>& problems) {
+  if (!a.mine.empty() && !fs::is_directory(a.mine))
+    problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
+  if (!a.replay.trial.empty() && !a.ids.empty())
+    problems.push_back("command line: --replay: got exercise '" + a.ids[0] +
+                       "' besides, expected what is replayed alone");
+  if (a.replay.trial.empty())
+    for (const auto& [file, option] :
+         {std::pair{a.replay.picture, "--picture"}, std::pair{a.replay.report, "--report"},
+          std::pair{a.replay.record, "--record"}})
+      if (!file.empty())
+        problems.push_back(
+            fmt::format("command line: {}: got no --replay, expected the run that is meant", option));
+  std::vector<std::pair<std::string, std::string>> files{
+      {a.csv, "--csv"}, {a.runs, "--runs"}, {a.html, "--html"}, {a.junit, "--junitxml"}, {a.plot, "--plot"}};
+  check_files_differ(files, problems);
+  files.pop_back();  // plots are tried when they are drawn
+  for (const auto& [file, option] : files)
+    if (!file.empty()) can_write(file, option.c_str(), problems);
+}
+
+int lab(const LabArguments& given) {
+  LabArguments a = given;
+  a.setting.is_mine = !a.mine.empty();
+  std::vector<std::string> problems;
+  const std::string table =
+      a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
+  auto all = read_lab_table(table, problems);
+  if (a.setting.is_mine) all = own_exercises(std::move(all));
+  const auto chosen = choose(all, a.ids, problems);
+  check_together(a, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;
   }
-  if (programs.images.empty() && programs.broken.empty() && !programs.missing.empty()) {
+  twin::Options options;
+  options.hal = a.setting.hal;
+  if (!a.replay.trial.empty()) return replay(a, all, options);
+  if (a.setting.is_mine && is_class(a.mine, programs_of(all), wanted_programs(chosen), !a.ids.empty()))
+    return judge_class(a, chosen, options);
+  LabPrograms programs = a.setting.is_mine ? own_programs(a.mine, options, chosen, !a.ids.empty(), false)
+                                           : reference_programs(chosen, options, problems);
+  if (!problems.empty()) {
+    complain(problems);
+    return kBadInput;
+  }
+  if (a.setting.is_mine && programs.images.empty() && programs.broken.empty() && !programs.missing.empty()) {
     for (const auto& [firmware, why] : programs.missing) complain({why});
     complain(
         {a.mine + ": --mine: got no program of the lab's, expected folders of these names with C files"});
     return kNothing;
   }
-  int passed_ones = 0, failed = 0, seen = 0, missing = 0, plots = 0;
-  for (const LabExercise* e : chosen) {
-    bool passed = true, there = true;
-    // what the lab has one look at (S) has no right outcome: a program may do better than ours, or other
-    // things
-    const bool judged = !mine || e->id[0] != 'S';
-    std::string line;
-    for (const LabStep& step : e->steps) {
-      const auto absent = programs.missing.find(step.firmware);
-      if (absent != programs.missing.end()) {
-        there = false, line = absent->second;
-        break;
-      }
-      const StepResult result = run_step(step, a, programs);
-      passed = passed && (judged ? is_passed(result) : has_run(result));
-      line += (line.empty() ? "" : "; ") + to_text(result, !a.no_times);
-      if (csv.is_open()) csv << lab_csv(e->id, result);
-      if (!a.plot.empty() && step.noise_scales.size() > 1) {
-        const std::string wrong = sim::write_share_plot(a.plot, share_plot(result));
-        if (!wrong.empty()) problems.push_back(wrong);
-        ++plots;
-      }
-    }
-    ++(!there ? missing : !passed ? failed : judged ? passed_ones : seen);
-    const char* verdict = !there ? "none" : !passed ? "FAIL" : judged ? "pass" : "seen";
-    std::cout << fmt::format("{:<6} {}  {}: {}", e->id, verdict, e->title, line) << std::endl;
-  }
-  if (!a.plot.empty() && plots == 0)
-    problems.push_back(
-        "command line: --plot: got exercises with one noise scale, expected one with several, S15");
-  csv.flush();
-  if (csv.is_open() && !csv) problems.push_back(a.csv + ": --csv: cannot be written");
-  complain(problems);
-  if (!problems.empty()) return kInvalidRun;
-  if (chosen.size() > 1) {
-    std::cout << fmt::format("{} of {} pass", passed_ones, passed_ones + failed);
-    if (seen > 0) std::cout << fmt::format(", {} seen", seen);
-    if (missing > 0) std::cout << fmt::format(", {} without a program", missing);
-    std::cout << '\n';
-  }
-  return failed ? kTestFailed : kPass;
+  return judge_one(a, chosen, programs);
 }
 
 }  // namespace
@@ -243,22 +269,50 @@ int lab(const LabArguments& a) {
 void add_lab(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("lab", "Run the exercises of docs/lab.md, one line each");
   auto a = std::make_shared<LabArguments>();
+  LabSetting& setting = a->setting;
   verb->add_option("EXERCISE", a->ids, "such as I1 or S14; all without one");
   verb->add_option(
       "--mine", a->mine,
       "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
-      "in the place of the lab's solutions");
-  add_hal(*verb, a->hal);
-  verb->add_option("--seeds", a->seeds, "runs of everything left to chance, instead of the table's")
+      "in the place of the lab's solutions; or a folder of such folders, one a student");
+  add_hal(*verb, setting.hal);
+  verb->add_option("--seeds", setting.seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
-  verb->add_flag("--full", a->full, "as many runs as the figures in docs/lab.md rest on");
-  verb->add_option("--jobs", a->jobs, "processes that share the runs; the result does not depend on it")
+  verb->add_option("--first-seed", setting.first_seed, "their seeds are this one and the next ones")
+      ->check(CLI::Range(0, 1000000000))
+      ->capture_default_str();
+  verb->add_flag("--full", setting.full, "as many runs as the figures in docs/lab.md rest on");
+  verb->add_option("--jobs", setting.jobs, "processes that share the runs; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--csv", a->csv, "file for every run's measures");
+  verb->add_option("--csv", a->csv, "file for every run's measures; of a class, for its table");
   verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)");
   verb->add_flag("--no-times", a->no_times, "leave out what depends on the PC: same text every time");
   verb->add_option("--table", a->table, "another table than docs/lab.toml");
+  verb->option_defaults()->group("Tables");
+  verb->add_option("--html", a->html, "page with the table, and why what failed");
+  verb->add_option("--junitxml", a->junit, "JUnit XML: a suite a student, a case an exercise");
+  verb->add_option("--runs", a->runs, "file for every run's measures, of a class, too");
+  verb->add_option(
+          "--limit", a->limit_s,
+          "of a class: real seconds that a build, or an exercise of one student, may take (60; 900 with "
+          "--full)")
+      ->check(between(0.001, 1e6));
+  verb->add_flag(
+      "--trusted", a->trusted,
+      "of a class: programs for Webots run as programs of this PC, with all that you may do there; "
+      "else on the chip's machine, which lets them reach nothing");
+  verb->option_defaults()->group("One run again");
+  verb->add_option("--replay", a->replay.trial,
+                   "EXERCISE:WORLD:SEED of a run, as a line that failed shows it: I1:corners:3");
+  verb->add_option("--picture", a->replay.picture, "PNG or SVG of it, from above");
+  verb->add_option("--report", a->replay.report, "HTML file of it, to look through");
+  verb->add_option("--record", a->replay.record, "CSV of poses, steps, sensors and LEDs");
+  verb->footer(
+      "Examples: twinpuck lab I1 --mine .\n"
+      "          twinpuck lab --mine class --jobs 4 --html class.html --junitxml class.xml\n"
+      "          twinpuck lab --mine class/anna --replay I1:corners:3 --picture I1.png --report I1.html\n"
+      "Exit codes: 0 all pass, 1 one fails, 2 bad input, 5 nothing to run, 7 an output was lost");
   verb->callback([a, &exit_code] { exit_code = lab(*a); });
 }
 
