@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal_sim/board/part.h"
+#include "hal_sim/faults/kinds.h"
 #include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/twin.h"
 #include "install/places.h"
@@ -56,6 +57,12 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
 
 int list(const std::string& what) {
   // tables that are the same wherever one stands
+  if (what == "faults") {
+    std::cout
+        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/faults.md)\n"
+        << faults::text_table();
+    return kPass;
+  }
   if (what == "signals") {
     std::cout << "Signals (conditions of faults and tests; ROBOT.NAME of another robot)\n"
               << signals::text_table()
@@ -101,11 +108,11 @@ int list(const std::string& what) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts; signals");
+  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts; faults, signals");
   auto what = std::make_shared<std::string>();
   verb->add_option("KIND", *what,
-                   "controllers, worlds, supervisors or parts, all of them without it; signals")
-      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "signals"}));
+                   "controllers, worlds, supervisors or parts, all of them without it; faults or signals")
+      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "faults", "signals"}));
   verb->callback([what, &exit_code] { exit_code = list(*what); });
 }
 

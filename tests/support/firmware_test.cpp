@@ -9,6 +9,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/chip/profile.h"
+#include "hal_sim/faults/injector.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
@@ -248,7 +249,8 @@ twin::Twin& FirmwareTest::twin(Caller caller) {
 void FirmwareTest::run_for(double seconds, Caller caller) {
   auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(seconds);
-  while (s.now() < end && !(team_ && team_->has_ended())) s.step();
+  while (s.now() < end && !(team_ && team_->has_ended())) step();
+  if (faults_) faults_->look();
 }
 
 bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s, Caller caller) {
@@ -256,9 +258,22 @@ bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s
   const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
   while (!done()) {
     if (s.now() >= end || (team_ && team_->has_ended())) return false;
-    s.step();
+    step();
   }
   return true;
+}
+
+void FirmwareTest::step() {
+  auto& s = twin_->simulation();
+  if (faults_)
+    faults_->advance(s.now());
+  else
+    s.step();
+}
+
+faults::Injector& FirmwareTest::faults(Caller caller) {
+  if (!faults_) faults_ = std::make_unique<faults::Injector>(twin(caller));
+  return *faults_;
 }
 
 programs::Team& FirmwareTest::team() {

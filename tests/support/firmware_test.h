@@ -23,6 +23,10 @@
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 
+namespace faults {
+class Injector;
+}
+
 namespace firmware_test {
 
 class FirmwareTest;
@@ -161,6 +165,8 @@ class FirmwareTest : public ::testing::Test {
   void expect_no_traps(Caller caller = Caller::here()) const;
   /// No diagnosis of any robot.
   void expect_no_diagnoses(Caller caller = Caller::here()) const;
+  /// Faults and stimuli (hal_sim/faults/injector.h); the runs look at them.
+  faults::Injector& faults(Caller caller = Caller::here());
   /// The world's supervisors; started on first use.
   programs::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.
@@ -173,10 +179,12 @@ class FirmwareTest : public ::testing::Test {
  private:
   friend class Robot;
   void start(const Caller& caller);
+  void step();
 
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;
   std::unique_ptr<programs::Team> team_;
+  std::unique_ptr<faults::Injector> faults_;
   std::unique_ptr<twin::CoverageRun> coverage_;
 };
 
