@@ -9,6 +9,7 @@
 
 #include "build.h"
 #include "compiler/cache/child_process.h"
+#include "containment.h"
 #include "kinds.h"
 
 namespace programs {
@@ -99,7 +100,7 @@ MakeSays ask_makefile(const fs::path& folder, const fs::path& scratch,
   }
   const fs::path home = scratch.parent_path() / "webots";
   make_home(home);
-  const cc::ProcessResult done = cc::run_process({"env",
+  std::vector<std::string> words{"env",
                                                   "--chdir=" + folder.string(),
                                                   "-u",
                                                   "MAKEFLAGS",
@@ -121,7 +122,11 @@ MakeSays ask_makefile(const fs::path& folder, const fs::path& scratch,
                                                   "SHELL=/bin/sh",
                                                   "WEBOTS_HOME=" + home.string(),
                                                   "WEBOTS_HOME_PATH=" + home.string(),
-                                                  "twinpuck-asks"});
+                                                  "twinpuck-asks"};
+  // its $(shell ...) runs whatever it says
+  if (is_contained()) words = contained(words, folder.string(), {folder.string()}, {scratch.parent_path().string()});
+  if (words.empty()) return says;
+  const cc::ProcessResult done = cc::run_process(words);
   std::map<std::string, std::vector<std::string>> values;
   std::vector<std::string>* current = nullptr;
   std::vector<std::string> complaints;

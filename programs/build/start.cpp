@@ -9,6 +9,7 @@
 #include "build.h"
 #include "compile.h"
 #include "compiler/cache/child_process.h"
+#include "containment.h"
 #include "install/places.h"
 #include "runtime_ini.h"
 
@@ -91,6 +92,22 @@ class Starter {
                         : "got no program, expected C, C++, Python, Java, or a program of this "
                           "machine that is named as the folder");
     }
+  }
+
+  /// It runs in a room of its own, with its folder, its project's libraries and what it was compiled to.
+  bool contain() {
+    std::vector<std::string> readable{found_.folder.string(), fs::absolute(cache_).string(),
+                                      controller_library().parent_path().string(),
+                                      (places::product_share() / "programs" / "controller").string()};
+    for (const std::string& folder : library_folders(found_.folder)) readable.push_back(folder);
+    if (const fs::path program = launch_.words.empty() ? fs::path() : fs::path(launch_.words[0]);
+        program.is_absolute())
+      readable.push_back(program.parent_path().string());
+    launch_.words = contained(launch_.words, launch_.folder, readable);
+    launch_.name.clear();
+    if (launch_.words.empty())
+      return fail("got a program that shall be contained, expected bubblewrap to do it; apt install bubblewrap");
+    return true;
   }
 
  private:
@@ -313,7 +330,8 @@ bool prepare(const std::string& path, const std::string& cache_folder, const Tel
     launch.is_extern = true;
     return true;
   }
-  return Starter(found, path, cache_folder, tell, problems, launch).run();
+  Starter starter(found, path, cache_folder, tell, problems, launch);
+  return starter.run() && (!is_contained() || starter.contain());
 }
 
 }  // namespace programs

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#include "containment.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <string_view>
+
+namespace programs {
+
+namespace {
+
+const char* const kBubblewrap = "/usr/bin/bwrap";
+/// Of the system: what programs are made of, and nothing of anybody's.
+const char* const kSystem[] = {"/usr",    "/bin",      "/lib",        "/lib32",          "/lib64",
+                               "/libx32", "/etc/fonts", "/etc/ld.so.cache", "/etc/alternatives"};
+
+}  // namespace
+
+bool is_contained() {
+  const char* const said = std::getenv("TWINPUCK_CONTAIN");
+  return said && std::string_view(said) == "1";
+}
+
+std::vector<std::string> contained(const std::vector<std::string>& words, const std::string& folder,
+                                   const std::vector<std::string>& readable,
+                                   const std::vector<std::string>& writable) {
+  if (access(kBubblewrap, X_OK) != 0) return {};
+  std::vector<std::string> all{kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session", "--proc", "/proc",
+                               "--dev",     "/dev",          "--tmpfs",           "/tmp",          "--setenv", "HOME",
+                               "/tmp"};
+  const auto bind = [&all](const char* how, const std::string& path) {
+    if (!path.empty()) all.insert(all.end(), {how, path, path});
+  };
+  for (const char* path : kSystem) bind("--ro-bind-try", path);
+  for (const std::string& path : readable) bind("--ro-bind-try", path);
+  for (const std::string& path : writable) bind("--bind-try", path);
+  all.insert(all.end(), {"--chdir", folder, "--"});
+  all.insert(all.end(), words.begin(), words.end());
+  return all;
+}
+
+}  // namespace programs

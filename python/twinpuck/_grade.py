@@ -1,0 +1,354 @@
+# SPDX-License-Identifier: MIT
+"""`twinpuck grade`: tests over a class's folders, each in a process that sees no other's, and one table of points."""
+from __future__ import annotations
+
+import argparse
+import collections.abc
+import concurrent.futures
+import csv
+import dataclasses
+import html
+import json
+import os
+import pathlib
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as ElementTree
+
+from . import _matrix
+
+_BUBBLEWRAP = "/usr/bin/bwrap"
+_CODES = "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 7 a table could not be written, 130 interrupted"
+
+
+@dataclasses.dataclass
+class Case:
+    """A test's outcome for one submission. outcome: "passed", "failed", "skipped"; text: why, first line first."""
+
+    name: str
+    points: float
+    outcome: str
+    text: str = ""
+    seconds: float = 0.0
+
+
+@dataclasses.dataclass
+class Grade:
+    """What came of one submission. problem: it was not graded to its end, and why."""
+
+    name: str
+    cases: list[Case] = dataclasses.field(default_factory=list)
+    problem: str = ""
+
+    def points(self, tests: collections.abc.Mapping[str, float]) -> float:
+        """Points of all tests that passed; a test over several seeds gives its points in parts."""
+        return sum(self.share(test) * points for test, points in tests.items())
+
+    def share(self, test: str) -> float:
+        """Of a test's runs over seeds, HALs and selectors, the part that passed."""
+        runs = [case for case in self.cases if base_name(case.name) == test and case.outcome != "skipped"]
+        return sum(case.outcome == "passed" for case in runs) / len(runs) if runs else 0.0
+
+    def why(self, test: str) -> str:
+        """The first line of why the first run of a test failed."""
+        return next((case.text.split("\n")[0] for case in self.cases
+                     if base_name(case.name) == test and case.outcome == "failed"), "")
+
+
+def base_name(name: str) -> str:
+    """"test_a.py::test_x[seed=1]" without what the matrix adds."""
+    head, bracket, tail = name.partition("[")
+    if not bracket:
+        return name
+    rest = [part for part in tail.removesuffix("]").split("-") if part.partition("=")[0] not in
+            {axis.name for axis in _matrix.AXES}]
+    return head + (f"[{'-'.join(rest)}]" if rest else "")
+
+
+# --- one submission, in a process of its own
+
+def run_tests(arguments: list[str]) -> int:
+    """In the child: pytest over the tests, what came of it as JSON. arguments: result's file, then pytest's."""
+    import pytest
+
+    cases: list[Case] = []
+
+    class Collector:
+        def pytest_itemcollected(self, item: pytest.Item) -> None:
+            marker = item.get_closest_marker("points")
+            points = float(marker.args[0]) if marker and marker.args else 1.0
+            item.user_properties.append(("twinpuck_points", points))
+
+        def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+            points = next((value for key, value in report.user_properties if key == "twinpuck_points"), 1.0)
+            if report.when == "call" or report.outcome != "passed":
+                cases.append(Case(report.nodeid, points, report.outcome, reason(report), report.duration))
+
+        def pytest_collectreport(self, report: pytest.CollectReport) -> None:
+            if report.failed:
+                cases.append(Case(report.nodeid, 0, "failed", "the test cannot be read: " + report.longreprtext))
+
+    def reason(report: pytest.TestReport) -> str:
+        crash = getattr(report.longrepr, "reprcrash", None)
+        first = crash.message if crash else report.longreprtext
+        shown = [content for name, content in report.sections if name.startswith("world ")]
+        return "\n".join([first, *shown]) if report.outcome == "failed" else ""
+
+    pytest.main(["-p", "twinpuck.pytest_plugin", "-p", "no:cacheprovider", "-q", "-q", *arguments[1:]],
+                plugins=[Collector()])
+    pathlib.Path(arguments[0]).write_text(json.dumps([dataclasses.asdict(case) for case in cases]), encoding="utf-8")
+    return 0
+
+
+def contained(words: list[str], submissions: pathlib.Path, mine: pathlib.Path, work: pathlib.Path) -> list[str]:
+    """`words` so that they see one submission alone, write to their own folder only and have no network."""
+    return [_BUBBLEWRAP, "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs", "/tmp",
+            "--bind", str(work), str(work), "--tmpfs", str(submissions), "--ro-bind", str(mine), str(mine),
+            "--unshare-all", "--die-with-parent", "--new-session", "--", *words]
+
+
+_running: set[int] = set()  # groups of processes, one a submission that is being graded
+
+
+def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path) -> Grade:
+    """Runs the tests on one submission, within its time."""
+    result, mine, work = Grade(student.name), student / options.program, base / student.name
+    if not mine.is_dir():
+        result.problem = f"got no folder {options.program!r}, expected the program there"
+        return result
+    for folder in ("cache", "tmp", "failures"):
+        (work / folder).mkdir(parents=True, exist_ok=True)
+    words = [sys.executable, "-m", "twinpuck._grade", "--run-tests", str(work / "result.json"),
+             *map(str, options.tests), "--firmware", str(mine), "--failures", str(work / "failures"),
+             "-c", os.devnull, "--rootdir", str(common(options.tests))]
+    for name in ("seeds", "hal", "selector"):
+        if getattr(options, name):
+            words += [f"--{name}", getattr(options, name)]
+    if options.sanitize:
+        words.append("--sanitize")
+    if not options.trusted:
+        words = contained(words, options.submissions, mine, work)
+    environment = {**os.environ, "XDG_CACHE_HOME": str(work / "cache"), "TMPDIR": str(work / "tmp"),
+                   "TWINPUCK_CONTAIN": "0" if options.trusted else "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    log = work / "log.txt"
+    with open(log, "wb") as out:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment,
+                                 start_new_session=True)
+        _running.add(child.pid)
+        try:
+            child.wait(options.limit_s)
+        except subprocess.TimeoutExpired:
+            os.killpg(child.pid, signal.SIGKILL)
+            child.wait()
+            result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
+        finally:
+            _running.discard(child.pid)
+    try:
+        result.cases = [Case(**case) for case in json.loads((work / "result.json").read_text(encoding="utf-8"))]
+    except (OSError, ValueError):
+        last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-1:]
+        result.problem = result.problem or "the tests ended without a result" + "".join(f": {line}" for line in last)
+    return result
+
+
+def common(paths: list[pathlib.Path]) -> pathlib.Path:
+    """The folder that holds all of the tests."""
+    folders = [path if path.is_dir() else path.parent for path in paths]
+    return pathlib.Path(os.path.commonpath(folders))
+
+
+# --- tables
+
+def tests_of(grades: list[Grade]) -> dict[str, float]:
+    """All tests that somebody's run had, with their points, in their order."""
+    tests: dict[str, float] = {}
+    for grade_ in grades:
+        for case in grade_.cases:
+            tests.setdefault(base_name(case.name), case.points)
+    return tests
+
+
+def share_text(share: float) -> str:
+    """1 as "pass", 0 as "FAIL", 0.7 as "70 %"."""
+    return "pass" if share == 1 else "FAIL" if share == 0 else f"{100 * share:.0f} %"
+
+
+def text_table(grades: list[Grade]) -> str:
+    """For the terminal: the table, then why somebody failed."""
+    tests = tests_of(grades)
+    short = [name.rpartition("::")[2].removeprefix("test_")[:18] for name in tests]
+    width = max([len("submission"), *(len(g.name) for g in grades)])
+    lines = ["  ".join([f"{'submission':{width}}", *short, f"of {sum(tests.values()):g}"])]
+    for g in grades:
+        cells = [f"{share_text(g.share(t)) if not g.problem or g.cases else '-':{len(s)}}" for t, s in zip(tests, short)]
+        lines.append("  ".join([f"{g.name:{width}}", *cells, f"{g.points(tests):g}"]))
+    for g in grades:
+        if g.problem:
+            lines.append(f"{g.name}: {g.problem}")
+        lines += [f"{g.name}: {test}: {g.why(test)}" for test in tests if g.why(test)]
+    return "\n".join(lines)
+
+
+def write_csv(path: str, grades: list[Grade]) -> None:
+    """A row a submission: points of each test, all of them, why it was not graded."""
+    tests = tests_of(grades)
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file, lineterminator="\n")
+        table.writerow(["submission", *tests, "points", "of", "problem"])
+        for g in grades:
+            table.writerow([g.name, *(f"{g.share(t) * p:g}" for t, p in tests.items()), f"{g.points(tests):g}",
+                            f"{sum(tests.values()):g}", g.problem])
+
+
+def write_html(path: str, grades: list[Grade]) -> None:
+    """The table as a page; each failure opens to what was shown of it."""
+    tests = tests_of(grades)
+    rows = []
+    for g in grades:
+        cells = []
+        for test in tests:
+            texts = "\n\n".join(f"{case.name}\n{case.text}" for case in g.cases
+                                if base_name(case.name) == test and case.outcome == "failed")
+            share = g.share(test)
+            told = html.escape(share_text(share))
+            cells.append(f'<td class="{"good" if share == 1 else "bad"}">' +
+                         (f"<details><summary>{told}</summary><pre>{html.escape(texts)}</pre></details>" if texts else told)
+                         + "</td>")
+        problem = f"<br><small>{html.escape(g.problem)}</small>" if g.problem else ""
+        rows.append(f"<tr><th scope=row>{html.escape(g.name)}{problem}</th>{''.join(cells)}<td>{g.points(tests):g}</td></tr>")
+    heads = "".join(f"<th scope=col>{html.escape(t.rpartition('::')[2])}<br>{p:g}</th>" for t, p in tests.items())
+    text = f"""<!doctype html><html lang=en><meta charset=utf-8><title>Grades</title>
+<style>body {{ font: 16px sans-serif; margin: 2em }} table {{ border-collapse: collapse }}
+th, td {{ border: 1px solid #999; padding: .4em .7em; text-align: left; vertical-align: top }}
+.good {{ background: #dff0d8; color: #1b4d13 }} .bad {{ background: #f8dcdc; color: #6b1414 }} pre {{ white-space: pre-wrap }}</style>
+<h1>Grades</h1><table><tr><th scope=col>submission</th>{heads}<th scope=col>of {sum(tests.values()):g}</th></tr>
+{chr(10).join(rows)}</table></html>
+"""
+    pathlib.Path(path).write_text(text, encoding="utf-8")
+
+
+def write_junit(path: str, grades: list[Grade]) -> None:
+    """A suite a submission, a case a run of a test."""
+    root = ElementTree.Element("testsuites")
+    for g in grades:
+        failures = sum(case.outcome == "failed" for case in g.cases)
+        suite = ElementTree.SubElement(root, "testsuite", name=g.name, tests=str(len(g.cases)), failures=str(failures),
+                                       errors="1" if g.problem else "0")
+        for case in g.cases:
+            element = ElementTree.SubElement(suite, "testcase", classname=g.name, name=case.name, time=f"{case.seconds:.3f}")
+            if case.outcome == "failed":
+                failure = ElementTree.SubElement(element, "failure", message=printable(case.text.split("\n")[0]))
+                failure.text = printable(case.text)
+            elif case.outcome == "skipped":
+                ElementTree.SubElement(element, "skipped")
+        if g.problem:
+            element = ElementTree.SubElement(suite, "testcase", classname=g.name, name="graded")
+            ElementTree.SubElement(element, "error", message=printable(g.problem))
+    ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
+
+
+def printable(text: str) -> str:
+    """Without what XML cannot hold."""
+    return "".join(c if c in "\t\n" or c >= " " and not "\ud800" <= c <= "\udfff" and c not in "\ufffe\uffff" else "?"
+                   for c in text)
+
+
+# --- the command
+
+def parser() -> argparse.ArgumentParser:
+    """The command's options."""
+    p = argparse.ArgumentParser(prog="twinpuck grade", epilog=_CODES, description="Runs tests over a class's folders: "
+                                "each folder's program takes the place of the program under test.")
+    p.add_argument("tests", nargs="+", type=pathlib.Path, help="folders or files of tests, as `twinpuck test` has them")
+    p.add_argument("--submissions", required=True, type=pathlib.Path, metavar="DIR", help="a folder for each student in it")
+    p.add_argument("--program", default="", metavar="NAME", help="the folder in each submission that holds the program")
+    p.add_argument("--seeds", metavar="1..50", help="run each test with these seeds, which students need not know")
+    p.add_argument("--hal", metavar="sim,dspic")
+    p.add_argument("--selector", metavar="0..15")
+    p.add_argument("--sanitize", action="store_true", help="check each access of memory of the programs")
+    p.add_argument("--limit", dest="limit_s", type=float, default=120, metavar="S", help="real seconds a submission (120)")
+    p.add_argument("--jobs", type=int, default=os.cpu_count() or 1, metavar="N", help="so many at a time (all cores)")
+    p.add_argument("--csv", metavar="FILE", help="the points for a spreadsheet")
+    p.add_argument("--html", metavar="FILE", help="the table as a page, with what failed")
+    p.add_argument("--junitxml", metavar="FILE", help="for CI: a suite a submission")
+    p.add_argument("--keep", type=pathlib.Path, metavar="DIR", help="keep pictures and recordings of failures here")
+    p.add_argument("--trusted", action="store_true", help="programs of the PC are not contained")
+    return p
+
+
+def bad_input(options: argparse.Namespace) -> str:
+    """What is wrong with the call; empty: nothing."""
+    for axis in _matrix.AXES:
+        try:
+            axis.values(getattr(options, axis.option.removeprefix("--")))
+        except ValueError as wrong:
+            return str(wrong)
+    for path in options.tests:
+        if not path.exists():
+            return f"{path}: tests: got nothing, expected a folder or file of tests"
+    if not options.submissions.is_dir():
+        return f"{options.submissions}: --submissions: got no folder, expected one with a folder for each student"
+    if not 0 < options.limit_s < 1e6:
+        return f"--limit: got {options.limit_s:g}, expected above 0 and below 1e6 s"
+    if not 1 <= options.jobs <= 256:
+        return f"--jobs: got {options.jobs}, expected 1 to 256"
+    if not options.trusted and not os.access(_BUBBLEWRAP, os.X_OK):
+        return "got no bubblewrap to contain programs with; apt install bubblewrap, or trust them: --trusted"
+    return ""
+
+
+def main(arguments: list[str]) -> int:
+    """The command."""
+    if arguments[:1] == ["--run-tests"]:
+        return run_tests(arguments[1:])
+    options = parser().parse_args([a for a in arguments if a != "--"])
+    if wrong := bad_input(options):
+        print(f"twinpuck grade: {wrong}", file=sys.stderr)
+        return 2
+    options.tests = [path.resolve() for path in options.tests]
+    options.submissions = options.submissions.resolve()
+    students = sorted(path for path in options.submissions.iterdir() if path.is_dir() and not path.name.startswith("."))
+    if not students:
+        print(f"twinpuck grade: {options.submissions}: --submissions: got an empty folder, expected a folder for each "
+              "student", file=sys.stderr)
+        return 2
+    # beside /tmp, of which those who are contained have their own
+    base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
+    try:
+        grades = grade_all(students, options, base)
+        print(text_table(grades))
+        if options.keep:
+            for student in students:
+                shutil.copytree(base / student.name / "failures", options.keep / student.name, dirs_exist_ok=True)
+        for path, write in ((options.csv, write_csv), (options.html, write_html), (options.junitxml, write_junit)):
+            if path:
+                write(path, grades)
+    except OSError as wrong:
+        print(f"twinpuck grade: {wrong.filename}: cannot be written: {wrong.strerror}", file=sys.stderr)
+        return 7
+    except KeyboardInterrupt:
+        return 130
+    finally:
+        shutil.rmtree(base, ignore_errors=True)
+    return 0
+
+
+def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: pathlib.Path) -> list[Grade]:
+    """All of them, so many at a time, in their order."""
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        graded = [pool.submit(grade, student, options, base) for student in students]
+        try:
+            return [each.result() for each in graded]
+        except KeyboardInterrupt:  # nobody stays behind
+            for each in graded:
+                each.cancel()
+            for group in list(_running):
+                os.killpg(group, signal.SIGKILL)
+            raise
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
