@@ -217,6 +217,10 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return double(mind(t, r).board().uart(1).sent()); }},
       {"uart2_bytes", 0, "bytes", 0, kMost, "sent over UART 2", false,
        [](T t, int r, int) { return double(mind(t, r).board().uart(2).sent()); }},
+      {"uart1_received", 0, "bytes", 0, kMost, "that have begun to come over UART 1", false,
+       [](T t, int r, int) { return double(mind(t, r).board().uart(1).came()); }},
+      {"uart2_received", 0, "bytes", 0, kMost, "that have begun to come over UART 2", false,
+       [](T t, int r, int) { return double(mind(t, r).board().uart(2).came()); }},
   };
   return kAll;
 }
