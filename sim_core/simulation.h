@@ -93,6 +93,8 @@ class Simulation {
   /// air, nobody remembers where bodies were or what they touched; the digest begins anew; time and counts go
   /// on.
   void begin_again() { begins_ = true; }
+  /// When the world began, or began again, last; now() when it is about to.
+  Clicks begun() const { return begins_ ? now() : begun_; }
   /// Anything else that somebody from outside changed, as a number that differs when the change does.
   void note_intervention(std::uint64_t what) { digest_ = fold(digest_, what); }
 

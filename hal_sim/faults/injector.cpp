@@ -58,7 +58,7 @@ std::string check_values(const Fault& fault, const Kind& kind) {
 
 class Injector::Work {
  public:
-  explicit Work(twin::Twin& twin) : twin_(twin) {}
+  explicit Work(twin::Twin& twin) : twin_(twin), origin_(twin.simulation().begun()) {}
 
   struct Entry {
     Fault fault;
@@ -67,6 +67,7 @@ class Injector::Work {
     std::vector<signals::Condition> conditions;
     Clicks at = 0;
     bool by_hand = false;
+    bool was_felt = false;  // before the world began again
   };
 
   int add(Fault fault, bool by_hand) {
@@ -128,6 +129,7 @@ class Injector::Work {
   }
 
   void look() {
+    if (twin_.simulation().begun() != origin_) begin_again();
     if (looked_at_ == now()) return;
     looked_at_ = now();
     for (const auto& entry : entries_)
@@ -193,29 +195,33 @@ class Injector::Work {
     return s;
   }
 
+  bool was_felt(int id) const { return entries_.at(static_cast<std::size_t>(id))->was_felt; }
+
+ private:
+  static constexpr Clicks kNotAtAll = -2;  // it was ended before it began
+
+  Clicks now() const { return twin_.simulation().now(); }
+
+  /// The boards have forgotten their part of it, the world has not.
   void begin_again() {
-    entries_.erase(std::remove_if(entries_.begin(), entries_.end(), [](const auto& e) { return e->by_hand; }),
-                   entries_.end());
-    origin_ = now();
+    origin_ = twin_.simulation().begun();
     for (const auto& entry : entries_) {
       entry->at = origin_ + sim::from_seconds(entry->fault.at_s);
       for (Case& c : entry->cases) {
-        if (c.is_active() && c.kind->lasts) {  // the world's part of it; the board has forgotten its own
+        entry->was_felt |= noticed(c, twin_) >= 0;
+        if (c.is_active() && c.kind->lasts) {
           c.ended = now();
           apply(c, all_cases(), twin_);
         }
         Case fresh;
         fresh.fault = c.fault, fresh.kind = c.kind, fresh.robot = c.robot;
+        if (entry->by_hand) fresh.begun = fresh.ended = kNotAtAll;
         c = fresh;
       }
     }
     looked_at_ = -1;
   }
 
- private:
-  static constexpr Clicks kNotAtAll = -2;  // it was ended before it began
-
-  Clicks now() const { return twin_.simulation().now(); }
   Clicks end_of(const Entry& entry, const Case& c) const {
     return std::isfinite(entry.fault.for_s) ? c.begun + sim::from_seconds(entry.fault.for_s) : sim::kEver;
   }
@@ -258,7 +264,7 @@ class Injector::Work {
   twin::Twin& twin_;
   std::vector<std::unique_ptr<Entry>> entries_;
   std::vector<Case*> cases_;
-  Clicks origin_ = 0;      // of their times
+  Clicks origin_;          // of their times: the world began
   Clicks looked_at_ = -1;  // -1: there may be something to do now
 };
 
@@ -279,7 +285,6 @@ sim::Clicks Injector::next() const { return work_->next(); }
 void Injector::advance(sim::Clicks at) { work_->advance(at); }
 bool Injector::is_empty() const { return work_->is_empty(); }
 Status Injector::status(int id) const { return work_->status(id); }
-void Injector::begin_again() { work_->begin_again(); }
 
 std::vector<Status> Injector::statuses() const {
   std::vector<Status> all;
@@ -290,7 +295,7 @@ std::vector<Status> Injector::statuses() const {
 std::vector<std::string> Injector::problems() const {
   std::vector<std::string> lines;
   for (const Status& s : statuses()) {
-    if (s.took_effect_s >= 0) continue;
+    if (s.took_effect_s >= 0 || work_->was_felt(s.id)) continue;
     const std::string who = (s.fault.where.empty() ? "" : s.fault.where + ": ") + said(s.fault) + ": ";
     const Kind& kind = *find_kind(s.fault.kind);
     if (s.begun_s < 0)

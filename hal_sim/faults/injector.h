@@ -12,6 +12,10 @@
 // added. Faults of one kind on one thing add up: shares and films multiply, voltages and irradiances are
 // sums.
 //
+// When the world begins again (Simulation::begin_again(), with Twin::begin_again() for its robots), so do its
+// faults: those that were added wait again, counted from then, and those of begin() are gone. One that took
+// effect before needs not do so again.
+//
 // Equal worlds, programs, seeds and faults give equal courses, with any number of threads. A twin without
 // faults runs as without an injector. One thread: the one that steps.
 #pragma once
@@ -62,9 +66,6 @@ class Injector {
   std::vector<Status> statuses() const;
   /// At the end of a run: a line for each fault that never began, or never took effect.
   std::vector<std::string> problems() const;
-  /// The robots were put back to the world's beginning (Simulation::begin_again(), Board::begin_again()): all
-  /// faults that were added wait again, counted from now; those of begin() are gone.
-  void begin_again();
 
  private:
   class Work;

@@ -217,6 +217,10 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return double(mind(t, r).board().uart(1).sent()); }},
       {"uart2_bytes", 0, "bytes", 0, kMost, "sent over UART 2", false,
        [](T t, int r, int) { return double(mind(t, r).board().uart(2).sent()); }},
+      {"uart1_received", 0, "bytes", 0, kMost, "that have begun to come over UART 1", false,
+       [](T t, int r, int) { return double(mind(t, r).board().uart(1).came()); }},
+      {"uart2_received", 0, "bytes", 0, kMost, "that have begun to come over UART 2", false,
+       [](T t, int r, int) { return double(mind(t, r).board().uart(2).came()); }},
   };
   return kAll;
 }
@@ -303,10 +307,15 @@ Named find_variable(twin::Twin& twin, int robot, const std::string& expression) 
   if (const host::Variable* v = runner->find_variable(expression, error)) {
     if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
       throw std::runtime_error("got '" + expression + "', expected a number; name a member or element");
-    return {"", [robot, v = *v](twin::Twin& t) {
+    // looked up at each look: another program may have been flashed, with its variables elsewhere
+    return {"", [robot, expression](twin::Twin& t) {
+              const auto* now = program(t, robot);
+              std::string none;
+              const host::Variable* found = now ? now->find_variable(expression, none) : nullptr;
+              if (!found || found->bytes > 8) return std::nan("");
               char bytes[8] = {};
-              if (const auto* now = program(t, robot)) now->read_memory(v.address, bytes, v.bytes);
-              return host::variable_value(v, bytes);
+              now->read_memory(found->address, bytes, found->bytes);
+              return host::variable_value(*found, bytes);
             }};
   }
   const auto* chip = dynamic_cast<const chip::ChipRunner*>(runner);

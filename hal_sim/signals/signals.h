@@ -43,7 +43,7 @@ std::string text_table();
 /// A signal that is bound to a robot.
 struct Named {
   std::string unit;  ///< "" for none
-  /// Between two ticks. A program that has been flashed anew is asked anew.
+  /// Between two ticks. Nan: a program that was flashed anew has no such variable.
   std::function<double(twin::Twin&)> value;
 };
 

@@ -207,4 +207,38 @@ TEST(Injector, what_the_world_has_not_is_told_before_the_run) {
   EXPECT_TRUE(b.faults().is_empty());
 }
 
+// a reset of the world is a fresh start for its faults, too
+TEST(Injector, faults_begin_again_with_the_world) {
+  Bench b;
+  b.add("wheel_stuck wheel=left at=0.3s for=0.2s");
+  b.add("lifted at=0.6s");
+  b.add("crystal_slow at=0.1s");
+  b.add("bytes_lost share=0.5");
+  b.add("accelerometer_stuck at=0.2s");
+  b.add("led_dead when='time_s > 0.7' for=5s");  // of the first stretch, and from the beginning of the others
+  b.run_for(0.8);
+  double heading_deg[2] = {}, x_m[2] = {};
+  for (int stretch = 0; stretch < 2; ++stretch) {
+    twin::Twin& t = b.twin();
+    const double began_s = b.now_s();
+    t.mind(0).runner()->restart();
+    t.simulation().move(0, {0, 0, 0});
+    t.begin_again(0);
+    t.simulation().begin_again();
+    b.run_for(0.05);
+    EXPECT_LT(b.faults().status(0).begun_s, 0);
+    EXPECT_EQ(b.twin().simulation().scene().z_m(0), 0);
+    b.run_for(0.75);
+    EXPECT_NEAR(b.faults().status(0).begun_s, began_s + 0.3, 1.0 / 512);
+    EXPECT_NEAR(b.faults().status(0).ended_s, began_s + 0.5, 2.0 / 512);
+    EXPECT_DOUBLE_EQ(b.faults().status(3).begun_s, began_s);
+    x_m[stretch] = b.puck().x_m();
+    heading_deg[stretch] = b.puck().heading_deg();
+  }
+  EXPECT_EQ(x_m[0], x_m[1]);
+  EXPECT_EQ(heading_deg[0], heading_deg[1]);
+  EXPECT_GT(heading_deg[0], 5);
+  EXPECT_TRUE(b.faults().problems().empty());
+}
+
 }  // namespace

@@ -18,6 +18,9 @@
 #include "compiler/projects/mplab_project.h"
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/faults/injector.h"
+#include "hal_sim/signals/condition.h"
+#include "hal_sim/twin/world_file.h"
 #include "import/import.h"
 #include "import/picture.h"
 #include "import/wbt_reader.h"
@@ -141,6 +144,40 @@ void wav(std::string_view bytes) {
   const std::string wrong = sim::parse_wav(bytes, sound);
   require(wrong.empty() != sound.samples.empty(), "neither samples nor a problem");
   for (const float s : sound.samples) require(s >= -1 && s <= 1, "a sample beyond -1 to 1");
+}
+
+void faults(std::string_view bytes) {
+  const ::faults::LoadedFaults loaded = ::faults::parse_faults(bytes, "f.toml");
+  for (const sim::WorldProblem& p : loaded.problems) require(!p.text.empty(), "a problem without a word");
+  static const std::unique_ptr<twin::Twin> twin = [] {
+    sim::WorldDesc world;
+    world.models = twin::robot_models();
+    for (const char* name : {"e-puck", "b.2"}) {
+      world.robots.emplace_back();
+      world.robots.back().name = name;
+    }
+    std::vector<std::string> problems;
+    return twin::Twin::open(world, {}, problems);
+  }();
+  require(twin != nullptr, "no world");
+  ::faults::Injector injector(*twin);
+  for (const ::faults::Fault& fault : loaded.faults) {
+    require(!::faults::said(fault).empty(), "a fault without a word");
+    if (!loaded.problems.empty()) continue;
+    try {
+      injector.add(fault);
+    } catch (const std::runtime_error&) {
+    }
+  }
+  ::faults::Fault fault;
+  std::string wrong;
+  const std::string line(bytes.substr(0, bytes.find('\n')));
+  require(::faults::parse_fault_line(line, fault, wrong) || !wrong.empty(), "neither a fault nor a problem");
+  try {
+    signals::Condition(line, *twin, 0).holds(*twin);
+  } catch (const std::runtime_error& e) {
+    require(*e.what() != 0, "refused without a word");
+  }
 }
 
 // every verb but those that write without being asked for a file, on files that do not exist

@@ -21,7 +21,8 @@ void wav(std::string_view bytes);       ///< WAV files
 void firmware(std::string_view bytes);  ///< programs of the chip: Intel HEX and ELF
 void assembler(std::string_view bytes);  ///< assembler text
 void code(std::string_view bytes);       ///< words of flash that the core runs for a moment
-void options(std::string_view bytes);    ///< command lines: a verb, then a word a line
+void faults(std::string_view bytes);   ///< files of faults; as a line of the command, too, and as a condition
+void options(std::string_view bytes);  ///< command lines: a verb, then a word a line
 
 struct Kind {
   const char* name;
@@ -31,6 +32,6 @@ inline constexpr Kind kKinds[] = {{"world", world},     {"wbt", wbt},           
                                   {"lab", lab},         {"project", project},   {"source", source},
                                   {"elf", elf},         {"picture", picture},   {"wav", wav},
                                   {"options", options}, {"firmware", firmware}, {"assembler", assembler},
-                                  {"code", code}};
+                                  {"code", code},       {"faults", faults}};
 
 }  // namespace fuzz
