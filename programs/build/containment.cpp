@@ -26,7 +26,7 @@ std::vector<std::string> contained(const std::vector<std::string>& words, const 
                                    const std::vector<std::string>& readable,
                                    const std::vector<std::string>& writable) {
   if (access(kBubblewrap, X_OK) != 0) return {};
-  std::vector<std::string> all{kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session", "--proc", "/proc",
+  std::vector<std::string> all{kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session",
                                "--dev",     "/dev",          "--tmpfs",           "/tmp",          "--setenv", "HOME",
                                "/tmp"};
   const auto bind = [&all](const char* how, const std::string& path) {

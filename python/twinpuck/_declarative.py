@@ -81,9 +81,13 @@ _FAULTS = ("fault", "stimulus")
 class TestFileError(TwinpuckError, ValueError):
     """A test file is wrong; a line a problem."""
 
+    __module__ = "twinpuck"
+
 
 class TestFailed(TwinpuckError, AssertionError):
     """What a test file expects is not so."""
+
+    __module__ = "twinpuck"
 
 
 class TestFile:

@@ -11,12 +11,16 @@ if typing.TYPE_CHECKING:
 class TwinpuckError(Exception):
     """Anything that Twinpuck has to say against what it was asked."""
 
+    __module__ = "twinpuck"
+
 
 class WorldError(TwinpuckError, ValueError):
     """A world cannot be opened: its text, a program's source or an option is wrong.
 
     problems: a line each, "file:line: what: got ..., expected ..."
     """
+
+    __module__ = "twinpuck"
 
     def __init__(self, text: str) -> None:
         super().__init__(text)
@@ -29,6 +33,8 @@ class FirmwareFault(TwinpuckError):
     trap: which robot, what, and where in its source
     """
 
+    __module__ = "twinpuck"
+
     def __init__(self, trap: Trap) -> None:
         super().__init__(str(trap))
         self.trap = trap
@@ -37,6 +43,10 @@ class FirmwareFault(TwinpuckError):
 class ExpectTimeout(TwinpuckError, AssertionError):
     """What SerialLine.expect() waits for did not come in time."""
 
+    __module__ = "twinpuck"
+
 
 class InvalidRun(TwinpuckError):
     """A fault or stimulus of the run never took effect, so the run shows nothing; a line for each."""
+
+    __module__ = "twinpuck"

@@ -11,6 +11,7 @@ import html
 import json
 import os
 import pathlib
+import re
 import shutil
 import signal
 import subprocess
@@ -93,7 +94,7 @@ def run_tests(arguments: list[str]) -> int:
 
     def reason(report: pytest.TestReport) -> str:
         crash = getattr(report.longrepr, "reprcrash", None)
-        first = crash.message if crash else report.longreprtext
+        first = re.sub(r"^twinpuck\.\w+: ", "", crash.message if crash else report.longreprtext)
         shown = [content for name, content in report.sections if name.startswith("world ")]
         return "\n".join([first, *shown]) if report.outcome == "failed" else ""
 
@@ -103,10 +104,14 @@ def run_tests(arguments: list[str]) -> int:
     return 0
 
 
-def contained(words: list[str], submissions: pathlib.Path, mine: pathlib.Path, work: pathlib.Path) -> list[str]:
+def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path, work: pathlib.Path) -> list[str]:
     """`words` so that they see one submission alone, write to their own folder only and have no network."""
+    from . import _core
+
+    seen = [common(options.tests), pathlib.Path(_core.project_root()), pathlib.Path(_core.__file__).parents[1]]
     return [_BUBBLEWRAP, "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--tmpfs", "/tmp",
-            "--bind", str(work), str(work), "--tmpfs", str(submissions), "--ro-bind", str(mine), str(mine),
+            *(word for path in seen for word in ("--ro-bind", str(path), str(path))),
+            "--bind", str(work), str(work), "--tmpfs", str(options.submissions), "--ro-bind", str(mine), str(mine),
             "--unshare-all", "--die-with-parent", "--new-session", "--", *words]
 
 
@@ -130,9 +135,11 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     if options.sanitize:
         words.append("--sanitize")
     if not options.trusted:
-        words = contained(words, options.submissions, mine, work)
+        words = contained(words, options, mine, work)
     environment = {**os.environ, "XDG_CACHE_HOME": str(work / "cache"), "TMPDIR": str(work / "tmp"),
                    "TWINPUCK_CONTAIN": "0" if options.trusted else "1", "PYTHONDONTWRITEBYTECODE": "1"}
+    if not options.trusted:
+        environment["PATH"] = "/usr/local/bin:/usr/bin:/bin"  # what they see
     log = work / "log.txt"
     with open(log, "wb") as out:
         child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment,
@@ -149,6 +156,8 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     try:
         result.cases = [Case(**case) for case in json.loads((work / "result.json").read_text(encoding="utf-8"))]
     except (OSError, ValueError):
+        pass
+    if not result.cases:
         last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-1:]
         result.problem = result.problem or "the tests ended without a result" + "".join(f": {line}" for line in last)
     return result

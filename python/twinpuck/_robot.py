@@ -49,8 +49,8 @@ class Trap:
 
     def __str__(self) -> str:
         times = f" ({self.count} times)" if self.count > 1 else ""
-        lines = [f"{self.robot}: {self.kind}: {self.message}{times}",
-                 f"  at {self.place}, cycle {self.cycle}, {self.time_s:.6f} s"]
+        lines = [f"{self.robot}: {self.place}: {self.kind}: {self.message}{times}",
+                 f"  at cycle {self.cycle}, {self.time_s:.6f} s"]
         return "\n".join(lines + [f"  called from {place}" for place in self.backtrace[1:]])
 
 

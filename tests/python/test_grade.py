@@ -1,0 +1,279 @@
+# SPDX-License-Identifier: MIT
+"""twinpuck grade: a class of planted errors, its tables, and what programs may not do."""
+import csv
+import os
+import re
+import signal
+import subprocess
+import time
+import xml.etree.ElementTree
+
+import pytest
+
+import twinpuck  # noqa: F401  the module must be there
+from conftest import TWINPUCK
+
+WORLD = """twinpuck = 1
+[arena]
+size = [1.2, 1.2]
+[[robot]]
+name = "puck"
+firmware = "."
+position = [-0.3, 0]
+"""
+
+TESTS = """import pytest
+
+@pytest.mark.points(2)
+def test_says_ready(world, robot):
+    robot.uart1.expect("ready\\r\\n", at_most=0.5)
+
+def test_shows_led_4(world, robot):
+    world.run(0.5)
+    assert robot.leds == (False, False, False, False, True, False, False, False)
+
+@pytest.mark.points(3)
+def test_drives_ahead(world, robot):
+    assert world.run_until("x_m > 0", at_most=4), f"x is {robot.x_m:.3f} m after {world.time_s:.1f} s"
+    assert robot.collisions == 0
+
+def test_counts(world, robot):
+    world.run(1)
+    assert 8 <= robot.variable("beats") <= 10
+    assert robot.variable("total") == 45
+"""
+
+FAULTLESS = """#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <uart/e_uart_char.h>
+#include <stdlib.h>
+#include <string.h>
+
+volatile int beats, due;
+int total, values[10];
+const char greeting[] = "ready\\r\\n";
+
+static int sum(const int *from, int count)
+{
+  int i, all = 0;
+  for (i = 0; i < count; i++)
+    all += from[i];
+  return all;
+}
+
+static void beat(void)
+{
+  beats++;
+  due = 1;
+}
+
+int main(void)
+{
+  int i;
+  e_init_port();
+  e_init_uart1();
+  e_init_motors();
+  e_start_agendas_processing();
+  e_activate_agenda(beat, 1000);
+  for (i = 0; i < 10; i++)
+    values[i] = i;
+  e_send_uart1_char(greeting, 7);
+  e_set_led(4, 1);
+  e_set_speed_left(600);
+  e_set_speed_right(600);
+  while (1) {
+    while (!due)
+      ;
+    due = 0;
+    total = sum(values, 10);
+  }
+}
+"""
+
+
+def line_of(text, source=FAULTLESS):
+    """Its line's number in the program."""
+    return source[:source.index(text)].count("\n") + 1
+
+
+# name -> what is changed to what, and what the message of a test that fails holds
+PLANTED = {
+    "semicolon": ("int i;\n  e_init_port", "int i\n  e_init_port", rf"main\.c:{line_of('int i;' + chr(10) + '  e_init')}:"),
+    "typo": ("due = 1;", "deu = 1;", rf"main\.c:{line_of('due = 1;')}:.*undeclared identifier 'deu'"),
+    "no_function": ("beats++;", "count_beats();", r"count_beats"),
+    "no_header": ("#include <stdlib.h>", "#include <stdlip.h>", r"main\.c:6:.*stdlip\.h"),
+    "wrong_type": ("int total, values[10];", "int total, values[10]; int *p = 3.5;", r"main\.c:10:"),
+    "two_mains": ("int main(void)", "int main(void) { return 0; }\nint main(void)", r"main\.c:27:.*redefinition of 'main'"),
+    "too_large": ("int total,", "int large[5000];\nint total,", r"bytes"),
+    "zero_division": ("total = sum(values, 10);", "total = 45 / (beats - beats);", r"main\.c:4[4-6]\).*division by zero"),
+    "beyond_array": ("i < 10; i++)\n    values", "i < 12; i++)\n    values", r"main\.c:3\d\).*values"),
+    "null": ("values[i] = i;", "*(int *)(i - i) = i;", r"main\.c:36\).*"),
+    "no_value": ("int i, all = 0;", "int i, all;", r"main\.c:1\d\).*all"),
+    "overflow": ("all += from[i];", "all += from[i] + 32767;", r"main\.c:17\).*overflow"),
+    "recursion": ("total = sum(values, 10);", "total = main();", r"stack|main\.c"),
+    "odd_address": ("due = 0;", "*(volatile int *)((char *)values + 1) = 0; due = 0;", r"main\.c:44: .*expected even"),
+    "long_copy": ("due = 0;", "{ char few[4]; memcpy(few, greeting, 8); due = few[0] - few[0]; }", r"few|memcpy"),
+    "freed": ("due = 0;", "{ int *p = malloc(4); free(p); *p = 0; due = 0; }", r"main\.c:4\d\).*free"),
+    "abort": ("due = 0;", "abort();", r"abort"),
+    "stuck": ("e_send_uart1_char(greeting, 7);", "while (i) ;\n  e_send_uart1_char(greeting, 7);",
+              r"expected 'ready\\r\\n' within 0.5 s, nothing came; at .* stands in main \(.*main\.c:37\)"),
+    "waits_for_nobody": ("due = 1;", "due = 0;", r"assert|total"),
+    "no_agenda": ("e_start_agendas_processing();", "", r"8 <= 0|assert"),
+    "slow_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 5000);", r"assert 8 <= \d"),
+    "fast_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 100);", r"assert \d+ <= 10"),
+    "wrong_led": ("e_set_led(4, 1);", "e_set_led(3, 1);", r"At index 3 diff: True != False|index 3"),
+    "no_ports": ("e_init_port();", "", r"assert|x is"),
+    "no_motors": ("e_init_motors();", "", r"x is -0\.\d+ m"),
+    "backwards": ("e_set_speed_left(600);\n  e_set_speed_right(600);", "e_set_speed_left(-600);\n  e_set_speed_right(-600);",
+                  r"x is -0\.\d+ m after 4\.0 s"),
+    "turns": ("e_set_speed_right(600);", "e_set_speed_right(-600);", r"x is -0\.3\d\d m after 4\.0 s"),
+    "slow": ("e_set_speed_left(600);\n  e_set_speed_right(600);", "e_set_speed_left(300);\n  e_set_speed_right(300);",
+             r"x is -0\.\d+ m after 4\.0 s"),
+    "no_line_end": ('"ready\\r\\n";', '"ready\\n\\n";', r"expected 'ready\\r\\n' within 0.5 s, got 'ready\\n\\n"),
+    "wrong_text": ('"ready\\r\\n";', '"raedy\\r\\n";', r"got 'raedy\\r\\n"),
+    "wrong_sum": ("i = 0; i < count", "i = 1; i < count - 1", r"assert 3\d == 45"),
+    "returns": ("while (1) {\n    while", "while (beats < 3) {\n    while", r"assert|main"),
+}
+
+
+@pytest.fixture(scope="module")
+def graded(tmp_path_factory):
+    """A class of faultless and planted programs, graded once: the command's result and its folder."""
+    base = tmp_path_factory.mktemp("class")
+    (base / "tests").mkdir()
+    (base / "tests" / "world.toml").write_text(WORLD)
+    (base / "tests" / "test_all.py").write_text(TESTS)
+    programs = {"faultless": FAULTLESS}
+    for name, (what, other, _) in PLANTED.items():
+        assert FAULTLESS.count(what) == 1, name
+        programs[name] = FAULTLESS.replace(what, other)
+    for name, source in programs.items():
+        (base / "class" / name).mkdir(parents=True)
+        (base / "class" / name / "main.c").write_text(source)
+    (base / "class" / "nothing").mkdir()
+    done = subprocess.run([TWINPUCK, "grade", "tests", "--submissions", "class", "--sanitize", "--csv", "g.csv", "--html",
+                           "g.html", "--junitxml", "g.xml"], cwd=base, text=True, capture_output=True, timeout=300, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
+    return done, base
+
+
+def messages(base, name):
+    """All that is said of a submission's failures."""
+    suite = next(s for s in xml.etree.ElementTree.parse(base / "g.xml").iter("testsuite") if s.get("name") == name)
+    return "\n".join((f.text or "") + f.get("message", "") for kind in ("failure", "error") for f in suite.iter(kind))
+
+
+def test_the_faultless_program_has_all_points(graded):
+    done, base = graded
+    rows = {row["submission"]: row for row in csv.DictReader(open(base / "g.csv", encoding="utf-8"))}
+    assert len(rows) == len(PLANTED) + 2
+    assert (rows["faultless"]["points"], rows["faultless"]["of"], rows["faultless"]["problem"]) == ("7", "7", ""), done.stdout
+    assert rows["nothing"]["points"] == "0"
+    assert rows["wrong_led"]["points"] == "6" and rows["slow"]["points"] == "4"
+    assert re.search(r"^faultless +pass +pass +pass +pass +7$", done.stdout, re.M)
+
+
+@pytest.mark.parametrize("name", PLANTED)
+def test_a_planted_error_fails_a_test_whose_message_names_it(graded, name):
+    _, base = graded
+    said = messages(base, name)
+    assert re.search(PLANTED[name][2], said), said
+
+
+def test_the_page_holds_what_was_said(graded):
+    _, base = graded
+    page = (base / "g.html").read_text()
+    assert page.count("<tr>") == len(PLANTED) + 3 and "undeclared identifier &#x27;deu&#x27;" in page
+    assert "<script" not in page
+
+
+SPY = """import os, socket
+from controller import Robot
+seen = [p for p in ("{others}", "{tests}", "/home", "/root", "/etc/passwd", "/var") if os.path.exists(p)]
+for name in ("{mine}/left_behind", "/usr/left_behind"):
+    try:
+        open(name, "w").write("x"); seen.append("wrote " + name)
+    except OSError:
+        pass
+try:
+    socket.create_connection(("127.0.0.1", {port}), 1); seen.append("network")
+except OSError:
+    pass
+print("seen", seen, flush=True)
+robot = Robot()
+while robot.step(32) != -1:
+    pass
+"""
+
+
+def test_programs_see_no_files_but_their_own_and_no_network(tmp_path, command):
+    import socket
+
+    listening = socket.create_server(("127.0.0.1", 0))
+    tests, mine, other = tmp_path / "tests", tmp_path / "class" / "spy", tmp_path / "class" / "other"
+    for folder in (tests, mine, other):
+        folder.mkdir(parents=True)
+    (tests / "world.toml").write_text(WORLD)
+    (tests / "test_a.py").write_text("def test_a(world, robot):\n    world.run(0.5)\n"
+                                     "    assert any(line == 'seen []' for line in robot.console), robot.console\n"
+                                     "    import os\n    assert os.listdir(os.path.dirname(robot.program)) == ['spy']\n")
+    (mine / "spy.py").write_text(SPY.format(others=other, tests=tests, mine=mine, port=listening.getsockname()[1]))
+    (other / "main.c").write_text("int main(void) { while (1) ; }")
+    done = command("grade", tests, "--submissions", tmp_path / "class", "--junitxml", tmp_path / "g.xml")
+    assert done.returncode == 0, done.stderr
+    assert re.search(r"^spy +pass +1$", done.stdout, re.M), messages(tmp_path, "spy")
+    assert not (mine / "left_behind").exists()
+    listening.close()
+
+
+def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command):
+    tests = tmp_path / "tests"
+    tests.mkdir()
+    (tests / "world.toml").write_text(WORLD)
+    (tests / "test_a.py").write_text("import pytest, time\n@pytest.mark.points(4)\ndef test_half(world):\n"
+                                     "    assert world.seed % 2\ndef test_waits(robot):\n"
+                                     "    robot.world.run(0.1)\n    time.sleep(60 if robot.variable('slow') else 0)\n")
+    for name, slow in (("quick", 0), ("slow", 1)):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "main.c").write_text(f"volatile int slow = {slow}; int main(void) {{ while (1) ; }}")
+    began = time.monotonic()
+    done = command("grade", tests, "--submissions", tmp_path / "class", "--seeds", "1..4", "--limit", 6, "--csv", tmp_path / "g.csv")
+    assert time.monotonic() - began < 30 and done.returncode == 0
+    rows = {row["submission"]: row for row in csv.DictReader(open(tmp_path / "g.csv", encoding="utf-8"))}
+    assert rows["quick"]["points"] == "3" and re.search(r"^quick +50 % +pass +3$", done.stdout, re.M)
+    assert "got no end after 6 s" in rows["slow"]["problem"] and rows["slow"]["points"] == "0"
+
+
+@pytest.mark.parametrize("words, said", [
+    (("nowhere", "--submissions", "."), "nowhere: tests: got nothing"), ((".", "--submissions", "no"), "--submissions: got no folder"),
+    ((".", "--submissions", "empty"), "got an empty folder"), ((".", "--submissions", ".", "--seeds", "x"), "--seeds: got 'x'"),
+    ((".", "--submissions", ".", "--limit", "0"), "--limit: got 0"), ((".", "--submissions", ".", "--jobs", "0"), "--jobs: got 0"),
+    ((".",), "--submissions")])
+def test_bad_calls_are_bad_input(tmp_path, command, words, said):
+    (tmp_path / "empty").mkdir()
+    done = command("grade", *words, cwd=tmp_path)
+    assert done.returncode == 2 and said in done.stderr
+
+
+def test_ctrl_c_ends_all_of_it(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text("import time\ndef test_a(): time.sleep(61.25)\n")
+    (tmp_path / "class" / "a").mkdir(parents=True)
+    child = subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class"], cwd=tmp_path, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL)
+    time.sleep(3)
+    child.send_signal(signal.SIGINT)
+    assert child.wait(20) == 130
+    time.sleep(0.5)
+    running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
+    assert str(tmp_path) not in running
+
+
+def test_a_table_that_cannot_be_written_is_told(tmp_path, command):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text("def test_a(): pass\n")
+    (tmp_path / "class" / "a").mkdir(parents=True)
+    done = command("grade", "tests", "--submissions", "class", "--csv", "/dev/full", cwd=tmp_path)
+    assert done.returncode == 7 and "cannot be written" in done.stderr
