@@ -191,7 +191,7 @@ def test_the_page_holds_what_was_said(graded):
 
 SPY = """import os, socket
 from controller import Robot
-seen = [p for p in ("{others}", "{tests}", "/home", "/root", "/etc/passwd", "/var") if os.path.exists(p)]
+seen = [p for p in ("{others}", "{tests}", "/home", "/root", "/etc/passwd", "/var/log") if os.path.exists(p)]
 for name in ("{mine}/left_behind", "/usr/left_behind"):
     try:
         open(name, "w").write("x"); seen.append("wrote " + name)
