@@ -15,7 +15,8 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels students clean
+.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels students clean \
+  product install deb
 
 ## help: this list
 help:
@@ -98,6 +99,22 @@ else
 dspic:
 	@scripts/build_dspic.sh '$(XC16)' '$(FW)' $(BUILD)/dspic
 endif
+
+# what is installed: the tool, its manual, the page
+product: tool page
+	@$(NINJA) manual embed python_core
+
+PREFIX  ?= /usr/local
+## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/install.md
+install: product
+	@DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)' --strip >$(BUILD)/install.log || { cat $(BUILD)/install.log; exit 1; }
+	@echo "installed in $(DESTDIR)$(PREFIX)"
+
+## deb: the Debian package, in build/package/
+deb: product
+	@rm -rf $(BUILD)/package && mkdir $(BUILD)/package
+	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
+	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
 ## check: rules of the code: includes, sources of numbers, formatting, contract, timings
 check: tool

@@ -25,6 +25,7 @@
 #include "bench/processor_time.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "install/places.h"
 
 namespace {
 
@@ -94,7 +95,7 @@ double promised(int robots) {
 
 int main(int argc, char** argv) {
   int rounds = 5;
-  std::string worlds = twin::project_root() + "/bench/worlds";
+  std::string worlds = places::share_root().string() + "/bench/worlds";
   std::vector<int> sizes;
   bool engines = false, core = false, waits = false;
   for (int i = 1; i < argc; ++i) {

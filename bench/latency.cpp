@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "bench/latency.h"
+#include "install/places.h"
 
 #include <sys/resource.h>
 #include <unistd.h>
@@ -61,8 +62,8 @@ bool row(const char* what, double ms, double promised_ms) {
 }  // namespace
 
 bool measure_waits(int rounds) {
-  const std::string build = twin::build_folder(), command = build + "/twinpuck",
-                    maze = twin::project_root() + "/worlds/maze.toml";
+  const std::string build = places::tools_folder().string(), command = build + "/twinpuck",
+                    maze = places::share_root().string() + "/worlds/maze.toml";
   const fs::path scratch = fs::temp_directory_path() / ("twinpuck-bench-" + std::to_string(getpid()));
   const auto nothing = [] {};
   std::printf("\n%-64s %9s %9s\n", "what a user waits for, processor time", "ms", "promised");
@@ -92,7 +93,7 @@ bool measure_waits(int rounds) {
                         rounds, [&] { fs::remove_all(scratch); },
                         [&] {
                           cc::BuildOptions o;
-                          o.source_dir = twin::project_root() + "/firmware/blink";
+                          o.source_dir = places::share_root().string() + "/firmware/blink";
                           o.output = scratch / "blink.elf";
                           o.cache_dir = scratch / "cache";
                           if (!cc::build_image(o).ok) std::exit(2);

@@ -41,7 +41,7 @@ def listed(program):
 def run(build, name, tests):
     """Runs the given tests of a program, all of them if `tests` is None. Returns how many passed and failed."""
     command = [f"{build}/tests/{name}"] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
-    environment = dict(os.environ, GTEST_COLOR="no",
+    environment = dict(os.environ, GTEST_COLOR="no", XDG_CACHE_HOME=os.path.abspath(f"{build}/cache"),
                        LSAN_OPTIONS=f"suppressions={os.getcwd()}/scripts/lsan.supp:print_suppressions=0")
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
     passed = failed = 0

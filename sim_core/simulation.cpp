@@ -209,7 +209,8 @@ void Simulation::publish_leds() {
 /// Speed of the rims over the floor in a tick, noise and slip included.
 RimSpeed Simulation::rim_speed(const Wheels& w, double left_rad_s, double right_rad_s,
                                Clicks tick_end) const {
-  RimSpeed rims{left_rad_s * w.left_radius_m * w.grip, right_rad_s * w.right_radius_m * w.grip};
+  RimSpeed rims{left_rad_s * w.left_radius_m * w.grip * w.left_hold,
+                right_rad_s * w.right_radius_m * w.grip * w.right_hold};
   if (w.noise == 0) return rims;
   const auto counter =
       static_cast<std::uint64_t>((tick_end - w.noise_from) / from_seconds(kWheelNoisePeriodS));
@@ -225,7 +226,7 @@ RimSpeed Simulation::rim_speed(const Wheels& w, double left_rad_s, double right_
 /// What the rims of a robot did in the tick and do next; its mind ran, or its course or noise ends.
 void Simulation::turn_wheels(int robot, Clicks end) {
   const std::size_t r = static_cast<std::size_t>(robot);
-  const Wheels& w = wheels_[r];
+  Wheels& w = wheels_[r];
   WheelCourse& course = courses_[r];
   RimCourse& rims = rims_[r];
   const Clicks tick = scene_->tick_clicks();
@@ -241,6 +242,9 @@ void Simulation::turn_wheels(int robot, Clicks end) {
       goes_on ? last.left_rate * per_s : (after.left_rad - before.left_rad) / scene_->tick_s();
   const double right_rad_s =
       goes_on ? last.right_rate * per_s : (after.right_rad - before.right_rad) / scene_->tick_s();
+  if (w.slipped_at == kEver &&
+      ((w.left_hold != 1 && left_rad_s != 0) || (w.right_hold != 1 && right_rad_s != 0)))
+    w.slipped_at = end;
   const bool is_known = course.until > end;
   const RimSpeed expected = rims.next;
   rims.tick = rim_speed(w, left_rad_s, right_rad_s, end);
@@ -371,6 +375,16 @@ void Simulation::set_proximity_noise(int robot, double scale) {
   scene_->attach_optics(optics_);
   note_intervention(static_cast<std::uint64_t>(robot));
   digest_ = fold(digest_, scale);
+}
+
+void Simulation::set_wheel_grip(int robot, double left, double right) {
+  Wheels& w = wheels_[static_cast<std::size_t>(robot)];
+  w.left_hold = left;
+  w.right_hold = right;
+  w.slipped_at = kEver;
+  rims_until_[static_cast<std::size_t>(robot)] = now();
+  note_intervention(static_cast<std::uint64_t>(robot));
+  digest_ = fold(fold(digest_, left), right);
 }
 
 void Simulation::begin_again(int robot) {

@@ -80,6 +80,12 @@ class Simulation {
   void set_proximity_noise(int robot, double scale);
   /// Half width of the factor on a robot's wheel travel; 0 none.
   void set_wheel_noise(int robot, double half_width);
+  /// Shares of the ways of a robot's rims that its wheels hold on to, beside what the world says: 1 all of
+  /// it, 0 they turn in the air or on ice.
+  void set_wheel_grip(int robot, double left, double right);
+  /// When a wheel first turned that did not hold on to all of it, since the last set_wheel_grip(); kEver: not
+  /// yet. The end of that tick.
+  Clicks slipped_at(int robot) const { return wheels_[static_cast<std::size_t>(robot)].slipped_at; }
   /// A robot that was put back stands as when the world began: its wheels at rest, their noise from its first
   /// draw on.
   void begin_again(int robot);
@@ -121,9 +127,11 @@ class Simulation {
   struct Wheels {
     double left_radius_m = 0;
     double right_radius_m = 0;
-    double noise = 0;       // half width or standard deviation of the factor on the travel
-    bool gaussian = false;  // which of them
-    double grip = 1;        // 1 - slip
+    double noise = 0;                      // half width or standard deviation of the factor on the travel
+    bool gaussian = false;                 // which of them
+    double grip = 1;                       // 1 - slip
+    double left_hold = 1, right_hold = 1;  // of that, by set_wheel_grip()
+    Clicks slipped_at = kEver;
     std::uint64_t seed = 0;
     Clicks noise_from = 0;  // when its first draw was
   };

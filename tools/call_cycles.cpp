@@ -14,6 +14,7 @@
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "install/places.h"
 #include "tools/profile_report.h"
 
 namespace fs = std::filesystem;
@@ -369,7 +370,7 @@ class Watch final : public chip::StepWatch {
 
 /// Runs the program to its end.
 std::vector<Taken> run(const std::string& level, int selector, std::vector<std::string>& problems) {
-  const fs::path folder = fs::path(twin::build_folder()) / "controllers" / ("timings-calls" + level);
+  const fs::path folder = places::cache_folder("timings") / ("timings-calls" + level);
   fs::create_directories(folder);
   std::ofstream(folder / "main.c") << source();
   sim::WorldDesc world;

@@ -9,6 +9,7 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "install/places.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/verbs.h"
 
@@ -48,7 +49,7 @@ void add_hal(CLI::App& verb, std::string& hal) {
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
   std::error_code none;
-  const fs::path worlds = fs::path(twin::project_root()) / "worlds";
+  const fs::path worlds = places::share_root() / "worlds";
   const bool is_plain = name.find('/') == std::string::npos;
   const fs::path ours = worlds / (name + ".toml"), beside = name + ".toml";
   const bool is_ours = is_plain && fs::exists(ours, none), is_here = fs::is_regular_file(beside, none);

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "hal_sim/chip/code_cycles.h"
+#include "hal_sim/chip/library_sources.h"
 #include "hal_sim/chip/named_functions.h"
 #include "tools/budgets.h"
 #include "tools/command_line.h"
@@ -38,6 +39,7 @@ std::string image_of(const std::string& name, const std::string& optimisation, d
   options.hal = "dspic";  // with the code of all drivers
   options.optimisation = optimisation;
   const std::string image = twin::provide_image(name, "", options, problems);
+  file = chip::firmware_file();
   std::string bytes, error;
   if (image.empty()) return "";
   if (!fs::is_regular_file(image))

@@ -11,6 +11,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "import/import.h"
 #include "import/wbt_reader.h"
+#include "install/places.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
 #include "sim_core/load/world_loader.h"
@@ -50,7 +51,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   options.has_firmware = [](const std::string& name) { return !twin::stored_controller(name).empty(); };
   options.has_program = [](const std::string& name) {
     std::error_code none;
-    return fs::is_directory(fs::path(twin::project_root()) / "programs" / "supervisors" / name, none);
+    return fs::is_directory(places::share_root() / "programs" / "supervisors" / name, none);
   };
   options.model = board::epuck_model();
   const wbt::Imported made = wbt::import_world(text, options);

@@ -14,6 +14,7 @@
 
 #include "compiler/cache/child_process.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -120,7 +121,7 @@ StepResult try_step(const LabStep& step, const LabSetting& setting, const LabPro
                     const std::function<void(const std::vector<std::string>&)>& tell) {
   StepResult result{&step, {}, ""};
   if (step.kind == LabStep::Kind::Answer) {
-    std::ifstream answers(fs::path(twin::project_root()) / "docs/lab-answers.md");
+    std::ifstream answers(places::share_root() / "docs/lab-answers.md");
     for (std::string line; std::getline(answers, line);)
       if (line == "## " + step.answer) return result;
     result.problem = "docs/lab-answers.md: got no heading '" + step.answer + "', expected an answer";
@@ -151,7 +152,7 @@ LabVerdict verdict_of(const LabCell& cell, const LabSetting& setting) {
 
 /// What of a step this edition has not: the students' has no solutions and no answers. Empty: nothing.
 std::string absent_text(const LabStep& step) {
-  const fs::path root = twin::project_root();
+  const fs::path root = places::share_root();
   std::error_code none;
   if (step.kind == LabStep::Kind::Answer && !fs::exists(root / "docs/lab-answers.md", none))
     return "its answer is not in this edition of Twinpuck";

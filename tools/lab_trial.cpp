@@ -8,6 +8,7 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
+#include "install/places.h"
 #include "programs/team/team.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
@@ -251,8 +252,7 @@ TrialEnd run_trial(const Trial& trial, TrialOnlooker* onlooker) {
   TrialEnd result;
   auto& problems = result.problems;
   const LabStep& step = *trial.step;
-  const std::string file =
-      (std::filesystem::path(twin::project_root()) / "worlds" / (trial.world + ".toml")).string();
+  const std::string file = (places::share_root() / "worlds" / (trial.world + ".toml")).string();
   sim::LoadedWorld loaded = twin::load_world(file);
   if (!loaded.world) {
     problems.push_back(loaded.report(file));

@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
 #include "tools/lab_class.h"
@@ -234,7 +235,7 @@ int lab(const LabArguments& given) {
   a.setting.is_mine = !a.mine.empty();
   std::vector<std::string> problems;
   const std::string table =
-      a.table.empty() ? (fs::path(twin::project_root()) / "docs/lab.toml").string() : a.table;
+      a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
   auto all = read_lab_table(table, problems);
   if (a.setting.is_mine) all = own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck list: what there is to run: controllers, worlds and parts of robots.
+// twinpuck list: what there is to run: controllers, worlds and parts of robots; and by what names things are
+// asked for.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -7,7 +8,10 @@
 #include <vector>
 
 #include "hal_sim/board/part.h"
+#include "hal_sim/faults/kinds.h"
+#include "hal_sim/signals/signals.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
 
@@ -52,7 +56,20 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
 }
 
 int list(const std::string& what) {
-  const fs::path root = twin::project_root();
+  // tables that are the same wherever one stands
+  if (what == "faults") {
+    std::cout
+        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/faults.md)\n"
+        << faults::text_table();
+    return kPass;
+  }
+  if (what == "signals") {
+    std::cout << "Signals (conditions of faults and tests; ROBOT.NAME of another robot)\n"
+              << signals::text_table()
+              << "  pin(D3)  reg(T2CON.TCKPS)  var(C EXPRESSION)  $NAME: a pin, a register, a variable\n";
+    return kPass;
+  }
+  const fs::path root = places::share_root();
   std::vector<std::pair<std::string, std::string>> controllers, worlds, supervisors;
   std::error_code none;
   for (const char* room : {"", "lab/"})
@@ -68,14 +85,18 @@ int list(const std::string& what) {
   for (const auto& entry : fs::directory_iterator(root / "programs" / "supervisors", none))
     supervisors.emplace_back(entry.path().filename().string(), first_line(entry.path() / "README.md"));
   if (controllers.empty() && worlds.empty()) {
-    complain(
-        {root.string() +
-         ": list: got no controllers and no worlds, expected a checkout of Twinpuck; set TWINPUCK_ROOT"});
+    complain({root.string() + ": list: got no controllers and no worlds, expected those of Twinpuck; "
+                              "TWINPUCK_ROOT may say another "
+                              "place"});
     return kNothing;
   }
   const auto wanted = [&](const char* kind) { return what.empty() || what == kind; };
-  if (wanted("controllers")) print("Controllers (make run FW=...)", controllers);
-  if (wanted("worlds")) print("Worlds (make run WORLD=...)", worlds);
+  if (wanted("controllers"))
+    print(places::is_installed() ? "Controllers (twinpuck run WORLD --fw ...)"
+                                 : "Controllers (make run FW=...)",
+          controllers);
+  if (wanted("worlds"))
+    print(places::is_installed() ? "Worlds (twinpuck run ...)" : "Worlds (make run WORLD=...)", worlds);
   if (wanted("supervisors")) print("Supervisors (twinpuck run WORLD --supervisor ...)", supervisors);
   if (!wanted("parts")) return kPass;
   std::vector<std::pair<std::string, std::string>> parts;
@@ -87,10 +108,11 @@ int list(const std::string& what) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts");
+  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts; faults, signals");
   auto what = std::make_shared<std::string>();
-  verb->add_option("KIND", *what, "controllers, worlds, supervisors or parts; all of them without it")
-      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts"}));
+  verb->add_option("KIND", *what,
+                   "controllers, worlds, supervisors or parts, all of them without it; faults or signals")
+      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "faults", "signals"}));
   verb->callback([what, &exit_code] { exit_code = list(*what); });
 }
 

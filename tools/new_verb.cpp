@@ -16,6 +16,7 @@
 
 #include "compiler/projects/program_files.h"
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/templates.h"
 #include "tools/verbs.h"

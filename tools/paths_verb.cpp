@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <iostream>
 
-#include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
@@ -49,7 +49,7 @@ void add_paths(CLI::App& app, int& exit_code) {
     for (const Place& place : kPlaces) {
       std::error_code none;
       const std::string path =
-          fs::weakly_canonical(fs::path(twin::project_root()) / place.folder, none).string();
+          fs::weakly_canonical(places::share_root() / place.folder, none).string();
       if (what->empty()) std::cout << fmt::format("{:<12} {}\n", place.name, path);
       if (*what == place.name) std::cout << path << '\n';
     }

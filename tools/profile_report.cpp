@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "install/places.h"
+
 namespace tools {
 
 namespace {
@@ -41,7 +43,7 @@ bool is_library_place(const std::string& place) {
 }
 
 std::string from_here(const std::string& path) {
-  for (const std::string& folder : {std::filesystem::current_path().string(), twin::project_root()})
+  for (const std::string& folder : {std::filesystem::current_path().string(), places::share_root().string()})
     if (path.rfind(folder + "/", 0) == 0) return path.substr(folder.size() + 1);
   return path;
 }

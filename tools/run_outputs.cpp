@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "install/places.h"
 #include "sim_core/record/csv_recorder.h"
 #include "tools/command_line.h"
 #include "tools/output_folder.h"
@@ -99,7 +100,7 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
   pictures_.open(problems);
   traces_.open(problems);
   if (!a.report.empty() && can_write(a.report, "--report", problems)) {
-    report_ = std::make_unique<viewer::Report>(a.report, twin_, twin::build_folder() + "/page",
+    report_ = std::make_unique<viewer::Report>(a.report, twin_, places::page_folder().string(),
                                                a.traces.vcd.empty() && a.traces.timeline.empty());
     if (!report_->error().empty()) problems.push_back(report_->error());
   }

@@ -10,6 +10,7 @@
 #include <iostream>
 #include <thread>
 
+#include "hal_sim/faults/injector.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 #include "programs/team/team.h"
@@ -38,7 +39,7 @@ constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was aske
 
 struct RunArguments {
   std::string world;
-  std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs;
+  std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs, fault_files, faults;
   std::string replay;
   double seconds = 60;
   std::string speed = "max";
@@ -61,6 +62,37 @@ bool parse_speed(const std::string& text, double& factor) {
   if (end && *end == 0 && factor > 0 && factor <= 1e6) return true;
   complain({"command line: --speed: got '" + text + "', expected max or a factor above 0; 1 is real time"});
   return false;
+}
+
+/// Faults of files and of the command line; false, with what is wrong in `problems`.
+bool add_faults(const RunArguments& arguments, faults::Injector& injector,
+                std::vector<std::string>& problems) {
+  std::vector<faults::Fault> all;
+  for (const std::string& file : arguments.fault_files) {
+    const faults::LoadedFaults loaded = faults::load_faults(file);
+    if (!loaded.problems.empty()) problems.push_back(loaded.report(file));
+    all.insert(all.end(), loaded.faults.begin(), loaded.faults.end());
+  }
+  for (const std::string& line : arguments.faults) {
+    faults::Fault fault;
+    std::string wrong;
+    if (!faults::parse_fault_line(line, fault, wrong)) {
+      problems.push_back("command line: --fault: " + wrong);
+      continue;
+    }
+    fault.where = "command line: --fault";
+    all.push_back(std::move(fault));
+  }
+  if (!problems.empty()) return false;
+  for (faults::Fault& fault : all) {
+    const std::string where = fault.where;
+    try {
+      injector.add(std::move(fault));
+    } catch (const std::runtime_error& e) {
+      problems.push_back(where + ": " + e.what());
+    }
+  }
+  return problems.empty();
 }
 
 int run(const RunArguments& arguments) {
@@ -127,6 +159,11 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
+  viewer::Inputs inputs(*twin);
+  if (!add_faults(arguments, inputs.faults(), problems)) {
+    complain(problems);
+    return kBadInput;
+  }
   team->should_give_up = [] { return end_asked() != 0; };
   if (!arguments.quiet) std::cout << programs_text(*twin) << std::flush;
   RunOutputs outputs(arguments.outputs, *twin, team.get());
@@ -150,7 +187,6 @@ int run(const RunArguments& arguments) {
   });
   auto& simulation = twin->simulation();
   const sim::Clicks end = replay && replay->end() >= 0 ? replay->end() : sim::from_seconds(arguments.seconds);
-  viewer::Inputs inputs(*twin);
   Progress progress(arguments.seconds, arguments.quiet || arguments.live);
   std::unique_ptr<TerminalView> terminal;
   std::unique_ptr<TerminalScreen> screen;
@@ -194,7 +230,7 @@ int run(const RunArguments& arguments) {
   while (simulation.now() < end && !team->has_ended()) {
     is_stepping = true;
     if (replay) replay->apply_due(inputs, simulation.now());
-    simulation.advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
+    inputs.faults().advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
     is_stepping = false;
     outputs.after_tick();
     serial.show();
@@ -224,7 +260,8 @@ int run(const RunArguments& arguments) {
   for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
 
   serial.finish();
-  const Summary summary = summarise(*twin, took_s);
+  Summary summary = summarise(*twin, took_s);
+  for (const faults::Status& status : inputs.faults().statuses()) summary.faults.push_back(status);
   outputs.finish(summary, problems);
   complain(problems);
   if (!arguments.quiet) {
@@ -233,6 +270,12 @@ int run(const RunArguments& arguments) {
     for (std::size_t i = 0; i < written.size(); ++i) std::cout << (i == 0 ? "written: " : ", ") << written[i];
     if (!written.empty()) std::cout << '\n';
   }
+  // a run that was cut off says nothing of faults that were still to come
+  if (end_code == 0)
+    for (const std::string& line : inputs.faults().problems()) {
+      problems.push_back(line);
+      complain({line});
+    }
   const bool kept_budgets = profile.finish(problems);
   for (const auto& t : summary.traps) std::cerr << to_text(t);
   bool is_clean = true;
@@ -299,6 +342,14 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* replay =
       verb->add_option("--replay", a->replay,
                        "do again what a page did, from view --record-inputs; the world is the recording's");
+  verb->option_defaults()->group("Faults");
+  one_each(
+      verb->add_option("--faults", a->fault_files,
+                       "a file of faults and stimuli (docs/faults.md); the run is invalid, exit 7, when one "
+                       "never takes effect"));
+  one_each(verb->add_option("--fault", a->faults,
+                            "one of them: \"KIND [PARAMETER=VALUE]... [robot=NAME] [at=TIME] [for=TIME] "
+                            "[when=CONDITION]\", with times such as 2s and 500ms; twinpuck list faults"));
   verb->option_defaults()->group("Checks");
   verb->add_flag(
       "--strict", a->strict,
@@ -320,7 +371,7 @@ void add_run(CLI::App& app, int& exit_code) {
       "Example: twinpuck run maze --fw obstacle --for 60 --record maze.csv --picture maze.png\n"
       "Exit codes: 0 good, 1 --strict, --budgets or a supervisor found a fault, 2 bad input, 3 firmware "
       "trapped, "
-      "7 an output was lost, 124 --host-limit, 130 interrupted");
+      "7 an output was lost or a fault never took effect, 124 --host-limit, 130 interrupted");
   verb->callback([a, world, replay, speed, &exit_code] {
     if (a->live && speed->count() == 0) a->speed = "1";
     if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");

@@ -117,6 +117,14 @@ std::string to_text(const Summary& s) {
         r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load, 1000 * r.battery_used_wh,
         std::max(0.0, r.battery_minutes));
   }
+  constexpr std::size_t kFaultsInText = 20;
+  for (std::size_t i = 0; i < s.faults.size() && i < kFaultsInText; ++i) {
+    const faults::Status& f = s.faults[i];
+    if (f.took_effect_s < 0) continue;  // told as problems
+    text += fmt::format("{}: from {:.3f} s, took effect at {:.3f} s", faults::said(f.fault), f.begun_s,
+                        f.took_effect_s);
+    text += f.ended_s > f.begun_s ? fmt::format(", until {:.3f} s\n", f.ended_s) : "\n";
+  }
   if (s.robots.size() > kRobotsInText)
     text += fmt::format("... and {} more\n", s.robots.size() - kRobotsInText);
   return text;
@@ -165,6 +173,23 @@ std::string to_json(const Summary& s) {
     radio["while_sending"] = s.radio->while_sending;
     radio["switched_off"] = s.radio->switched_off;
     j["radio"] = radio;
+  }
+  if (!s.faults.empty()) {
+    j["faults"] = nlohmann::ordered_json::array();
+    const auto time = [](double at_s) {
+      return at_s >= 0 ? nlohmann::ordered_json(at_s) : nlohmann::ordered_json();
+    };
+    for (const faults::Status& f : s.faults) {
+      nlohmann::ordered_json fault;
+      fault["fault"] = faults::said(f.fault);
+      fault["kind"] = f.fault.kind;
+      fault["robot"] = f.fault.robot;
+      fault["begun_s"] = time(f.begun_s);
+      fault["took_effect_s"] = time(f.took_effect_s);
+      fault["ended_s"] = time(f.ended_s);
+      fault["where"] = f.fault.where;
+      j["faults"].push_back(std::move(fault));
+    }
   }
   j["robots"] = nlohmann::ordered_json::array();
   for (const auto& r : s.robots) {

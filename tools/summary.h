@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/faults/injector.h"
 #include "hal_sim/twin/twin.h"
 
 namespace tools {
@@ -30,6 +31,7 @@ struct Summary {
   double simulated_s = 0, wall_s = 0;
   std::vector<RobotSummary> robots;
   std::vector<host::TrapReport> traps;      ///< of all robots
+  std::vector<faults::Status> faults;       ///< of the run, in the order in which they were added
   std::optional<sim::RadioCounters> radio;  ///< when a robot has one
 };
 

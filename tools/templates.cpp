@@ -6,7 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "hal_sim/twin/twin.h"
+#include "install/places.h"
 
 namespace tools {
 
@@ -46,7 +46,7 @@ std::string name_for(const fs::path& path, const std::string& name) {
 std::vector<TemplateFile> read_templates(const std::string& set, const std::string& name,
                                          std::vector<std::string>& problems) {
   std::error_code none;
-  const fs::path root = fs::weakly_canonical(twin::project_root(), none),
+  const fs::path root = fs::weakly_canonical(places::share_root(), none),
                  home = root / "tools" / "templates" / set;
   std::vector<TemplateFile> files;
   std::error_code wrong;

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "hal_sim/twin/twin.h"
+#include "install/places.h"
 #include "tools/call_cycles.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
@@ -46,7 +47,7 @@ void add_timings(CLI::App& app, int& exit_code) {
   auto is_check = std::make_shared<bool>(false);
   verb->add_flag("--check", *is_check, "hold the table against the measurement instead of writing it");
   verb->callback([=, &exit_code] {
-    exit_code = timings(twin::project_root() + "/hal_sim/api/call_cycles.inc", *is_check);
+    exit_code = timings(places::share_root().string() + "/hal_sim/api/call_cycles.inc", *is_check);
   });
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "tools/command_line.h"
+#include "tools/manual.h"
 #include "tools/printable.h"
 #include "tools/run_guard.h"
 #include "tools/twinpuck.h"
@@ -28,10 +29,15 @@ constexpr Verb kVerbs[] = {
     {"cycles", add_cycles},   {"dis", add_dis},         {"asm", add_asm},       {"flash", add_flash},
     {"debug", add_debug},     {"new", add_new},         {"init", add_init},     {"paths", add_paths},
     {"inspect", add_inspect}, {"list", add_list},       {"import", add_import}, {"view", add_view},
-    {"lab", add_lab},         {"timings", add_timings},
+    {"lab", add_lab},         {"timings", add_timings}, {"test", add_test},     {"grade", add_grade},
 };
 
 }  // namespace
+
+void add_verbs(CLI::App& app, int& exit_code) {
+  for (const Verb& verb : kVerbs) verb.add(app, exit_code);
+  add_help(app);
+}
 
 int twinpuck(int argc, char** argv) {
   const PrintableStream out(std::cout), error(std::cerr);
@@ -49,6 +55,7 @@ int twinpuck(int argc, char** argv) {
       std::any_of(std::begin(kVerbs), std::end(kVerbs), [&](const Verb& v) { return v.name == called; });
   for (const Verb& verb : kVerbs)
     if (!is_verb || verb.name == called) verb.add(app, exit_code);
+  if (called == "manual") add_manual(app, exit_code);
   add_help(app);
   try {
     app.parse(argc, argv);

@@ -21,6 +21,9 @@ enum Exit {
   kInterrupted = 130,  ///< Ctrl-C
 };
 
+/// All verbs, but for what help does not list; `help` too.
+void add_verbs(CLI::App& app, int& exit_code);
+
 /// Each verb adds its options to `app`; `exit_code` is set when it has run.
 void add_run(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
@@ -40,5 +43,7 @@ void add_timings(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);
+void add_test(CLI::App& app, int& exit_code);
+void add_grade(CLI::App& app, int& exit_code);
 
 }  // namespace tools

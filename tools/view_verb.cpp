@@ -7,6 +7,7 @@
 #include <iostream>
 #include <thread>
 
+#include "install/places.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -22,34 +23,51 @@ namespace fs = std::filesystem;
 constexpr auto kLook = std::chrono::milliseconds(50);
 
 struct ViewArguments {
-  std::string world, record, hal, optimisation;
+  std::string world, record, replay, hal, optimisation;
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
   long long seed = -1;
 };
 
-int view(const ViewArguments& a) {
-  std::vector<std::string> problems;
+/// A recording's world, under a name of its own beside the world's file: saved, it shall overwrite nothing.
+viewer::Opening opening_of(const viewer::Replay& replay) {
+  viewer::Opening opening = replay.opening;
+  replay.resume(opening.options);
+  const fs::path file = fs::absolute(opening.file).lexically_normal();
+  opening.file = (file.parent_path() / ("replay of " + file.filename().string())).string();
+  return opening;
+}
+
+viewer::Opening opening_of(const ViewArguments& a, std::vector<std::string>& problems) {
   viewer::Opening opening;
   opening.file = find_world(a.world, problems);
   const std::string wrong =
       problems.empty() ? sim::read_input_file(opening.file, sim::kLongestWorld, opening.text) : "";
   if (!wrong.empty()) problems.push_back(opening.file + ": " + wrong);
-  if (!problems.empty() || !split_choices(a.firmware, "--fw", opening.options.firmware)) {
-    complain(problems);
-    return kBadInput;
-  }
+  if (!problems.empty()) return opening;
   opening.file = fs::absolute(opening.file).lexically_normal().string();
   opening.options.hal = a.hal;
   opening.options.optimisation = a.optimisation;
-  opening.options.threads = a.threads;
   opening.supervisors = a.supervisors;
   const viewer::Document first(opening.file, opening.text);
   opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
                              : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
+  return opening;
+}
 
-  auto live = viewer::LiveView::open(std::move(opening), a.record, a.port,
-                                     (fs::path(twin::build_folder()) / "page").string(), problems);
+int view(const ViewArguments& a) {
+  std::vector<std::string> problems;
+  auto replay = a.replay.empty() ? nullptr : viewer::Replay::open(a.replay, problems);
+  viewer::Opening opening;
+  if (problems.empty()) opening = replay ? opening_of(*replay) : opening_of(a, problems);
+  if (!problems.empty() || (!replay && !split_choices(a.firmware, "--fw", opening.options.firmware))) {
+    complain(problems);
+    return kBadInput;
+  }
+  opening.options.threads = a.threads;
+
+  auto live = viewer::LiveView::open(std::move(opening), a.record, std::move(replay), a.port,
+                                     places::page_folder().string(), problems);
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});
@@ -65,7 +83,10 @@ int view(const ViewArguments& a) {
 void add_view(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("view", "See, touch and change a world in a browser");
   auto a = std::make_shared<ViewArguments>();
-  verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/")->required();
+  auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
+  auto* replay = verb->add_option("--replay", a->replay,
+                                  "show again what --record-inputs or a failed test wrote; the world is the "
+                                  "recording's, and it stands still at the recording's end");
   one_each(verb->add_option(
       "--fw", a->firmware,
       "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
@@ -74,7 +95,8 @@ void add_view(CLI::App& app, int& exit_code) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   verb->add_option("--record-inputs", a->record,
-                   "file for what the page does, with its ticks; run --replay does it again");
+                   "file for what the page does, with its ticks; --replay does it again")
+      ->excludes(replay);
   add_hal(*verb, a->hal);
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
@@ -87,7 +109,10 @@ void add_view(CLI::App& app, int& exit_code) {
           "level for controllers built from source; without it, that of a program's project file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");
-  verb->callback([a, &exit_code] { exit_code = view(*a); });
+  verb->callback([a, world, replay, &exit_code] {
+    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
+    exit_code = view(*a);
+  });
 }
 
 }  // namespace tools

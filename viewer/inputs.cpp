@@ -44,6 +44,28 @@ Json bare(Json input) {
 
 std::string hex(std::uint64_t n) { return fmt::format("{:016x}", n); }
 
+/// Bytes of a text in which each character stands for one.
+std::string bytes_of(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    if (first < 0x80) {
+      bytes += text[i];
+    } else if ((first == 0xC2 || first == 0xC3) && i + 1 < text.size()) {
+      bytes += static_cast<char>((first & 3) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3F));
+    } else {
+      refuse_input("bytes: got a character above U+00FF, expected one byte a character");
+    }
+  }
+  return bytes;
+}
+
+std::string line_of(sim::Clicks at, const Json& input) {
+  Json line = bare(input);
+  line["at"] = at;
+  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 /// The far end of a serial line on which somebody types. What the robot sends is heard elsewhere.
@@ -72,7 +94,7 @@ class TypedLine final : public board::UartEnd {
 Inputs::~Inputs() = default;
 
 bool Inputs::is_input(const std::string& what) {
-  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "world"})
+  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp", "write", "faults", "end_fault", "world"})
     if (what == known) return true;
   return false;
 }
@@ -141,14 +163,35 @@ void Inputs::apply(const Json& input) {
                     simulation.scene().z_m(body));
     return;
   }
+  if (what == "faults") {
+    const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
+    if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
+    for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+    return;
+  }
+  if (what == "end_fault") {
+    faults_.end(whole(input, "fault", 0, static_cast<int>(faults_.statuses().size()) - 1));
+    return;
+  }
+  if (what == "lamp") {
+    const auto& lamps = twin_.world().lamps;
+    const int lamp = whole(input, "lamp", 0, static_cast<int>(lamps.size()) - 1);
+    const auto& desc = lamps[static_cast<std::size_t>(lamp)];
+    const double intensity_w_m2 =
+        input.contains("intensity") ? number(input, "intensity", 0, 1e4) : desc.intensity_w_m2;
+    simulation.set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
+    return;
+  }
   const int robot = robot_of(input);
   host::FirmwareMind& mind = twin_.mind(robot);
-  if (what == "selector") {
+  if (what == "sensor") {
+    mind.board().virtual_devices().set(input.at("name").get<std::string>(), input.at("value").get<double>());
+  } else if (what == "selector") {
     mind.board().turn_selector(whole(input, "position", 0, 15));
   } else if (what == "battery") {
     mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
   } else if (what == "type") {
-    line(robot, whole(input, "port", 1, 2)).type(input.at("bytes").get<std::string>());
+    line(robot, whole(input, "port", 1, 2)).type(bytes_of(input.at("bytes").get<std::string>()));
   } else if (what == "key") {
     const double hold_s = input.value("hold", 0.1);
     if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
@@ -169,6 +212,11 @@ void Inputs::apply(const Json& input) {
     program.read_memory(v->address, bytes, v->bytes);
     host::set_variable_value(*v, bytes, input.at("value").get<double>());
     program.write_memory(v->address, bytes, v->bytes);
+  } else if (what == "write") {
+    const int bytes = whole(input, "bytes", 1, 8);
+    const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
+    const auto value = input.at("value").get<std::uint64_t>();
+    program_of(input, robot).write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
   } else {
     refuse_input(fmt::format("do: got '{}', expected an input", what));
   }
@@ -176,6 +224,12 @@ void Inputs::apply(const Json& input) {
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
   for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
   simulation.note_intervention(hash);
+}
+
+void Inputs::step() {
+  faults_.look();
+  twin_.simulation().step();
+  faults_.look();
 }
 
 // --- recordings
@@ -197,15 +251,18 @@ Recorder::Recorder(const std::string& path, const Opening& opening) : file_(path
   file_.append(to_json(opening).dump() + "\n");
 }
 
-void Recorder::note(sim::Clicks at, const Json& input) {
-  Json line = bare(input);
-  line["at"] = at;
-  file_.append(line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
-}
+void Recorder::note(sim::Clicks at, const Json& input) { file_.append(line_of(at, input)); }
 
 void Recorder::end(sim::Clicks at, std::uint64_t digest) {
   note(at, {{"do", "end"}, {"digest", hex(digest)}});
   file_.close();
+}
+
+std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
+                           std::uint64_t digest) {
+  std::string text = to_json(opening).dump() + "\n";
+  for (const Json& input : inputs) text += line_of(input.at("at").get<sim::Clicks>(), input);
+  return text + line_of(end, {{"do", "end"}, {"digest", hex(digest)}});
 }
 
 std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::string>& problems) {

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/faults/injector.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/base/output_file.h"
 
@@ -28,13 +29,17 @@ class TypedLine;
 
 class Inputs {
  public:
-  explicit Inputs(twin::Twin& twin) : twin_(twin) {}
+  explicit Inputs(twin::Twin& twin) : twin_(twin), faults_(twin) {}
   ~Inputs();
   /// Does it; throws std::runtime_error that says what is wrong, "got ..., expected ...", when nothing was
   /// done. Json's own exceptions pass: a member is missing or of another type.
   void apply(const Json& input);
   /// Is it one of these? Other requests do not change the world.
   static bool is_input(const std::string& what);
+  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its advance(), or by step().
+  faults::Injector& faults() { return faults_; }
+  /// One tick, with the faults that are due before and behind it.
+  void step();
 
  private:
   int robot_of(const Json& input) const;
@@ -42,6 +47,7 @@ class Inputs {
   TypedLine& line(int robot, int port);
 
   twin::Twin& twin_;
+  faults::Injector faults_;
   std::map<int, std::shared_ptr<TypedLine>> lines_;  // [robot * 2 + port - 1]
 };
 
@@ -53,6 +59,10 @@ struct Opening {
   std::vector<std::string> supervisors;
 };
 Json to_json(const Opening& opening);
+
+/// A whole recording of a run up to `end`; each input with its tick, "at".
+std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
+                           std::uint64_t digest);
 
 /// Writes inputs down as they happen.
 class Recorder {
@@ -84,6 +94,8 @@ class Replay {
   void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
   /// Does all that are due now.
   void apply_due(Inputs& inputs, sim::Clicks now);
+  /// From the first input on.
+  void rewind() { at_ = 0; }
   /// Where the recording ends, and with which digest; negative: it was cut off.
   sim::Clicks end() const { return end_; }
   std::uint64_t digest() const { return digest_; }

@@ -3,8 +3,8 @@
 
 namespace viewer {
 
-std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record, int port,
-                                         const std::string& page_folder, std::vector<std::string>& problems) {
+std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record,
+                                         std::unique_ptr<Replay> replay, int port, const std::string& page_folder, std::vector<std::string>& problems) {
   std::unique_ptr<LiveView> view(new LiveView);
   LiveView* v = view.get();
   // the session's thread sends through the server, and the server's threads post to the session: neither runs
@@ -14,6 +14,7 @@ std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& rec
       Session::Outlet{[v](ClientId c, std::string text) { v->server_->send(c, std::move(text)); },
                       [v](ClientId c, std::string bytes) { v->server_->send_frame(c, std::move(bytes)); },
                       [v](ClientId c) { return v->server_->wants_frame(c); }});
+  v->session_->replay(std::move(replay));
   v->session_->open(problems);
   std::string wrong;
   v->server_ =

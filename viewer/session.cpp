@@ -112,6 +112,8 @@ bool Session::reopen(std::vector<std::string>& problems) {
   if (!record_file_.empty()) recorder_ = std::make_unique<Recorder>(record_file_, opening_);
   live_text_ = document_.text();
   movable_ = movable_ids(twin_->world(), live_text_);
+  if (replay_) replay_->rewind();
+  is_replayed_ = false;
   ended_ = false;
   traps_told_ = 0;
   anchor_ = pace_from_ = 0;
@@ -194,6 +196,25 @@ bool Session::take_messages() {
   return !messages.empty();
 }
 
+/// Inputs of a recording that are due are done. Until when the world may run before it is looked at again.
+sim::Clicks Session::replay_due() {
+  if (!replay_) return sim::kEver;
+  const sim::Clicks now = twin_->simulation().now(), end = replay_->end();
+  try {
+    replay_->apply_due(*inputs_, now);
+  } catch (const std::exception& e) {
+    tell_all({{"event", "problems"}, {"problems", {std::string("replay: ") + e.what()}}});
+    replay_.reset();
+    return sim::kEver;
+  }
+  if (now >= end && end >= 0 && !is_replayed_) {
+    is_replayed_ = true;
+    playing_ = false;
+    tell_state();
+  }
+  return std::min(replay_->next(), now < end ? end : sim::kEver);
+}
+
 void Session::advance_slice() {
   sim::Simulation& simulation = twin_->simulation();
   const auto begin = Wall::now();
@@ -202,7 +223,8 @@ void Session::advance_slice() {
   while (!has_news_ && !team_->has_ended()) {
     const auto now = Wall::now();
     if (now - begin > kSlice) break;
-    sim::Clicks until = simulation.now() + look;
+    sim::Clicks until = std::min(simulation.now() + look, replay_due());
+    if (!playing_) break;
     if (speed_ > 0) {
       const sim::Clicks due = anchor_ + sim::from_seconds(seconds(now - anchor_wall_) * speed_);
       if (simulation.now() >= due) {
@@ -224,7 +246,7 @@ void Session::advance_slice() {
       }
       until = std::min(until, due);
     }
-    simulation.advance(until);
+    inputs_->faults().advance(until);
   }
   after_ticks();
   if (Wall::now() - pace_wall_ > kPaceOver) {
@@ -248,11 +270,16 @@ void Session::after_ticks() {
 
 void Session::step_ticks(double span_s, int count) {
   sim::Simulation& simulation = twin_->simulation();
-  for (int i = 0; i < count && !team_->has_ended(); ++i)
-    if (span_s <= 0)
-      simulation.step();
-    else
-      simulation.run_until(simulation.now() + sim::from_seconds(span_s));
+  for (int i = 0; i < count && !team_->has_ended(); ++i) {
+    const sim::Clicks end = simulation.now() + sim::from_seconds(span_s);
+    do {
+      const sim::Clicks due = replay_due();
+      if (span_s <= 0)
+        inputs_->step();
+      else
+        inputs_->faults().advance(std::min(end, due));
+    } while (simulation.now() < end);
+  }
   after_ticks();
 }
 
@@ -262,8 +289,10 @@ bool Session::step_interrupt(int robot) {
   if (!program) return false;
   const auto served = program->interrupts_served();
   const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
-  while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended())
-    simulation.step();
+  while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended()) {
+    replay_due();
+    inputs_->step();
+  }
   after_ticks();
   return program->interrupts_served() != served;
 }

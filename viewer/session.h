@@ -44,6 +44,9 @@ class Session {
 
   /// `opening.text` is what `opening.file` holds. `record`: file for the inputs; empty: none.
   Session(Opening opening, std::string record, Outlet outlet);
+  /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end. Before
+  /// open().
+  void replay(std::unique_ptr<Replay> recording) { replay_ = std::move(recording); }
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -111,6 +114,7 @@ class Session {
   void choose_program(int robot, const std::string& name);
   Program& program_named(const std::string& name);
   void advance_slice();
+  sim::Clicks replay_due();
   void step_ticks(double span_s, int count);
   bool step_interrupt(int robot);
   void after_ticks();
@@ -142,6 +146,8 @@ class Session {
   std::unique_ptr<programs::Team> team_;
   std::unique_ptr<Inputs> inputs_;
   std::unique_ptr<Recorder> recorder_;
+  std::unique_ptr<Replay> replay_;  // null: there is none, or it did not fit
+  bool is_replayed_ = false;        // to its end
   std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
   sim::Clicks traced_ = 0;            // until when pages know it
   Wall::time_point next_trace_{};

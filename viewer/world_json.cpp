@@ -62,6 +62,7 @@ const char* type_name(sim::ValueType type) {
       return "integer";
     case sim::ValueType::Number:
       return "number";
+    case sim::ValueType::Bytes:
     case sim::ValueType::Text:
       return "text";
     case sim::ValueType::Flag:

@@ -22,6 +22,8 @@
 #include "compiler/projects/original_objects.h"
 #include "compiler/projects/program_files.h"
 #include "compiler/projects/timer_owners.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 #include "large_stack.h"
 #include "library_objects.h"
 #include "link_chip.h"
@@ -137,7 +139,7 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
     again.push_back(all[i]);
     places.push_back(i);
   }
-  const auto made = compile_all(again, compiler_path(), o.cache_dir, o.jobs);
+  const auto made = compile_all(again, compiler_path(), {o.cache_dir, {}}, o.jobs);
   for (std::size_t i = 0; i < made.size(); ++i) outcomes[places[i]] = made[i];
   if (o.optimisation == "-O0") return;
   for (const SharedRead& read : shared.reads)
@@ -195,7 +197,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.assembler.begin(), p.assembler.end());
-  auto outcomes = compile_all(all, compiler_path(), o.cache_dir, o.jobs);
+  auto outcomes = compile_all(all, compiler_path(), {o.cache_dir, {}}, o.jobs);
   const Library library = provide_library(o, p.is_webots);
   result.compiled += library.compiled;
   result.reused += library.reused;
@@ -260,7 +262,7 @@ static void lint_shared_variables(BuildOptions o, const LibraryCopies& copies, c
   o.strict = o.sanitize = false;
   const Plan p = plan(o, copies, program, false);
   std::vector<FileFacts> files;
-  for (const CompileOutcome& made : compile_all(p.user, compiler_path(), o.cache_dir, o.jobs))
+  for (const CompileOutcome& made : compile_all(p.user, compiler_path(), {o.cache_dir, {}}, o.jobs))
     files.push_back({made.facts, true, true});
   for (const std::string& facts : provide_library(o, p.is_webots).facts)
     files.push_back({facts, false, false});
@@ -291,7 +293,7 @@ static BuildResult lint_here(const BuildOptions& options) {
   const Program program = program_of(o, of_project);
   if (o.optimisation.empty()) o.optimisation = "-O1";  // what would be said of -O0 holds at no other level
   for (const auto& outcome :
-       compile_all(plan(o, copies, program, true).user, compiler_path(), o.cache_dir, o.jobs))
+       compile_all(plan(o, copies, program, true).user, compiler_path(), {o.cache_dir, {}}, o.jobs))
     sort_messages(outcome.messages, result, !outcome.ok);
   if (result.errors.empty()) lint_shared_variables(o, copies, program, result);
   std::vector<std::pair<std::string, std::string>> texts;
@@ -340,8 +342,10 @@ static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const
   });
 }
 
+constexpr int kAttempts = 4;  // where somebody removes the cache meanwhile
+
 static BuildOptions with_cache(BuildOptions o) {
-  if (o.cache_dir.empty()) o.cache_dir = build_root() / "firmware-cache";
+  if (o.cache_dir.empty()) o.cache_dir = places::cache_folder("objects");
   o.cache_dir = fs::absolute(o.cache_dir);
   if (o.hal.empty()) o.hal = "dspic";
   return o;
@@ -349,20 +353,36 @@ static BuildOptions with_cache(BuildOptions o) {
 
 BuildResult build_image(const BuildOptions& options) {
   const BuildOptions o = with_cache(options);
+  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty()) {
+    BuildResult refused;
+    refused.errors = {wrong};
+    return refused;
+  }
   const BuildRecord record(o);
   if (auto known = record.recall()) return *known;
-  // one build of an image at a time: its files and its record are of the same one
-  const FileLock lock(record.lock_file());
-  if (auto known = record.recall()) return *known;
-  BuildInputs inputs;
-  BuildResult result = begin(o, inputs, build_here);
-  if (result.ok) record.keep(result, inputs.all);
+  BuildResult result;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    // one build of an image at a time: its files and its record are of the same one
+    const FileLock lock(record.lock_file());
+    if (auto known = record.recall()) return *known;
+    BuildInputs inputs;
+    result = begin(o, inputs, build_here);
+    if (result.ok) record.keep(result, inputs.all);
+    if (result.ok || !(lock.is_gone() || inputs.has_lost_one())) break;
+  }
+  if (result.compiled > 0) places::keep_caches_within_bound();
   return result;
 }
 
 BuildResult lint_folder(const BuildOptions& options) {
   BuildInputs inputs;
-  return begin(with_cache(options), inputs, lint_here);
+  const BuildOptions o = with_cache(options);
+  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty()) {
+    BuildResult refused;
+    refused.errors = {wrong};
+    return refused;
+  }
+  return begin(o, inputs, lint_here);
 }
 
 }  // namespace cc

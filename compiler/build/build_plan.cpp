@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "install/places.h"
 #include "library_objects.h"
 #include "sim_core/base/pattern.h"
 
@@ -80,7 +81,7 @@ std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& p
 }  // namespace
 
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
-  const fs::path libc = source_root() / "firmware/libc";
+  const fs::path libc = places::product_share() / "firmware/libc";
   const fs::path contract = include_root(o);
   std::vector<std::string> user_include;
   // first what is said where to look, for quotes as for angles, then what the compiler brings along, as XC16
@@ -124,7 +125,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)
-    p.user.push_back({s, flags, salt, contract.string(), true});
+    p.user.push_back({s, flags, salt, contract.string(), {}, {}, true});
 
   for (const auto& s : program.assembler)
     if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {

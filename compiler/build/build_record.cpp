@@ -8,6 +8,8 @@
 
 #include "compiler/cache/object_cache.h"
 #include "driver_id.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -64,9 +66,8 @@ class Texts {
 }  // namespace
 
 BuildRecord::BuildRecord(const BuildOptions& o) {
-  const char* home = std::getenv("TWINPUCK_HOME");
   std::vector<std::string> asked = {TWINPUCK_DRIVER_ID,
-                                    home ? home : "",
+                                    places::product_share().string(),
                                     o.source_dir.is_absolute() ? "" : fs::current_path().string(),
                                     o.source_dir.string(),
                                     fs::absolute(o.output).string(),
@@ -117,7 +118,10 @@ std::optional<BuildResult> BuildRecord::recall() const {
     }
     inputs[path] = {then, hash};
   }
-  if (is_touched) keep(result, inputs);
+  if (is_touched)
+    keep(result, inputs);
+  else
+    places::note_used(file_);
   return result;
 }
 

@@ -3,31 +3,22 @@
 // the place of ours.
 #include "library_objects.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
-
 #include "build_record.h"
 #include "compiler/cache/elf_reader.h"
+#include "compiler/cache/inputs.h"
 #include "compiler/cache/object_cache.h"
 #include "compiler/cache/shared_variables.h"
 #include "compiler/projects/program_files.h"
-#include "twinpuck_paths.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 
 namespace cc {
 namespace fs = std::filesystem;
 
-fs::path source_root() {
-  const char* home = std::getenv("TWINPUCK_HOME");
-  return home ? home : TWINPUCK_SOURCE_DIR;
-}
-
-fs::path build_root() { return TWINPUCK_BUILD_DIR; }
-
-fs::path compiler_path() { return build_root() / "twinpuck-cc"; }
+fs::path compiler_path() { return places::tools_folder() / "twinpuck-cc"; }
 
 fs::path include_root(const BuildOptions& o) {
-  return o.include_root.empty() ? source_root() / "firmware/include" : o.include_root;
+  return o.include_root.empty() ? places::product_share() / "firmware/include" : o.include_root;
 }
 
 std::vector<fs::path> contract_folders(const fs::path& root) {
@@ -43,7 +34,8 @@ std::vector<fs::path> contract_folders(const fs::path& root) {
 std::string names_of_headers(const std::vector<fs::path>& folders) {
   std::string names;
   for (const fs::path& folder : folders)
-    for (const fs::path& header : files_below(folder, ".h")) names += header.string() + "\n";
+    for (const fs::path& header : files_below(folder, ".h"))
+      names += header.lexically_relative(folder).string() + "\n";
   return content_hash(names);
 }
 
@@ -53,11 +45,12 @@ namespace {
 /// compiled with the program.
 bool is_precompiled(const fs::path& source) {
   const fs::path folder = source.parent_path();
-  return folder == source_root() / "hal_dspic/runtime" || folder == source_root() / "firmware/libc/src";
+  return folder == places::product_share() / "hal_dspic/runtime" ||
+         folder == places::product_share() / "firmware/libc/src";
 }
 
 std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
-  const fs::path root = source_root(), libc = root / "firmware/libc/include";
+  const fs::path root = places::product_share(), libc = root / "firmware/libc/include";
   const fs::path contract = include_root(o);
   const fs::path api = o.api_dir.empty() ? root / "hal_dspic" : o.api_dir;
   std::vector<std::string> flags = {o.optimisation, "--library"};
@@ -70,7 +63,7 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
       names_of_headers({contract, root / "firmware/libc", api, root / "firmware/library"});
   std::vector<CompileJob> jobs;
   const auto add = [&](const fs::path& source, const std::vector<std::string>& with) {
-    jobs.push_back({source, with, salt, root.string()});
+    jobs.push_back({source, with, salt, root.string(), root.string(), places::kUsualShare});
     if (is_precompiled(source)) jobs.back().flags.front() = "-O1";
     // what the drivers do with a program's variables and functions, those do not
     jobs.back().has_facts = !is_precompiled(source) && source.extension() == ".c";
@@ -89,26 +82,32 @@ std::vector<CompileJob> library_jobs(const BuildOptions& o, bool is_webots) {
 
 }  // namespace
 
-Archive archive(const std::vector<CompileOutcome>& objects, const fs::path& folder) {
-  std::string key, names;
-  for (const auto& o : objects) {
-    key += o.object.filename().string();
-    names += o.object.string() + " " + std::to_string(fs::file_size(o.object)) + " " +
-             std::to_string(fs::last_write_time(o.object).time_since_epoch().count()) + "\n";
+// an object's name tells its content, and an archive's name its objects: what is there is never replaced
+Archive archive(const std::vector<CompileOutcome>& objects, const ObjectFolders& folders) {
+  std::string key;
+  for (const auto& o : objects) key += o.object.filename().string() + "\n";
+  const std::string name = "library-" + content_hash(key) + ".a";
+  const auto is_whole = [](const fs::path& file) {
+    const std::string told = bytes_of(file.string() + ".sum");
+    return !told.empty() && told == content_hash(bytes_of(file));
+  };
+  if (!folders.ready.empty() && is_whole(folders.ready / name)) return {folders.ready / name, ""};
+  const fs::path file = folders.cache / name, half = unfinished(file);
+  if (BuildInputs* inputs = inputs_of_build()) inputs->take(file);
+  if (is_whole(file)) {
+    places::note_used(file);
+    return {file, ""};
   }
-  const fs::path file = folder / ("library-" + content_hash(key) + ".a");
-  const fs::path list = file.string() + ".list", half = unfinished(file);
-  // with its own hash: another build may have left its archive beside our list
-  const auto told = [&](const fs::path& made) { return content_hash(bytes_of(made)) + "\n" + names; };
-  if (fs::exists(file) && bytes_of(list) == told(file)) return {file, ""};
-  std::vector<std::string> argv = {"ar", "rcs", half.string()};
+  std::vector<std::string> argv = {"ar", "rcsD", half.string()};
   for (const auto& o : objects) argv.push_back(o.object.string());
   const auto run = run_process(argv);
-  std::error_code ec;
-  const std::string list_text = told(half);
+  std::error_code ec, none;
+  const std::string sum = content_hash(bytes_of(half));
   if (run.status == 0) fs::rename(half, file, ec);
-  if (run.status != 0 || ec || !write_text(list, list_text))
-    return {file, "ar: " + run.output + (ec ? ec.message() : "")};
+  if (run.status != 0 || ec || !write_text(file.string() + ".sum", sum)) {
+    fs::remove(half, none);
+    return {file, file.string() + ": ar: " + (ec ? ec.message() + "\n" : run.output)};
+  }
   return {file, ""};
 }
 
@@ -125,15 +124,15 @@ std::string facts_of_assembler(const fs::path& object) {
   return labels + names;
 }
 
-Library provide_library(const BuildOptions& o, bool is_webots) {
-  // a library from elsewhere, as tests have, is no part of the product
-  const bool is_ours = o.api_dir.empty() && o.include_root.empty() && source_root() == TWINPUCK_SOURCE_DIR;
-  const fs::path folder = is_ours ? build_root() / "library" : o.cache_dir;
-  const auto outcomes = compile_all(library_jobs(o, is_webots), compiler_path(), folder, o.jobs);
+namespace {
+
+Library library_in(const BuildOptions& o, bool is_webots, const ObjectFolders& folders) {
+  const auto outcomes = compile_all(library_jobs(o, is_webots), compiler_path(), folders, o.jobs);
   Library library;
   library.ok = true;
   for (const CompileOutcome& outcome : outcomes) {
     library.messages += outcome.messages;
+    library.objects.push_back(outcome.object);
     if (!outcome.facts.empty()) library.facts.push_back(outcome.facts);
     if (outcome.ok && outcome.source.extension() == ".s" && !is_precompiled(outcome.source))
       library.facts.push_back(facts_of_assembler(outcome.object));
@@ -141,20 +140,28 @@ Library provide_library(const BuildOptions& o, bool is_webots) {
     ++(outcome.reused ? library.reused : library.compiled);
   }
   if (!library.ok) return library;
-  const Archive made = archive(outcomes, folder);
+  const Archive made = archive(outcomes, folders);
   library.archive = made.file;
   library.ok = made.error.empty();
   library.messages += made.error;
   return library;
 }
 
-std::vector<Library> provide_usual_libraries(int jobs) {
+}  // namespace
+
+Library provide_library(const BuildOptions& o, bool is_webots) {
+  // a library from elsewhere, as tests have, is no part of the product
+  const bool is_ours = o.api_dir.empty() && o.include_root.empty();
+  return library_in(o, is_webots, {o.cache_dir, is_ours ? places::tools_folder() / "library" : fs::path()});
+}
+
+std::vector<Library> provide_usual_libraries(const fs::path& folder, int jobs) {
   std::vector<Library> made;
   for (const bool is_webots : {false, true}) {
     BuildOptions o;
     o.jobs = jobs;
     o.optimisation = "-O1";
-    made.push_back(provide_library(o, is_webots));
+    made.push_back(library_in(o, is_webots, {folder, {}}));
   }
   return made;
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What is linked behind every program: the e-puck library, the firmware's libc, and for programs that are
-// written for Webots its interfaces. Its objects and archives lie beside the executable
-// in library/; `make build` fills it, and whatever changes later is compiled when a build asks for it.
+// written for Webots its interfaces. Its objects and archives lie beside the compiler
+// in library/; `make build` fills it. What is missing there, or has changed since, is compiled into the
+// user's cache when a build asks for it.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -12,9 +13,6 @@
 
 namespace cc {
 
-/// TWINPUCK_HOME, or the tree this was built from.
-std::filesystem::path source_root();
-std::filesystem::path build_root();
 std::filesystem::path compiler_path();
 
 /// Sub-folders of the contract, in the order a flat "e_motors.h" is looked up: the one-timer drivers first.
@@ -29,6 +27,7 @@ struct Library {
   std::filesystem::path archive;
   std::string messages;            ///< of compilers and archiver
   std::vector<std::string> facts;  ///< what the drivers do with addresses (shared_variables.h)
+  std::vector<std::filesystem::path> objects;
   int compiled = 0, reused = 0;
 };
 
@@ -43,9 +42,9 @@ struct Archive {
   std::string error;
 };
 /// Objects as an archive, made where it is not what it should be.
-Archive archive(const std::vector<CompileOutcome>& objects, const std::filesystem::path& folder);
+Archive archive(const std::vector<CompileOutcome>& objects, const ObjectFolders& folders);
 
-/// Every library that programs usually ask for, at -O1; for `make build`.
-std::vector<Library> provide_usual_libraries(int jobs);
+/// Every library that programs usually ask for, at -O1, with all its files in `folder`; for `make build`.
+std::vector<Library> provide_usual_libraries(const std::filesystem::path& folder, int jobs);
 
 }  // namespace cc

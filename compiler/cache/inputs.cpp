@@ -74,6 +74,18 @@ std::string BuildInputs::read(const fs::path& path) {
   return text;
 }
 
+void BuildInputs::take(const fs::path& file) {
+  std::lock_guard<std::mutex> lock(mutex_);
+  taken_.push_back(file);
+}
+
+bool BuildInputs::has_lost_one() const {
+  return std::any_of(taken_.begin(), taken_.end(), [](const fs::path& file) {
+    std::error_code none;
+    return !fs::exists(file, none);
+  });
+}
+
 NotingInputs::NotingInputs(BuildInputs& inputs) : before_(noted) { noted = &inputs; }
 NotingInputs::~NotingInputs() { noted = before_; }
 BuildInputs* inputs_of_build() { return noted; }

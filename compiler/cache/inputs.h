@@ -7,6 +7,7 @@
 #include <map>
 #include <mutex>
 #include <string>
+#include <vector>
 
 namespace cc {
 
@@ -34,7 +35,13 @@ class BuildInputs {
   /// By absolute path.
   std::map<std::string, Input> all;
 
+  /// An object or archive of a cache that the build goes on with.
+  void take(const std::filesystem::path& file);
+  /// Whether one of them is gone, as when a user removes the cache while builds run.
+  bool has_lost_one() const;
+
  private:
+  std::vector<std::filesystem::path> taken_;
   std::mutex mutex_;
 };
 

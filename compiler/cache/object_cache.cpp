@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// See object_cache.h. For each object `<key>.o` stands `<key>.deps`: the object's own hash, then a line per
-// file read, its hash before it. Two builds at once may leave one's object beside the other's list: that is
-// no pair.
+// See object_cache.h. `<key>.deps` holds the name of what came of a compilation, then a line per file read,
+// its hash before it. That name is a hash of `<key>.<name>.o`, .txt (messages) and .facts together, so what
+// is there is never replaced: whoever has found an object, such as the linker of another build, keeps it, or
+// misses it.
 #include "object_cache.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,6 +21,7 @@
 #include <thread>
 
 #include "inputs.h"
+#include "install/cache_bound.h"
 
 namespace cc {
 namespace fs = std::filesystem;
@@ -73,6 +76,11 @@ FileLock::~FileLock() {
   if (file_ >= 0) close(file_);
 }
 
+bool FileLock::is_gone() const {
+  struct stat s;
+  return file_ < 0 || (fstat(file_, &s) == 0 && s.st_nlink == 0);
+}
+
 bool write_text(const fs::path& path, const std::string& text) {
   fs::path half = unfinished(path);
   {
@@ -112,33 +120,98 @@ std::vector<std::string> names_of_rule(const std::string& rule) {
   return names;
 }
 
-bool is_fresh(const fs::path& object, const fs::path& deps, BuildInputs& inputs) {
-  std::ifstream in(deps);
-  std::string hash, path;
-  if (!std::getline(in, hash) || hash != content_hash(bytes_of(object))) return false;
+/// What of a compiler stays the same when it is copied, moved or stripped: the linker's note of its content.
+std::string identity_of(const fs::path& program) {
+  std::ifstream in(program, std::ios::binary);
+  std::string head(std::size_t{64} << 10, '\0');
+  in.read(head.data(), std::streamsize(head.size()));
+  head.resize(std::size_t(std::max<std::streamsize>(0, in.gcount())));
+  static const std::string kOwner("\3\0\0\0GNU\0", 8);  // NT_GNU_BUILD_ID's, behind the two lengths
+  constexpr std::size_t kIdBytes = 20;
+  if (const std::size_t at = head.find(kOwner); at != std::string::npos)
+    return content_hash(head.substr(at + kOwner.size(), kIdBytes));
+  std::error_code ec;
+  return program.string() + " " +
+         std::to_string(fs::last_write_time(program, ec).time_since_epoch().count()) + " " +
+         std::to_string(fs::file_size(program, ec));
+}
+
+/// Names of files that stay right when the job's home has moved.
+class Names {
+ public:
+  explicit Names(const CompileJob& job) : home_(job.home) {}
+  /// Of a path, or of a word with paths in it: "-I@/hal_dspic".
+  std::string told(std::string text) const {
+    if (home_.empty()) return text;
+    for (std::size_t at = 0; (at = text.find(home_, at)) != std::string::npos;) {
+      const std::size_t end = at + home_.size();
+      if (end == text.size() || text[end] == '/')
+        text.replace(at, home_.size(), kHome);
+      else
+        at = end;
+    }
+    return text;
+  }
+  std::string here(const std::string& told) const {
+    return told.rfind(kHome, 0) == 0 ? home_ + told.substr(1) : told;
+  }
+
+ private:
+  static constexpr const char* kHome = "@";
+  std::string home_;
+};
+
+/// What a compilation leaves, by the name without its kind.
+struct Files {
+  explicit Files(std::string base) : base_(std::move(base)) {}
+  fs::path object() const { return base_ + ".o"; }
+  fs::path messages() const { return base_ + ".txt"; }
+  fs::path facts() const { return base_ + ".facts"; }
+
+ private:
+  std::string base_;
+};
+std::string name_of(const std::string& object, const std::string& messages, const std::string& facts) {
+  return content_hash(content_hash(object) + content_hash(messages) + content_hash(facts));
+}
+
+/// Takes what an earlier build left at `base`, if it would come out the same.
+bool recall(const std::string& base, const CompileJob& job, BuildInputs& inputs, CompileOutcome& outcome) {
+  std::ifstream in(base + ".deps");
+  const Names names(job);
+  std::string name, hash, path;
+  if (!std::getline(in, name)) return false;
   bool any = false;
   while (std::getline(in, hash, '\t') && std::getline(in, path)) {
     any = true;
-    if (inputs.look_at(path) != hash) return false;
+    if (inputs.look_at(names.here(path)) != hash) return false;
   }
-  return any;
+  const Files files(base + "." + name);
+  std::string messages = bytes_of(files.messages());
+  std::string facts = job.has_facts ? bytes_of(files.facts()) : "";
+  if (!any || name_of(bytes_of(files.object()), messages, facts) != name) return false;
+  outcome.ok = outcome.reused = true;
+  outcome.object = files.object();
+  inputs.take(outcome.object);
+  outcome.messages = std::move(messages);
+  outcome.facts = std::move(facts);
+  return true;
 }
 
 CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const std::string& salt,
-                       const fs::path& cache, BuildInputs& inputs) {
+                       const ObjectFolders& folders, BuildInputs& inputs) {
   CompileOutcome outcome;
   outcome.source = job.source;
   // debug information and messages name the files as the compiler was given them, from where it ran
-  std::string key = job.source.string() + "\n" + job.salt + "\n" + salt;
+  const Names names(job);
+  std::string key = names.told(job.source.string()) + "\n" + job.salt + "\n" + salt;
   if (job.source.is_relative()) key += "\n" + fs::current_path().string();
-  for (const auto& f : job.flags) key += "\n" + f;
-  fs::path base = cache / (job.source.stem().string() + "-" + content_hash(key));
-  outcome.object = base.string() + ".o";
-  fs::path deps = base.string() + ".deps", notes = base.string() + ".txt", facts = base.string() + ".facts";
-  if (fs::exists(outcome.object) && is_fresh(outcome.object, deps, inputs)) {
-    outcome.ok = outcome.reused = true;
-    outcome.messages = bytes_of(notes);
-    if (job.has_facts) outcome.facts = bytes_of(facts);
+  for (const auto& f : job.flags) key += "\n" + names.told(f);
+  const std::string stem = job.source.stem().string() + "-" + content_hash(key);
+  if (!folders.ready.empty() && recall((folders.ready / stem).string(), job, inputs, outcome)) return outcome;
+  const std::string base = (folders.cache / stem).string();
+  if (recall(base, job, inputs, outcome)) {
+    for (const fs::path& used : {fs::path(base + ".deps"), outcome.object}) places::note_used(used);
     return outcome;
   }
   const std::string half = unfinished(base).string();
@@ -146,26 +219,33 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
   if (job.has_facts) argv.insert(argv.end(), {"--facts", half + ".facts"});
+  // from the top folder, so that no name in it is relative
+  if (!job.home.empty())
+    argv.insert(argv.end(),
+                {"-fdebug-compilation-dir=/", "-ffile-prefix-map=" + job.home + "=" + job.called});
   const int64_t began_ns = now_ns();
+  std::error_code ec;
+  fs::create_directories(folders.cache, ec);  // somebody may have removed it since
   auto result = run_process(argv);
   outcome.messages = result.output;
   outcome.ok = result.status == 0;
-  std::error_code ec;
   if (outcome.ok) {
-    std::string lines = content_hash(bytes_of(half)) + "\n";
-    for (const auto& name : names_of_rule(bytes_of(half + ".d")))
-      lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
+    if (job.has_facts) outcome.facts = bytes_of(half + ".facts");
+    const std::string name = name_of(bytes_of(half), outcome.messages, outcome.facts);
+    std::string lines = name + "\n";
+    for (const auto& read : names_of_rule(bytes_of(half + ".d")))
+      lines += inputs.look_at(read, began_ns) + "\t" + names.told(read) + "\n";
     std::istringstream missing(bytes_of(half + ".d.missing"));
-    for (std::string name; std::getline(missing, name);)
-      if (job.listed_below.empty() || name.rfind(job.listed_below, 0) != 0)
-        lines += inputs.look_at(name, began_ns) + "\t" + name + "\n";
-    write_text(notes, result.output);
-    if (job.has_facts) {
-      outcome.facts = bytes_of(half + ".facts");
-      fs::rename(half + ".facts", facts, ec);
-    }
+    for (std::string path; std::getline(missing, path);)
+      if (job.listed_below.empty() || path.rfind(job.listed_below, 0) != 0)
+        lines += inputs.look_at(path, began_ns) + "\t" + names.told(path) + "\n";
+    const Files files(base + "." + name);
+    outcome.object = files.object();
+    inputs.take(outcome.object);
+    const bool has_texts = (outcome.messages.empty() || write_text(files.messages(), outcome.messages)) &&
+                           (!job.has_facts || write_text(files.facts(), outcome.facts));
     fs::rename(half, outcome.object, ec);
-    if (ec || !write_text(deps, lines)) {
+    if (ec || !has_texts || !write_text(base + ".deps", lines)) {
       outcome.ok = false;
       outcome.messages += outcome.object.string() + ": cannot write the object; is the disk full?\n";
     }
@@ -173,30 +253,22 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
     outcome.messages +=
         job.source.string() + ": the compiler stopped with status " + std::to_string(result.status) + "\n";
   }
-  fs::remove(half, ec);
-  fs::remove(half + ".d", ec);
-  fs::remove(half + ".facts", ec);
-  fs::remove(half + ".d.missing", ec);
+  for (const char* kind : {"", ".d", ".facts", ".d.missing"}) fs::remove(half + kind, ec);
   return outcome;
 }
 
 }  // namespace
 
 std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs, const fs::path& compiler,
-                                        const fs::path& cache_dir, int parallel) {
-  std::error_code ec;
-  fs::create_directories(cache_dir, ec);
-  // a rebuilt compiler invalidates everything; its time and size tell
-  auto time = fs::last_write_time(compiler, ec).time_since_epoch().count();
-  std::string salt =
-      compiler.string() + " " + std::to_string(time) + " " + std::to_string(fs::file_size(compiler, ec));
+                                        const ObjectFolders& folders, int parallel) {
+  const std::string salt = identity_of(compiler);  // a rebuilt compiler invalidates everything
   look_at(compiler);
   std::vector<CompileOutcome> outcomes(jobs.size());
   BuildInputs& inputs = *inputs_of_build();
   std::atomic<size_t> next{0};
   auto work = [&] {
     for (size_t i; (i = next++) < jobs.size();)
-      outcomes[i] = compile(jobs[i], compiler, salt, cache_dir, inputs);
+      outcomes[i] = compile(jobs[i], compiler, salt, folders, inputs);
   };
   std::vector<std::thread> others;
   for (int t = 1; t < parallel && size_t(t) < jobs.size(); ++t) others.emplace_back(work);

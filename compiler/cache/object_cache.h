@@ -25,6 +25,8 @@ class FileLock {
   ~FileLock();
   FileLock(const FileLock&) = delete;
   FileLock& operator=(const FileLock&) = delete;
+  /// Whether the file was removed since, as with its whole folder; then others may hold another.
+  bool is_gone() const;
 
  private:
   int file_;
@@ -38,19 +40,28 @@ struct CompileJob {
   std::vector<std::string> flags;
   std::string salt = {};          // anything else the result hangs on
   std::string listed_below = {};  // a folder of which the salt says which headers there are
-  bool has_facts = false;         // the compiler tells what the file does with addresses (shared_variables.h)
+  /// A folder that may lie elsewhere when the object is used: what is below it is told, in the object too, as
+  /// below `called`.
+  std::string home = {}, called = {};
+  bool has_facts = false;  // the compiler tells what the file does with addresses (shared_variables.h)
 };
 
 struct CompileOutcome {
   bool ok = false, reused = false;
-  std::filesystem::path source, object;
+  std::filesystem::path source, object;  ///< an object's name tells its content: no other comes in its place
   std::string messages;
   std::string facts;
 };
 
+/// Where objects are looked for.
+struct ObjectFolders {
+  std::filesystem::path cache;  ///< and where those are put that are compiled; it is made if need be
+  std::filesystem::path ready;  ///< first, and never written to; empty: none
+};
+
 /// All jobs, at most `parallel` at once; outcomes in the order of the jobs. Within a build (build_record.h).
 std::vector<CompileOutcome> compile_all(const std::vector<CompileJob>& jobs,
-                                        const std::filesystem::path& compiler,
-                                        const std::filesystem::path& cache_dir, int parallel);
+                                        const std::filesystem::path& compiler, const ObjectFolders& folders,
+                                        int parallel);
 
 }  // namespace cc

@@ -19,6 +19,7 @@
 #include "llvm/Support/Path.h"
 #include "llvm/Support/SourceMgr.h"
 #include "llvm/Support/raw_ostream.h"
+#include "output_file.h"
 
 namespace cc {
 
@@ -92,10 +93,11 @@ std::vector<std::string> include_folders(const Options& options) {
 }
 
 /// A rule with every file that was read.
-void write_depfile(const std::string& depfile, const std::string& input, const SourceMgr& sources,
+bool write_depfile(const std::string& depfile, const std::string& input, const SourceMgr& sources,
                    const std::vector<std::string>& found) {
-  std::error_code ec;
-  raw_fd_ostream out(depfile, ec);
+  OutputFile file(depfile);
+  if (!file.is_open()) return false;
+  raw_ostream& out = file.stream();
   const auto put = [&](StringRef name) {
     out << ' ';
     for (const char c : name) out << (c == ' ' ? "\\ " : std::string(1, c));
@@ -107,6 +109,7 @@ void write_depfile(const std::string& depfile, const std::string& input, const S
     if (const StringRef name = sources.getMemoryBuffer(i)->getBufferIdentifier(); sys::fs::exists(name))
       put(name);
   out << '\n';
+  return file.finish();
 }
 
 }  // namespace
@@ -144,14 +147,10 @@ int assemble_for_chip(const Options& options) {
   std::unique_ptr<MCObjectFileInfo> files(target.createMCObjectFileInfo(context, /*PIC=*/false));
   context.setObjectFileInfo(files.get());
 
-  std::error_code ec;
-  raw_fd_ostream out(options.output, ec, sys::fs::OF_None);
-  if (ec) {
-    errs() << options.output << ": cannot write: " << ec.message() << "\n";
-    return kUsersFault;
-  }
+  OutputFile out(options.output);
+  if (!out.is_open()) return kUsersFault;
   std::unique_ptr<MCAsmBackend> backend(target.createMCAsmBackend(*subtarget, *registers, mc_options));
-  auto writer = backend->createObjectWriter(out);
+  auto writer = backend->createObjectWriter(out.stream());
   std::unique_ptr<MCCodeEmitter> encoder(target.createMCCodeEmitter(*instructions, *registers, context));
   std::unique_ptr<MCStreamer> streamer(target.createMCObjectStreamer(
       triple, context, std::move(backend), std::move(writer), std::move(encoder), *subtarget, false, false,
@@ -162,8 +161,10 @@ int assemble_for_chip(const Options& options) {
       target.createMCAsmParser(*subtarget, *parser, *instructions, mc_options));
   parser->setTargetParser(*of_target);
   const bool has_failed = parser->Run(/*NoInitialTextSection=*/false);
-  if (!options.depfile.empty()) write_depfile(options.depfile, options.input, sources, found);
-  return has_failed ? kUsersFault : 0;
+  if (!out.finish() || has_failed) return kUsersFault;
+  const bool is_told =
+      options.depfile.empty() || write_depfile(options.depfile, options.input, sources, found);
+  return is_told ? 0 : kUsersFault;
 }
 
 }  // namespace cc

@@ -12,6 +12,7 @@
 #include "llvm/Support/SourceMgr.h"
 #include "llvm/Support/raw_ostream.h"
 #include "llvm/Target/TargetMachine.h"
+#include "output_file.h"
 #include "passes.h"
 
 namespace cc {
@@ -96,26 +97,22 @@ std::unique_ptr<TargetMachine> make_machine(const Options& o) {
 
 bool write(Module& m, const Unit& unit, TargetMachine& machine) {
   const Options& o = unit.options;
-  std::error_code ec;
-  raw_fd_ostream out(o.output, ec, sys::fs::OF_None);
-  if (ec) {
-    errs() << o.output << ": cannot write: " << ec.message() << "\n";
-    return false;
-  }
+  OutputFile out(o.output);
+  if (!out.is_open()) return false;
   if (o.emit_ir) {
-    m.print(out, nullptr);
-    return true;
+    m.print(out.stream(), nullptr);
+    return out.finish();
   }
   legacy::PassManager passes;
   TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
   library.disableAllFunctions();
   passes.add(new TargetLibraryInfoWrapperPass(library));
   const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
-  if (machine.addPassesToEmitFile(passes, out, nullptr, kind)) return false;
+  if (machine.addPassesToEmitFile(passes, out.stream(), nullptr, kind)) return false;
   bool has_failed = false;
   m.getContext().setDiagnosticHandler(std::make_unique<AssemblerMistakes>(unit.facts, has_failed));
   passes.run(m);
-  return !has_failed;
+  return out.finish() && !has_failed;
 }
 
 }  // namespace

@@ -33,6 +33,7 @@
 #include "llvm/IR/Metadata.h"
 #include "llvm/Support/Host.h"
 #include "llvm/Support/raw_ostream.h"
+#include "output_file.h"
 #include "program_checks.h"
 #include "refused.h"
 #include "union_values.h"
@@ -329,11 +330,12 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
 namespace {
 
 /// Appends to what earlier attempts looked for in vain.
-void note_missing(const std::string& file, const std::set<std::string>& missing) {
-  std::error_code ec;
-  llvm::raw_fd_ostream out(file, ec, llvm::sys::fs::OF_Append);
+bool note_missing(const std::string& file, const std::set<std::string>& missing) {
+  OutputFile out(file, llvm::sys::fs::OF_Append);
+  if (!out.is_open()) return false;
   for (const llvm::StringRef name : missing)
-    if (!name.startswith(kFallbackRoot) && !name.startswith(kVendorRoot)) out << name << "\n";
+    if (!name.startswith(kFallbackRoot) && !name.startswith(kVendorRoot)) out.stream() << name << "\n";
+  return out.finish();
 }
 
 /// What clang notes of assembler text in C are numbers that it alone can read: they become places in `facts`,
@@ -408,7 +410,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
   RobotAction action(context, facts, options);
   const bool is_done = ci.ExecuteAction(action);
-  if (!options.depfile.empty()) note_missing(options.depfile + ".missing", missing);
+  if (!options.depfile.empty() && !note_missing(options.depfile + ".missing", missing)) return nullptr;
   auto module = is_done ? action.takeModule() : nullptr;
   if (module) place_assembler(*module, ci.getSourceManager(), facts);
   return module;

@@ -296,7 +296,7 @@ bool lower_for_chip(Unit& unit) {
   leave_upper_bytes_open(m);
   take_structs_from_lists(m);
   mark_structs(m);
-  read_shared_in_place(unit);
+  if (!read_shared_in_place(unit)) return false;
   // as XC16: a delay loop waits at -O0 and -O1 and is gone at -O2 and -Os
   if (unit.options.level < 2) keep_empty_loops(m, *Intrinsic::getDeclaration(&m, Intrinsic::sideeffect));
   if (unit.options.level == 0) {

@@ -62,7 +62,8 @@ struct DelayRoundsPass : llvm::PassInfoMixin<DelayRoundsPass> {
 void wait_as_unoptimised(llvm::Module& m);
 /// -O0: variables lie below parameters in the frame, as with XC16; what lies first is counted in place.
 void place_locals_first(llvm::Module& m);
-/// Loads of variables that an interrupt may change are done where they stand. Before the optimiser.
-void read_shared_in_place(Unit& unit);
+/// Loads of variables that an interrupt may change are done where they stand. Before the optimiser. False,
+/// and told, when the file's facts cannot be written.
+bool read_shared_in_place(Unit& unit);
 
 }  // namespace cc

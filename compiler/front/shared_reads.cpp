@@ -12,8 +12,8 @@
 #include "llvm/IR/InlineAsm.h"
 #include "llvm/IR/InstIterator.h"
 #include "llvm/IR/IntrinsicInst.h"
-#include "llvm/Support/FileSystem.h"
 #include "llvm/Support/raw_ostream.h"
+#include "output_file.h"
 #include "passes.h"
 
 namespace cc {
@@ -260,7 +260,7 @@ class FactWriter {
 
 }  // namespace
 
-void read_shared_in_place(Unit& unit) {
+bool read_shared_in_place(Unit& unit) {
   FactWriter writer(unit.module);
   std::string facts = writer.write();
   std::set<std::string> marked;
@@ -279,12 +279,13 @@ void read_shared_in_place(Unit& unit) {
         else if (auto* move = dyn_cast<MemTransferInst>(&i))
           move->setVolatile(ConstantInt::getTrue(unit.module.getContext()));
       }
-  if (unit.options.facts.empty()) return;
+  if (unit.options.facts.empty()) return true;
   facts += "M";
   for (const std::string& n : marked) facts += " " + n;
-  std::error_code ec;
-  raw_fd_ostream out(unit.options.facts, ec, sys::fs::OF_None);
-  out << facts << "\n";
+  OutputFile out(unit.options.facts);
+  if (!out.is_open()) return false;
+  out.stream() << facts << "\n";
+  return out.finish();
 }
 
 }  // namespace cc

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT
 // twinpuck-cc -c x.c -o x.o: one C or assembler file to one object of the robot's dsPIC30F6014A. twinpuck-cc
 // --link: objects to an image.
+#include <unistd.h>
+
 #include <cstring>
 
 #include "chip.h"
 #include "compiler/cache/memory_limit.h"
 #include "dspic30/link/link.h"
+#include "install/places.h"
 #include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/raw_ostream.h"
 #include "passes.h"
-#include "twinpuck_paths.h"
 
 namespace {
 
@@ -80,7 +82,7 @@ bool parse(int argc, char** argv, cc::Options& o) {
   }
   if (o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
     for (const char* folder : {"firmware/include", "firmware/libc/include"})
-      o.passed_on.push_back(std::string("-I" TWINPUCK_SOURCE_DIR "/") + folder);
+      o.passed_on.push_back("-I" + (places::product_share() / folder).string());
   if (o.input.empty() || o.output.empty()) {
     errs() << "usage: twinpuck-cc -c x.c -o x.o [-O0|-O1|-O2|-Os] [-I..] [-D..] [--sanitize] [--strict]\n";
     return false;
@@ -92,6 +94,18 @@ bool parse(int argc, char** argv, cc::Options& o) {
 void limit_memory(const std::string& what) {
   cc::limit_own_memory(what);
   install_bad_alloc_error_handler([](void*, const char*, bool) { cc::end_without_memory(); });
+}
+
+/// LLVM and clang end the process where a disk refuses what they write; that is nobody's fault of theirs.
+void tell_refused_output() {
+  install_fatal_error_handler([](void*, const char* reason, bool) {
+    StringRef text = reason;
+    if (text.consume_front("IO failure on output stream: ")) {
+      errs() << "twinpuck-cc: output: got " << text << ", expected files that can be written\n";
+      _exit(1);
+    }
+    errs() << "LLVM ERROR: " << text << "\n";
+  });
 }
 
 /// "DRIVER:NAME=NUMBER" or "DRIVER:NAME": the driver, and what is told of it.
@@ -115,6 +129,8 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 /// neither .lst nor .map.
 int link(int argc, char** argv) {
   dspic::link::Options o;
+  o.moved_from = places::kUsualShare;
+  o.moved_to = places::product_share().string();
   for (int i = 2; i < argc; ++i) {
     const StringRef a = argv[i];
     const auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
@@ -171,6 +187,7 @@ int link(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tell_refused_output();
   if (argc > 1 && StringRef(argv[1]) == "--link") return link(argc, argv);
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;

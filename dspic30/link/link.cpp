@@ -10,6 +10,8 @@ namespace dspic::link {
 bool run(const Options& options) {
   Program program;
   program.sources = options.sources;
+  program.moved_from = options.moved_from;
+  program.moved_to = options.moved_to;
   if (read_all(program, options)) {
     keep_used(program);
     choose_filled(program, options);

@@ -47,7 +47,8 @@ struct Options {
   /// Object to source, archive to its name for people. Line tables may have been written for a copy
   /// elsewhere.
   std::map<std::string, std::string> sources;
-  std::string host_library;      ///< of `libraries` the archive with the drivers below
+  std::string moved_from, moved_to;  ///< as in CodeMap: sources of the library
+  std::string host_library;          ///< of `libraries` the archive with the drivers below
   std::vector<HostDriver> host;  ///< their variables come first in RAM, whether the host fills them or not
   bool is_filled_by_host = false;
   std::uint32_t host_table = 0;     ///< value of kHostTableSymbol
@@ -108,6 +109,7 @@ struct Program {
   std::string unread;  ///< an archive of a format that is not read, for what stays undefined
   std::vector<std::pair<Symbol, Symbol>> twice;    ///< two definitions of one name, the first one first
   std::map<std::string, std::string> sources;      ///< of Options
+  std::string moved_from, moved_to;                ///< of Options
   std::map<std::uint32_t, std::uint32_t> words;    ///< the image: program address to word
   std::map<std::uint32_t, std::uint32_t> handles;  ///< function beyond 16 bits to its GOTO
   std::uint32_t dinit = 0, dinit_words = 0;        ///< start-up table

@@ -72,6 +72,8 @@ std::string listing(const Program& program, const Options& options) {
   for (const Section& s : program.sections)
     if (s.used && s.kind == Kind::Code) code[s.address] = &s;
   CodeMap lines;
+  lines.moved_from = options.moved_from;
+  lines.moved_to = options.moved_to;
   for (const Section& s : program.sections)
     if (s.name == ".debug_line") lines.add_lines(s.bytes.data(), s.bytes.size());
   lines.sort();

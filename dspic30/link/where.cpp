@@ -9,6 +9,8 @@ namespace dspic::link {
 std::string in_c(const std::string& name) { return name.substr(name.size() > 1 && name[0] == '_'); }
 
 Whereabouts::Whereabouts(const Program& program) : program_(program) {
+  lines_.moved_from = program.moved_from;
+  lines_.moved_to = program.moved_to;
   constexpr std::uint32_t kGap = 4;  // what begins at 0 counts as left out
   std::uint32_t next = kGap;
   for (const Section& s : program.sections)

@@ -4,6 +4,7 @@
 #include <elf.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -241,7 +242,9 @@ bool write_file(Program& program, const std::string& path, const std::string& co
   std::ofstream out(path, std::ios::binary);
   out << content;
   out.close();
-  if (!out) program.errors.push_back(path + ": cannot write");
+  if (!out)
+    program.errors.push_back(path + ": output: got " + std::strerror(errno) +
+                             ", expected a file that can be written");
   return bool(out);
 }
 

@@ -72,7 +72,9 @@ class LineProgram {
     return true;
   }
 
-  std::uint16_t file_number(const std::string& name) {
+  std::uint16_t file_number(std::string name) {
+    if (const std::string& from = map_.moved_from; !from.empty() && name.rfind(from + "/", 0) == 0)
+      name.replace(0, from.size(), map_.moved_to);
     const auto known = std::find(map_.files.begin(), map_.files.end(), name);
     if (known != map_.files.end()) return static_cast<std::uint16_t>(known - map_.files.begin());
     if (map_.files.size() >= 0xFFFF) return 0;

@@ -35,6 +35,8 @@ struct CodeMap {
   /// Of each unit, by its place in .debug_line: its numbers of files, from 1 on, as numbers of `files`.
   std::map<std::uint32_t, std::vector<std::uint16_t>> unit_files;
   std::vector<std::string> files;  ///< whole paths where the folder of the compilation is known
+  /// Set before lines are added: files below the first folder lie below the second one here.
+  std::string moved_from, moved_to;
 
   /// Null where there is none.
   const Function* function_at(std::uint32_t address) const;

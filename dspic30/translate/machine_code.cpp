@@ -19,6 +19,11 @@ namespace {
 
 constexpr char kWordMark = '#', kKnownMark = '!';
 
+void* function_named(const std::string& name) {
+  static const bool is_found = find_own_functions();
+  return is_found ? dlsym(RTLD_DEFAULT, name.c_str()) : nullptr;
+}
+
 void* address_of(const std::string& name, void* self, const std::vector<Item>& items) {
   if (name.empty()) return self;
   if (name == kArrive) return reinterpret_cast<void*>(&Cpu::arrive_from);
@@ -37,7 +42,7 @@ void* address_of(const std::string& name, void* self, const std::vector<Item>& i
   if (name[0] == kWordMark)
     return reinterpret_cast<void*>(
         function_of(static_cast<std::uint32_t>(std::strtoul(name.c_str() + 1, nullptr, 16))));
-  return dlsym(RTLD_DEFAULT, name.c_str());
+  return function_named(name);
 }
 
 std::uint32_t sum_of(std::string_view text) {
@@ -112,6 +117,13 @@ bool read_text(const std::string& text, const std::string& key, MachineCode& cod
     std::string name = part_of(body);
     code.addresses.push_back({offset, std::move(name), body.number(kNumberBytes)});
   }
+  return true;
+}
+
+bool find_own_functions() {
+  static const char anything = 0;
+  Dl_info here{};
+  if (dladdr(&anything, &here) && here.dli_fname) dlopen(here.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
   return true;
 }
 

@@ -32,6 +32,10 @@ inline constexpr const char *kArrive = "arrive", *kGoOn = "go on", *kReturn = "r
 /// What it calls the known routine that an item calls.
 std::string known_routine(std::size_t item);
 
+/// Names of the core's functions can be found from here on, by translated code and by the translator, even
+/// where the core lies in a library that was loaded for its loader alone, such as a module of Python. True.
+bool find_own_functions();
+
 /// Put into memory, for as long as the process lives, as the code of these items. Null: a name is not known
 /// here, or no memory.
 Run placed(const MachineCode& code, const std::vector<Item>& items);

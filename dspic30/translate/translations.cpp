@@ -62,7 +62,7 @@ bool load(const fs::path& file, const std::string& key, MachineCode& code) {
 
 }  // namespace
 
-// a library that was built anew has another time or size
+// a library that was built anew has another time or size; those of others may be in use
 void Translations::open() {
   is_open_ = true;
   const fs::path all = std::exchange(folder_, {});
@@ -71,10 +71,6 @@ void Translations::open() {
   if (failed || all.empty()) return;
   folder_ =
       all / name_of(hash_of(std::to_string(time) + " " + std::to_string(fs::file_size(library_, failed))));
-  for (fs::directory_iterator it(all, failed), end; !failed && it != end; it.increment(failed)) {
-    std::error_code none;
-    if (it->path() != folder_) fs::remove_all(it->path(), none);
-  }
   kept_ = hashes_in(folder_);
   warm_ = warm_in(folder_);
   if (std::max(kept_.size(), warm_.size()) > kMostKept) {
@@ -126,6 +122,7 @@ void Translations::note_warm(const Cpu& cpu, const Decoded* head) {
 bool Translations::has_compiler() {
   if (!is_loaded_) {
     is_loaded_ = true;
+    find_own_functions();
     void* const library = dlopen(library_.c_str(), RTLD_LAZY | RTLD_LOCAL);
     const auto* const cpu_bytes =
         library ? static_cast<const std::size_t*>(dlsym(library, "dspic_translate_cpu_bytes")) : nullptr;

@@ -17,8 +17,8 @@ namespace dspic::translate {
 class Translations final : public Translator {
  public:
   /// `library`: the one with the compiler, loaded when it is first needed; without it, nothing is translated.
-  /// `folder`: where translations are kept; those of another library, and more than 4000, are removed from
-  /// it, when one is first asked for. Empty, or one that cannot be written: they are not kept.
+  /// `folder`: where translations are kept, each library's below it; more than 4000 of this one's are removed
+  /// when one is first asked for. Empty, or one that cannot be written: they are not kept.
   Translations(std::filesystem::path library, std::filesystem::path folder)
       : library_(std::move(library)), folder_(std::move(folder)) {}
   Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) override;

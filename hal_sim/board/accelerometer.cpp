@@ -65,7 +65,7 @@ sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz) {
   return {w.x + offset[0], w.y + offset[1], w.z + offset[2]};
 }
 
-int accelerometer_counts(const Board& robot, int axis, Cycle at) {
+static int sound_accelerometer_counts(const Board& robot, int axis, Cycle at) {
   const double pole_hz = axis == 2 ? kAccPoleZHz : kAccPoleXyHz;
   const sim::Vec3 f = felt_force_m_s2(robot, at, pole_hz);
   double g = (axis == 0 ? f.y : axis == 1 ? f.x : f.z) / kStandardGravityMS2;
@@ -77,6 +77,15 @@ int accelerometer_counts(const Board& robot, int axis, Cycle at) {
   constexpr double kRail = kAccRailV / kAdcReferenceV * (kAdcMax + 1);
   const double output = std::clamp(kAccZeroCounts + kAccCountsPerG * g, kRail, kAdcMax + 1 - kRail);
   return static_cast<int>(std::clamp(std::floor(output + 0.5), 0.0, double{kAdcMax}));
+}
+
+int accelerometer_counts(const Board& robot, int axis, Cycle at) {
+  const int counts = sound_accelerometer_counts(robot, axis, at);
+  const Damage* const damage = robot.damage();
+  if (!damage || damage->acc_stuck.at(at) == 0) return counts;
+  const int stuck = damage->acc_counts[static_cast<std::size_t>(axis)];
+  if (stuck != counts) damage->note(damage->acc_stood_still, at);
+  return stuck;
 }
 
 }  // namespace board

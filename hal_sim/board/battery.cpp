@@ -51,17 +51,26 @@ Battery::Battery(double capacity_wh, double volts, double amps)
     : capacity_as_(capacity_wh * 3600 / mean_rest_v()),
       amps_(amps),
       charge_(charge_at(volts + amps * kInnerResistanceOhm)),
-      rest_v_(rest_v(charge_)) {}
+      rest_v_(rest_v(charge_)),
+      resistance_ohm_(kInnerResistanceOhm) {}
 
 double Battery::charge(Cycle at) const { return charge_ - flow(at) * kSecondsPerCycle / capacity_as_; }
 
-double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kInnerResistanceOhm; }
+double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - drop_v_ - amps_ * resistance_ohm_; }
+
+double Battery::sound_voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kInnerResistanceOhm; }
+
+void Battery::weaken(double drop_v, double more_ohm, Cycle at) {
+  settle(at);
+  drop_v_ = drop_v;
+  resistance_ohm_ = kInnerResistanceOhm + more_ohm;
+}
 
 double Battery::used_wh(Cycle at) const {
   // the voltage at rest falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10
   // mV
   const double mean_v = (rest_v_ + rest_v(charge(at))) / 2;
-  return (used_j_ + (mean_v * flow(at) - kInnerResistanceOhm * heat(at)) * kSecondsPerCycle) / 3600;
+  return (used_j_ + ((mean_v - drop_v_) * flow(at) - resistance_ohm_ * heat(at)) * kSecondsPerCycle) / 3600;
 }
 
 double Battery::minutes_left(Cycle at) const {
@@ -90,7 +99,7 @@ void Battery::settle(Cycle at) {
 
 void Battery::set_voltage(double volts, Cycle at) {
   settle(at);
-  charge_ = charge_at(volts + amps_ * kInnerResistanceOhm);
+  charge_ = charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
   rest_v_ = rest_v(charge_);
 }
 
@@ -101,7 +110,7 @@ void Battery::begin_again(double volts, double amps, Cycle at) {
 
 Cycle Battery::below(double volts, Cycle at) const {
   if (voltage(at) < volts || amps_ <= 0) return kNever;
-  const double left = charge(at) - charge_at(volts + amps_ * kInnerResistanceOhm);
+  const double left = charge(at) - charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
   const double cycles = std::floor(left * capacity_as_ / amps_ * static_cast<double>(kFcyHz));
   if (cycles >= static_cast<double>(kNever / 2)) return kNever;
   // rounding may leave it a cycle off either way

@@ -25,6 +25,12 @@ class Battery {
   /// As in the constructor, from `at` on; what was used stays counted.
   void begin_again(double volts, double amps, Cycle at);
 
+  /// From `at` on the cell's own voltage is lower by so much (V, 0 or more), and so much more resistance lies
+  /// before its terminals (ohm, 0 or more).
+  void weaken(double drop_v, double more_ohm, Cycle at);
+  /// What the terminals would have otherwise, V.
+  double sound_voltage(Cycle at) const;
+
   double amps() const { return amps_; }
   /// V at the terminals.
   double voltage(Cycle at) const;
@@ -59,6 +65,7 @@ class Battery {
   double rest_v_;        // of that charge
   double used_j_ = 0;    // joule
   double drawn_as_ = 0;  // ampere seconds
+  double drop_v_ = 0, resistance_ohm_;
   double flow_ = 0, heat_ = 0;
 };
 

@@ -127,7 +127,8 @@ std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   }
   if (index == kG)
     level = static_cast<std::uint16_t>((setup_.selector & 15) << kSelectorPins[0].bit | mask(kG, kI2cPins));
-  return static_cast<std::uint16_t>((lat & ~tris) | (level & tris)) & kImplemented[index];
+  const auto pins = static_cast<std::uint16_t>((lat & ~tris) | (level & tris));
+  return with_held_pins(index, pins) & kImplemented[index];
 }
 
 void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
@@ -233,13 +234,21 @@ Cycle Board::port_horizon(char port, Cycle at) const {
 }
 
 std::uint32_t Board::leds(Cycle at) const {
-  const unsigned ring = lat_[kA] & ~static_cast<unsigned>(tris_[kA]) & kRingMask;
+  const std::uint32_t driven = driven_leds(at);
+  return damage_ ? driven & ~damage_->dead_leds : driven;
+}
+
+std::uint32_t Board::driven_leds(Cycle at) const {
+  const unsigned ring =
+      with_held_pins(kA, static_cast<std::uint16_t>(lat_[kA] & ~static_cast<unsigned>(tris_[kA]))) &
+      kRingMask;
   std::uint32_t mask = 0;
   for (int led = 0; ring && led < 8; ++led)
     if (ring & kRingLedPins[led].mask()) mask |= 1u << led;
   unsigned other = lat_[kC];
   if (pulses(at) & 16u) other |= kNearLeds;
   other &= ~static_cast<unsigned>(tris_[kC]);
+  other = with_held_pins(kC, static_cast<std::uint16_t>(other));
   if (other & kBodyLedPin.mask()) mask |= 1u << 8;
   if (other & kFrontLedPin.mask()) mask |= 1u << 9;
   return mask;
@@ -294,6 +303,9 @@ void Board::begin_again(sim::Clicks now, Cycle at) {
   line_since_.fill(at);
   lit_since_.fill(at);
   noise_.begin_at(at);
+  for (Stepper& motor : motors_) motor.lose_steps(nullptr);
+  damage_.reset();
+  battery_.weaken(0, 0, at);
   battery_.begin_again(setup_.battery_v, kProcessorA + kBluetoothA + kBoardA, at);
   follow_power(at);
 }
@@ -393,6 +405,7 @@ __attribute__((always_inline)) inline double Board::reflected_counts(int sensor,
 }
 
 int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
+  if (damage_) return damaged_ir_counts(sensor, at, lit_for);
   const bool lit = lit_for >= 0;
   if (is_dark()) return lit ? adc_counts(kAdcMax - reflected_counts(sensor, at, lit_for)) : kAdcMax;
   double light = 0;
@@ -405,6 +418,59 @@ int Board::ir_counts(int sensor, Cycle at, Cycle lit_for) const {
   return adc_counts(kAdcMax - light - (lit ? reflected_counts(sensor, at, lit_for) : 0));
 }
 
+/// ir_counts() with all that may be wrong, one thing behind the other.
+int Board::damaged_ir_counts(int sensor, Cycle at, Cycle lit_for) const {
+  const bool lit = lit_for >= 0;
+  const Damage::Sensor& wrong = damage_->sensors[static_cast<std::size_t>(sensor)];
+  double light = 0, noise = 0;
+  if (scene_ && is_lit_)
+    light = sim::sense_irradiance_w_m2(*scene_, setup_.robot, sensor, clock_.click_at(at)) *
+            setup_.ambient_counts_per_w_m2;
+  if (setup_.ambient_noise_counts > 0)
+    noise = setup_.ambient_noise_counts *
+            noise_.normal(lit ? NoiseOf::AmbientLit : NoiseOf::AmbientDark, sensor, at);
+  const double settled = lit ? settled_share(sensor, lit_for) : 0;
+  double reflected = lit ? reflected_counts(sensor, at, lit_for) : 0;
+  // in the order of a sum without damage, so that one which is over leaves the same numbers
+  const auto counts = [&] { return adc_counts(kAdcMax - (light + noise) - reflected); };
+  int before = counts();
+  const auto noted = [&](const Noticed& what) {
+    const int now = counts();
+    if (now != before) damage_->note(what, at);
+    before = now;
+  };
+  if (damage_->lifted.at(at) != 0) {
+    reflected = lit ? setup_.ir_offset_counts[static_cast<std::size_t>(sensor)] * settled : 0;
+    noted(damage_->saw_nothing);
+  }
+  if (const double lamp = wrong.lamp_w_m2.at(at); lamp != 0) {
+    light += lamp * setup_.ambient_counts_per_w_m2;
+    noted(wrong.lit);
+  }
+  if (const double cover = wrong.cover.at(at); cover >= 0) {
+    light = 0;
+    if (lit)
+      reflected = (cover * setup_.ir_gain[static_cast<std::size_t>(sensor)] +
+                   setup_.ir_offset_counts[static_cast<std::size_t>(sensor)]) *
+                  settled;
+    noted(wrong.covered);
+  }
+  if (const double passes = wrong.transmits.at(at); passes != 1) {
+    light *= passes;
+    reflected *= passes * passes;
+    noted(wrong.dirty);
+  }
+  if (wrong.emitter_dead.at(at) != 0) {
+    reflected = 0;
+    noted(wrong.dead);
+  }
+  if (wrong.receiver_dead.at(at) != 0) {
+    light = reflected = 0;
+    noted(wrong.dead);
+  }
+  return before;
+}
+
 double Board::mic_level(int microphone, Cycle at) const {
   if (!scene_ || !sim::has_sound(*scene_)) return kMicIdleCounts;
   const Place& place = kMicrophone[microphone];
@@ -414,7 +480,13 @@ double Board::mic_level(int microphone, Cycle at) const {
 }
 
 int Board::mic_counts_in_sound(int microphone, Cycle at) const {
-  const double level = std::clamp(mic_level(microphone, at), -kMicLoudest, kMicLoudest);
+  double level = std::clamp(mic_level(microphone, at), -kMicLoudest, kMicLoudest);
+  if (damage_ && damage_->deaf[static_cast<std::size_t>(microphone)].at(at) != 0) {
+    // less than a count is nothing that a converter tells apart
+    if (std::fabs(level - kMicIdleCounts) >= 1)
+      damage_->note(damage_->heard_nothing[static_cast<std::size_t>(microphone)], at);
+    level = kMicIdleCounts;
+  }
   return with_mic_noise(std::llround((level + 0.5) * (1 << kMicFraction)), microphone, at);
 }
 
@@ -479,8 +551,10 @@ int Board::battery_counts(Cycle at) const {
 }
 
 int Board::proximity_counts(int sensor, Cycle at) const {
+  const Unseen unseen(*this);
   if (const auto counts = driver_ ? driver_->proximity_counts(sensor, at) : std::nullopt) return *counts;
   if (!scene_) return 0;
+  if (damage_) return damaged_ir_counts(sensor, at, -1) - damaged_ir_counts(sensor, at, 40 * kIrSettleCycles);
   const sim::Clicks when = clock_.click_at(at);
   const double seen = sim::sense_proximity(*scene_, setup_.robot, sensor, when).value *
                       setup_.ir_gain[static_cast<std::size_t>(sensor)];

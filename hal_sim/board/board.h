@@ -28,6 +28,7 @@
 #include "hal_sim/board/clock.h"
 #include "hal_sim/board/codec.h"
 #include "hal_sim/board/cycle.h"
+#include "hal_sim/board/damage.h"
 #include "hal_sim/board/data_eeprom.h"
 #include "hal_sim/board/diagnosis.h"
 #include "hal_sim/board/i2c_bus.h"
@@ -184,6 +185,51 @@ class Board {
   void turn_selector(int position);
   void set_battery(double volts, Cycle at);
 
+  // --- damage: damage.h, line_damage.h
+  // ----------------------------------------------------------------------
+
+  /// Null: nothing was ever wrong with it.
+  const Damage* damage() const { return damage_.get(); }
+  /// For doing damage; made when it is asked for first. Sensors that a program has never read before see it
+  /// from the cycles on that its numbers name; who changes dead LEDs or held pins calls damage_changed().
+  Damage& be_damaged();
+  /// Steps of a wheel are lost from `at` on as damage() says.
+  void steps_changed(Wheel wheel, Cycle at);
+  /// Counts that the accelerometer's outputs stand still at, from `at` on.
+  void stick_accelerometer(bool is, Cycle at);
+  /// LEDs or pins were changed.
+  void damage_changed(Cycle at);
+  /// Can a level be forced on this pin? Inputs, and those of LEDs.
+  static bool can_be_held(char port, int bit);
+  /// Somebody holds a pin at a level, or (empty) lets it go.
+  void hold_pin(char port, int bit, std::optional<bool> level, Cycle at);
+  /// Levels with those that somebody holds.
+  std::uint16_t with_held_pins(int port, std::uint16_t levels) const {
+    if (!damage_) return levels;
+    const auto p = static_cast<std::size_t>(port);
+    return static_cast<std::uint16_t>((levels & ~damage_->held_pins[p]) |
+                                      (damage_->held_levels[p] & damage_->held_pins[p]));
+  }
+  /// The LEDs that a program has switched on, dead ones too.
+  std::uint32_t driven_leds(Cycle at) const;
+  void set_clock_ppm(double ppm, sim::Clicks at);
+  void weaken_battery(double drop_v, double more_ohm, Cycle at) { battery_.weaken(drop_v, more_ohm, at); }
+  /// While one of these lives, somebody outside asks: what is wrong has not been noticed by the robot.
+  class Unseen {
+   public:
+    explicit Unseen(const Board& board) : damage_(board.damage()) {
+      if (damage_) ++damage_->unseen;
+    }
+    ~Unseen() {
+      if (damage_) --damage_->unseen;
+    }
+    Unseen(const Unseen&) = delete;
+    Unseen& operator=(const Unseen&) = delete;
+
+   private:
+    const Damage* damage_;
+  };
+
   // --- checks ---------------------------------------------------------------------------------------------
 
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
@@ -212,6 +258,7 @@ class Board {
     return is_any_used_ && (uarts_[0].next_arrival(at) < kNever || uarts_[1].next_arrival(at) < kNever);
   }
   Uart& uart(int number) { return uarts_[static_cast<std::size_t>(number - 1)]; }
+  const Uart& uart(int number) const { return uarts_[static_cast<std::size_t>(number - 1)]; }
   /// Camera, motion sensors and turrets hang here.
   I2cBus& i2c() { return i2c_; }
   const I2cBus& i2c() const { return i2c_; }
@@ -247,7 +294,7 @@ class Board {
   /// `lit_for` cycles (negative: off). Noise of this and of the other inputs: noise.h.
   int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   /// Is every dark sample at the converter's top: no light, no noise?
-  bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit_; }
+  bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit_ && !damage_; }
   /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
   /// alike.
   int mic_counts(int microphone, Cycle at) const;
@@ -294,6 +341,7 @@ class Board {
   /// Counts of a microphone without noise.
   double mic_level(int microphone, Cycle at) const;
   void find_sound();
+  __attribute__((noinline)) int damaged_ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at) const;
   /// Levels of microphones are in 2^-kMicFraction counts, whole: a robot's are converted 50,000 times a
   /// second.
@@ -357,6 +405,7 @@ class Board {
   double other_a_ = kProcessorA + kBluetoothA + kBoardA, coils_a_[2] = {0, 0},
          emitters_a_ = 0;  // as followed last
 
+  std::unique_ptr<Damage> damage_;
   Stepper motors_[2] = {Stepper(-1), Stepper(+1)};
   Codec codec_;
   std::array<Uart, 2> uarts_;

@@ -151,7 +151,10 @@ std::array<double, 4> Camera::edges(const Part& part) const {
 void Camera::render(const std::vector<double>& x, const std::vector<double>& y, Cycle at) {
   const sim::Scene* scene = board_.scene();
   transposed_ = mount_ == CameraMount::Sideways;
-  if (!scene) {
+  const Damage* const damage = board_.damage();
+  const bool is_covered = damage && damage->lens_covered.at(at) != 0;
+  if (is_covered) damage->note(damage->saw_dark, at);
+  if (!scene || is_covered) {
     light_.assign(x.size() * y.size(), sim::Light{});
     return;
   }

@@ -3,7 +3,7 @@
 // processor starts (world time 0 plus the boot delay); its crystal is off by a fixed number of parts per
 // billion. Conversions are exact rationals in integers: monotone, without drift, the same on every machine.
 // A robot that begins again counts on, and starts its processor anew: each stretch keeps its own beginning.
-// Not modelled: a crystal whose rate changes with temperature.
+// Somebody may change the crystal's error between two ticks; what has passed stays as it was.
 #pragma once
 #include <algorithm>
 #include <cstdint>
@@ -25,10 +25,25 @@ class RobotClock {
   /// At world time `at` the robot is as at world time 0; its cycles count on. Not before the last beginning.
   void begin_again(sim::Clicks at) {
     const Cycle first = std::max<Cycle>(0, cycle_at(at));
-    past_.push_back({begun_, boot_, first_});
+    past_.push_back({begun_, boot_, first_, ppb_});
     begun_ = at;
     boot_ = at + boot_delay_;
     first_ = first;
+  }
+
+  /// From world time `at` on the crystal is off by so much; not before the last change. Cycles count on: less
+  /// than one is lost.
+  void set_ppb(std::int64_t ppb, sim::Clicks at) {
+    if (ppb == ppb_) return;
+    if (at <= boot_) {  // it has not begun to count
+      ppb_ = ppb;
+      return;
+    }
+    const Cycle first = cycle_at(at);
+    past_.push_back({begun_, boot_, first_, ppb_});
+    begun_ = boot_ = at;
+    first_ = first;
+    ppb_ = ppb;
   }
 
   /// Last cycle that has begun at world time `at`; negative before the robot has booted for the first time.
@@ -54,9 +69,10 @@ class RobotClock {
   struct Stretch {
     sim::Clicks begun, boot;
     Cycle first;
+    std::int64_t ppb;
   };
   RobotClock alone(const Stretch& stretch) const {
-    RobotClock clock(ppb_);
+    RobotClock clock(stretch.ppb);
     clock.boot_ = stretch.boot;
     clock.first_ = stretch.first;
     return clock;

@@ -116,6 +116,15 @@ bool Lsm330::is_block_update(const Half& half) const {
 
 /// Number of the newest sample, -1 before the first. Sample n is taken (n + 1) periods after the beginning.
 std::int64_t Lsm330::newest(const Half& half, Cycle at) const {
+  // outputs that stand still have the last sample of before, and say that none is new
+  if (const Damage* damage = robot_.damage(); damage && !half.gyro && damage->acc_stuck.at(at) != 0) {
+    if (newest_of(half, at) != newest_of(half, damage->acc_since)) damage->note(damage->acc_stood_still, at);
+    at = std::min(at, damage->acc_since);
+  }
+  return newest_of(half, at);
+}
+
+std::int64_t Lsm330::newest_of(const Half& half, Cycle at) const {
   const double rate = rate_hz(half);
   if (rate == 0) return half.known_sample;
   return static_cast<std::int64_t>(static_cast<double>(at - half.since) * rate /

@@ -48,6 +48,7 @@ class Lsm330 final : public I2cDevice {
   double rate_hz(const Half& half) const;
   bool is_block_update(const Half& half) const;
   std::int64_t newest(const Half& half, Cycle at) const;
+  std::int64_t newest_of(const Half& half, Cycle at) const;
   std::int16_t value(Half& half, int axis, Cycle at);
   std::uint8_t data_byte(Half& half, int number, Cycle at);
   void set(Half& half, int number, std::uint8_t value, Cycle at);

@@ -13,6 +13,9 @@
 // Not modelled: half steps and single-coil drive, pull-out at high load, ringing, steps that a real rotor
 // does not finish because its coils were on for too short.
 //
+// A motor may be made to lose steps (damage.h): its rotor follows the pattern electrically, its wheel does
+// not.
+//
 // Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once
 #include <algorithm>
@@ -20,6 +23,7 @@
 #include <cstdint>
 
 #include "hal_sim/board/checks_params.h"
+#include "hal_sim/board/damage.h"
 #include "hal_sim/board/epuck_params.h"
 
 namespace board {
@@ -69,7 +73,9 @@ class Stepper {
     return now.faults_;
   }
   /// Is the rotor where a driver holding `phase` believes it to be?
-  bool is_at(int phase) const { return connected_ && rotor_phase() == (phase & 3); }
+  bool is_at(int phase) const { return connected_ && !loss_ && rotor_phase() == (phase & 3); }
+  /// Steps are lost from now on as this says, or, null, no longer; it outlives the motor's use.
+  void lose_steps(StepLoss* loss) { loss_ = loss; }
 
   /// Do the four pins drive the coils (outputs), or do they float (inputs, as after a reset)?
   void connect(bool driven, Cycle at = 0) {
@@ -181,10 +187,14 @@ class Stepper {
                   kPhase[kPhaseCoils[3]] == 3);
     return kPhase[coils & 15];
   }
-  int rotor_phase() const { return static_cast<int>(motion_.steps * forward_) & 3; }
+  int rotor_phase() const { return static_cast<int>((motion_.steps + slipped_) * forward_) & 3; }
 
   void step(int direction, Cycle at, Cycle move) {
     if (motion_.ready_at - at > kPullOutCycles) return faults_.too_fast.note(at);
+    if (loss_ && loss_->takes(at)) {
+      slipped_ += direction;
+      return;
+    }
     before_ = motion_;
     if (move <= 0) move = at - motion_.stepped_at;
     motion_ = motion_.stepped(direction, position(at), at, move);
@@ -203,6 +213,8 @@ class Stepper {
   bool connected_ = false;
   unsigned coils_ = 0;
   Cycle changed_at_ = 0;  // when the present pattern began
+  StepLoss* loss_ = nullptr;
+  std::int64_t slipped_ = 0;  // steps that the rotor's field has made and the wheel has not
   Motion motion_, before_;
   StepperFaults faults_;
 };

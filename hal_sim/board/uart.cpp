@@ -44,6 +44,8 @@ void Uart::begin_again(Cycle at) {
   on_wire_.clear();
   wire_free_at_ = at;
   break_until_ = -1;
+  injected_.clear();
+  damage_.reset();
   if (end_) end_->begin_again();
 }
 
@@ -133,8 +135,23 @@ void Uart::hand_out(Cycle at) {
   if (end_ && end_->takes_packets() && free_at_ > at && done < kPacketBytes &&
       at - out_ends_.front() < kPacketCycles)
     return;
-  if (end_) end_->deliver(out_bytes_.data(), out_ends_.data(), done);
-  for (std::string* heard : heard_) heard->append(reinterpret_cast<const char*>(out_bytes_.data()), done);
+  const auto carried = [this](const std::uint8_t* bytes, const Cycle* ends, std::size_t count) {
+    if (end_ && count > 0) end_->deliver(bytes, ends, count);
+    for (std::string* heard : heard_) heard->append(reinterpret_cast<const char*>(bytes), count);
+  };
+  if (!damage_) {
+    carried(out_bytes_.data(), out_ends_.data(), done);
+  } else {
+    std::vector<std::uint8_t> bytes;
+    std::vector<Cycle> ends;
+    for (std::size_t i = 0; i < done; ++i) {
+      std::uint8_t byte = out_bytes_[i];
+      if (!damage_->from_robot.carry(byte, out_ends_[i])) continue;
+      bytes.push_back(byte);
+      ends.push_back(out_ends_[i]);
+    }
+    carried(bytes.data(), ends.data(), bytes.size());
+  }
   out_bytes_.erase(out_bytes_.begin(), out_bytes_.begin() + static_cast<std::ptrdiff_t>(done));
   out_ends_.erase(out_ends_.begin(), out_ends_.begin() + static_cast<std::ptrdiff_t>(done));
 }
@@ -150,19 +167,34 @@ void Uart::exchange(Cycle at) {
   hand_out(at);
   settle(at);
   // before the program has set the UART up, nobody outside is made to talk to a deaf robot
-  if (!end_ || !enabled_) return;
+  if (!enabled_) return;
   // only what the wire can carry soon is taken; the rest waits outside
   constexpr std::size_t kAhead = 64;
-  while (on_wire_.size() < kAhead) {
+  // what is wrong with a line is found out as bytes begin: those of a damaged one begin when they are due
+  constexpr std::size_t kDueSoon = 128;
+  const auto may_begin = [&] {
+    return on_wire_.size() < kAhead &&
+           (!damage_ || wire_free_at_ - at < static_cast<Cycle>(kDueSoon) * byte_cycles());
+  };
+  while (end_ && may_begin()) {
     std::uint8_t bytes[kAhead];
     const std::size_t count = end_->collect(bytes, kAhead - on_wire_.size(), at);
     if (count == 0) break;
-    for (std::size_t i = 0; i < count; ++i) {
-      wire_free_at_ = std::max(wire_free_at_, at) + byte_cycles();
-      on_wire_.push_back({bytes[i], wire_free_at_});
-      if (watch_) watch_->frame(number_, false, bytes[i], wire_free_at_ - byte_cycles(), wire_free_at_);
-    }
+    for (std::size_t i = 0; i < count; ++i) begin_on_wire(bytes[i], at);
   }
+  for (; !injected_.empty() && may_begin(); injected_.pop_front()) {
+    ++injected_count_;
+    begin_on_wire(static_cast<std::uint8_t>(injected_.front()), at);
+  }
+}
+
+/// A byte comes to the robot as soon as the line is free.
+void Uart::begin_on_wire(std::uint8_t byte, Cycle at) {
+  wire_free_at_ = std::max(wire_free_at_, at) + byte_cycles();
+  if (damage_ && !damage_->to_robot.carry(byte, wire_free_at_)) return;
+  ++came_;
+  on_wire_.push_back({byte, wire_free_at_});
+  if (watch_) watch_->frame(number_, false, byte, wire_free_at_ - byte_cycles(), wire_free_at_);
 }
 
 }  // namespace board

@@ -10,12 +10,15 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <list>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/first_use.h"
+#include "hal_sim/board/line_damage.h"
 #include "hal_sim/board/uart_end.h"
 
 namespace board {
@@ -93,8 +96,28 @@ class Uart {
   void exchange(Cycle at);
   /// Has exchange() nothing to do, now and until the program sends something or its end is idle no more?
   bool is_quiet() const {
-    return (!end_ || (end_->is_idle() && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty();
+    return (!end_ || (end_->is_idle() && break_until_ < 0)) && out_ends_.empty() && on_wire_.empty() &&
+           injected_.empty();
   }
+  /// Somebody puts these bytes on the line to the robot, behind what its end sends. They wait until the
+  /// program has set the UART up.
+  void inject(const std::string& bytes) {
+    if (bytes.empty()) return;
+    injected_.insert(injected_.end(), bytes.begin(), bytes.end());
+    first_use.note();
+  }
+  /// Bytes of inject() that have begun to come, since power-up.
+  std::int64_t injected() const { return injected_count_; }
+  /// And those that wait.
+  std::int64_t queued() const { return injected_count_ + static_cast<std::int64_t>(injected_.size()); }
+  /// What is wrong with the line; null: nothing ever was. Made by the first damage().
+  LineDamage& damage(std::uint64_t seed, int robot, int uart) {
+    if (!damage_) damage_ = std::make_unique<LineDamage>(seed, robot, uart);
+    return *damage_;
+  }
+  const LineDamage* damage() const { return damage_.get(); }
+  /// Bytes that have begun to come to the robot, since power-up, however many it has looked at.
+  std::int64_t came() const { return came_; }
   // --- a chip's own UART on the wire
   /// Follows the chip's switch and rate; bytes come in at that rate.
   void follow_chip(bool enabled, int brg) {
@@ -118,6 +141,7 @@ class Uart {
   int waiting(Cycle at) const;
   void cut_off(Cycle at);
   void hand_out(Cycle at);
+  void begin_on_wire(std::uint8_t byte, Cycle at);
 
   struct Arrival {
     std::uint8_t byte;
@@ -135,6 +159,9 @@ class Uart {
   std::vector<Cycle> out_ends_;
   std::int64_t sent_ = 0;
 
+  std::unique_ptr<LineDamage> damage_;
+  std::deque<char> injected_;  // not yet on the wire
+  std::int64_t injected_count_ = 0, came_ = 0;
   std::list<Arrival> on_wire_;
   Cycle wire_free_at_ = 0;
   std::int64_t received_ = 0;

@@ -40,7 +40,8 @@ BoardOutside::BoardOutside(Board& board) : board_(board), selector_(board.select
 }
 
 bool BoardOutside::may_have_news() const {
-  return board_.has_wire_news() || selector_ != board_.selector() || (asks_camera_ && camera_.has_news());
+  return board_.has_wire_news() || selector_ != board_.selector() || pins_changed_ != pins_changed() ||
+         (asks_camera_ && camera_.has_news());
 }
 
 bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
@@ -60,8 +61,9 @@ bool BoardOutside::begin_window(dspic::Dspic30f6014a& chip, Cycle now) {
   }
   const bool camera_is_new = asks_camera_ && camera_.take_news();
   asks_camera_ = false;
-  if (selector_ != board_.selector() || camera_is_new) {
+  if (selector_ != board_.selector() || camera_is_new || pins_changed_ != pins_changed()) {
     selector_ = board_.selector();
+    pins_changed_ = pins_changed();
     chip.outside_changed(now);
     news = true;
   }
@@ -166,10 +168,13 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
       std::uint16_t levels = kSerialIn;
       if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
       if (board_.remote().level(at)) levels |= kRemote;
-      return {levels, static_cast<std::uint16_t>(kSerialIn | kBattery | kRemote)};
+      return {board_.with_held_pins(board::kF, levels),
+              static_cast<std::uint16_t>(kSerialIn | kBattery | kRemote)};
     }
     case Port::G:
-      return {static_cast<std::uint16_t>((board_.selector() & 15) << board::kSelectorPins[0].bit | kI2cLines),
+      return {board_.with_held_pins(board::kG,
+                                    static_cast<std::uint16_t>(
+                                        (board_.selector() & 15) << board::kSelectorPins[0].bit | kI2cLines)),
               static_cast<std::uint16_t>(kSelector | kI2cLines)};
     default:
       return {};
@@ -206,6 +211,8 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
     return CameraPins::has(pin.bit) ? camera_.nth_edge(pin.bit, edge == dspic::Edge::Rising, after, n)
                                     : dspic::kNever;
   }
+  if (pin.port == Port::F && board_.damage() && (board_.damage()->held_pins[board::kF] >> pin.bit & 1))
+    return dspic::kNever;
   if (pin.port == Port::F && pin.bit == board::kRemotePin.bit && n == 1)
     return board_.remote().next_edge(after, edge == dspic::Edge::Falling);
   if (pin.port == Port::D) return dspic::kNever;

@@ -87,6 +87,7 @@ class BoardOutside final : public dspic::Outside {
   __attribute__((noinline)) int beside_microphones(int channel, Cycle at);
   /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
   Cycle lit_for(int sensor, Cycle at) const;
+  std::uint64_t pins_changed() const { return board_.damage() ? board_.damage()->pins_changed : 0; }
   std::uint16_t on_board(dspic::Port port, std::uint16_t lat, Cycle at);
   void follow_emitters(dspic::Port port, Cycle at);
   void follow_breaks(std::uint16_t low, Cycle at);
@@ -94,7 +95,8 @@ class BoardOutside final : public dspic::Outside {
   board::Board& board_;
   // what every window looks at
   int selector_;
-  bool asks_camera_ = false;  // pins or registers of the camera, since it was last asked for news
+  std::uint64_t pins_changed_ = 0;  // by hand
+  bool asks_camera_ = false;        // pins or registers of the camera, since it was last asked for news
   bool shares_coils_ = false;
   bool takes_pictures_ = false, sends_sound_ = false;  // the program ever did
   std::int64_t followed_writes_ = -1;  // to the chip's registers, when its UARTs were looked at last

@@ -4,22 +4,20 @@
 #include <cstdlib>
 
 #include "dspic30/translate/translations.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 
 namespace chip {
 
 namespace fs = std::filesystem;
 
-fs::path translator_library() {
-  std::error_code none;
-  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& folder : {here, here.parent_path()})
-    if (const fs::path library = folder / "twinpuck-translate.so"; fs::exists(library, none)) return library;
-  return {};
-}
+fs::path translator_library() { return places::tools_folder() / "twinpuck-translate.so"; }
 
 dspic::Translator* translation() {
   static const fs::path library = translator_library();
-  static dspic::translate::Translations translations(library, library.parent_path() / "translations");
+  static dspic::translate::Translations translations(library, places::cache_folder("translations"));
+  static const bool is_bounded = (places::keep_caches_within_bound(), true);
+  static_cast<void>(is_bounded);
   return std::getenv("TWINPUCK_INTERPRET") ? nullptr : &translations;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The translator of hot code (dspic30/translate). Its library lies beside the program that runs, or a folder
-// above; beside the library lies `translations/`, what earlier runs translated.
+// The translator of hot code (dspic30/translate). Its library is one of the product's tools; what earlier
+// runs translated lies in the user's cache.
 #pragma once
 #include <filesystem>
 
@@ -8,7 +8,7 @@
 
 namespace chip {
 
-/// Empty: it is not there.
+/// It may not be there.
 std::filesystem::path translator_library();
 /// For Processor::set_translator(); null with TWINPUCK_INTERPRET set. Without the library, nothing is
 /// translated.

@@ -291,7 +291,7 @@ void DapServer::set_instruction_breakpoints(const Json& request) {
 
 void DapServer::data_breakpoint_info(const Json& request) {
   const std::string name = request.at("arguments").at("name");
-  if (!session_->find_data(name))
+  if (!session_->values().find_data(name))
     return respond(request, {{"dataId", nullptr}, {"description", name + " is no variable or register"}});
   respond(request, {{"dataId", name}, {"description", name}, {"accessTypes", {"write"}}});
 }
@@ -340,7 +340,7 @@ nlohmann::json DapServer::told_source(std::size_t file) const {
 nlohmann::json DapServer::reference(const CValue& value) const {
   std::optional<Address> address;
   if (value.type.stars > 0 && !value.part && !value.data) address = value.raw;
-  if (const auto place = session_->place_of(value); place) address = place->address;
+  if (const auto place = session_->values().place_of(value); place) address = place->address;
   return address ? Json(fmt::format("{:#x}", *address)) : Json();
 }
 
@@ -361,17 +361,17 @@ void DapServer::variables(const Json& request) {
         if (session_->pc() >= variable.begin && session_->pc() < variable.end) {
           CValue value;
           value.part = Part{{&variable, variable.type}, {}, session_->pc()};
-          add(variable.name, session_->typed(*value.part), reference(value));
+          add(variable.name, session_->values().typed(*value.part), reference(value));
         }
       for (const auto& [name, address] : session_->file().objects) {
         const auto bytes = session_->file().object_bytes.find(name);
         if (bytes == session_->file().object_bytes.end() || bytes->second > 4) continue;
         CValue known;
         std::string none;
-        if (!session_->compute(name, Want::Place, known, none)) continue;
+        if (!session_->values().compute(name, Want::Place, known, none)) continue;
         const Address at = address;
-        const auto value = session_->read({at, bytes->second});
-        add(name, known.part ? session_->typed(*known.part) : fmt::format("{} ({:#x})", value, value),
+        const auto value = session_->values().read({at, bytes->second});
+        add(name, known.part ? session_->values().typed(*known.part) : fmt::format("{} ({:#x})", value, value),
             fmt::format("{:#x}", at));
       }
       break;
@@ -379,7 +379,7 @@ void DapServer::variables(const Json& request) {
       for (const dspic::SfrInfo& info : dspic::kSfrRows)
         if (const auto data = session_->machine().find_register(info.name);
             data && info.address > dspic::sfr("DISICNT"))
-          add(info.name, fmt::format("{:#06x}", session_->read(*data)));
+          add(info.name, fmt::format("{:#06x}", session_->values().read(*data)));
       break;
     default:
       break;
@@ -393,8 +393,8 @@ void DapServer::set_variable(const Json& request) {
   std::string error;
   if (!session_->assign(name, arguments.at("value").get<std::string>(), error)) return refuse(request, error);
   CValue now;
-  if (!session_->compute(name, Want::Number, now, error)) return refuse(request, error);
-  const std::string text = session_->shown(now);
+  if (!session_->values().compute(name, Want::Number, now, error)) return refuse(request, error);
+  const std::string text = session_->values().shown(now);
   respond(request, {{"value", text.substr(0, text.find(" ("))}});
 }
 
@@ -411,11 +411,11 @@ void DapServer::evaluate(const Json& request) {
   }
   CValue value, number;
   std::string error;
-  if (!session_->compute(text, Want::Place, value, error)) return refuse(request, error);
+  if (!session_->values().compute(text, Want::Place, value, error)) return refuse(request, error);
   // what pointers point to is what one wants to see
-  const bool is_pointer = value.type.stars > 0 && session_->compute(text, Want::Number, number, error);
-  if (!value.part && !session_->compute(text, Want::Number, number, error)) return refuse(request, error);
-  Json body{{"result", value.part ? session_->shown(value) : session_->shown(number)},
+  const bool is_pointer = value.type.stars > 0 && session_->values().compute(text, Want::Number, number, error);
+  if (!value.part && !session_->values().compute(text, Want::Number, number, error)) return refuse(request, error);
+  Json body{{"result", value.part ? session_->values().shown(value) : session_->values().shown(number)},
             {"variablesReference", 0}};
   if (const Json memory = reference(is_pointer ? number : value); !memory.is_null())
     body["memoryReference"] = memory;

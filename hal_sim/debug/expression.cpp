@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "sim_core/base/did_you_mean.h"
+
 namespace debug {
 
 namespace {
@@ -205,7 +207,11 @@ class Expression {
       at_ = dot;
     }
     if (names_.find_other(name, value)) return value;
-    return fail("unknown symbol '" + name + "', expected a variable of the image that is known here");
+    std::vector<std::string> known;
+    for (const auto& variable : names_.debug_info().variables) known.push_back(variable.name);
+    const std::string near = sim::did_you_mean(name, known);
+    return fail("unknown symbol '" + name + "', expected a variable of the image that is known here" +
+                (near.empty() ? "" : "; did you mean '" + near + "'?"));
   }
 
   // --- constants

@@ -92,7 +92,7 @@ std::string Monitor::execute(const std::string& given) {
   if (word == "x") return memory(rest);
   if (word == "backtrace" || word == "bt") return backtrace();
   if (word == "regs") return session_.machine().registers();
-  if (word == "locals") return session_.locals();
+  if (word == "locals") return session_.values().locals();
   if (word == "list" || word == "l") return list(rest);
   if (word == "dis") return disassemble(rest);
   if (word == "goto") return go(rest);
@@ -215,18 +215,18 @@ std::string Monitor::world() {
 std::string Monitor::print(const std::string& expression) {
   CValue value;
   std::string error;
-  const bool is_known = session_.compute(expression, Want::Place, value, error);
-  const auto data = is_known && !value.part ? session_.find_data(expression) : std::nullopt;
+  const bool is_known = session_.values().compute(expression, Want::Place, value, error);
+  const auto data = is_known && !value.part ? session_.values().find_data(expression) : std::nullopt;
   if (data && data->bytes > 4 &&
       !session_.machine().find_register(expression)) {  // of no known type: its words
     std::string text = expression + " =";
     for (unsigned i = 0; i + 1 < data->bytes && i < 64; i += 2)
-      text += fmt::format(" {:#06x}", session_.read({data->address + i, 2}));
+      text += fmt::format(" {:#06x}", session_.values().read({data->address + i, 2}));
     return text + (data->bytes > 64 ? " ...\n" : "\n");
   }
-  if (is_known && value.part) return expression + " = " + session_.shown(value) + "\n";
-  if (!session_.compute(expression, Want::Number, value, error)) return error + "\n";
-  std::string text = session_.shown(value);
+  if (is_known && value.part) return expression + " = " + session_.values().shown(value) + "\n";
+  if (!session_.values().compute(expression, Want::Number, value, error)) return error + "\n";
+  std::string text = session_.values().shown(value);
   // a register, or a symbol without a type, has no sign of its own
   const unsigned bits =
       data && data->width == 0 && value.type.kind == CType::Kind::Unsigned ? 8 * data->bytes : 0;
@@ -249,7 +249,7 @@ std::string Monitor::memory(const std::string& rest) {
   const std::string at = first_word(rest, count);
   std::int64_t address = 0;
   std::string error;
-  if (!session_.evaluate(at, address, error)) return error + "\n";
+  if (!session_.values().evaluate(at, address, error)) return error + "\n";
   const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
   std::string text;
   for (int i = 0; i < words; ++i) {

@@ -393,7 +393,7 @@ int Session::hit_here(bool count) {
 bool Session::holds(const Breakpoint& b) const {
   CValue value;
   std::string error;
-  return b.condition.empty() || !compute(b.condition, Want::Number, value, error) ||
+  return b.condition.empty() || !values().compute(b.condition, Want::Number, value, error) ||
          value.is_true();  // what cannot be told stops
 }
 
@@ -402,7 +402,7 @@ bool Session::watch_hit() {
   std::size_t n = 0;
   for (Breakpoint& b : breakpoints_) {
     if (b.data.bytes == 0) continue;
-    const std::uint64_t value = read(b.data);
+    const std::uint64_t value = values().read(b.data);
     const bool is_new = n >= watched_.size();
     if (is_new) watched_.push_back(value);
     std::uint64_t& old = watched_[n++];
@@ -450,7 +450,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   } else {
     std::int64_t address = 0;
     const bool is_address = where.rfind("0x", 0) == 0 || where.rfind('*', 0) == 0;
-    if (is_address && evaluate(where.substr(where[0] == '*'), address, error) && address >= 0 &&
+    if (is_address && values().evaluate(where.substr(where[0] == '*'), address, error) && address >= 0 &&
         address < machine_->code_end() && machine_->is_code(static_cast<std::uint32_t>(address))) {
       b.addresses = {static_cast<std::uint32_t>(address)};
       b.what = where;
@@ -462,7 +462,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   std::int64_t value = 0;
   std::string wrong;
   if (b.addresses.empty()) return nullptr;
-  if (!condition.empty() && !evaluate(condition, value, wrong, b.addresses[0])) {
+  if (!condition.empty() && !values(b.addresses[0]).evaluate(condition, value, wrong)) {
     error = "condition: " + wrong;
     return nullptr;
   }
@@ -515,17 +515,17 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
   Breakpoint b;
   b.what = what;
   std::int64_t value = 0;
-  if (const auto data = find_data(what)) {
+  if (const auto data = values().find_data(what)) {
     b.data = *data;
     b.data.bytes = std::min(data->bytes, 8u);
   } else if (!what.empty() && what[0] == '*') {  // a word at an address
-    if (!evaluate(what.substr(1), value, error)) return nullptr;
+    if (!values().evaluate(what.substr(1), value, error)) return nullptr;
     b.data = {static_cast<Address>(value) & kAddressMask, 2};
   } else {
     error = "got '" + what + "', expected a variable, a register or *address";
     return nullptr;
   }
-  if (!condition.empty() && !evaluate(condition, value, error)) return nullptr;
+  if (!condition.empty() && !values().evaluate(condition, value, error)) return nullptr;
   b.condition = condition;
   b.id = ++last_id_;
   breakpoints_.push_back(std::move(b));
@@ -536,7 +536,7 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
 void Session::look_at_watchpoints() {
   watched_.clear();
   for (const Breakpoint& b : breakpoints_)
-    if (b.data.bytes) watched_.push_back(read(b.data));
+    if (b.data.bytes) watched_.push_back(values().read(b.data));
 }
 
 bool Session::remove(int id) {
@@ -561,13 +561,22 @@ void Session::set_marks() {
 
 // --- data
 
+bool Session::assign(const std::string& name, const std::string& expression, std::string& error) {
+  Data to;
+  std::uint64_t raw = 0;
+  if (!values().assignment(name, expression, to, raw, error)) return false;
+  if (write(to, raw)) return true;
+  error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
+  return false;
+}
+
 bool Session::write(const Data& data, std::uint64_t value) {
   if (data.bytes > 8) return false;
   Data whole = data;
   whole.width = 0;
   if (data.width > 0) {
     const std::uint64_t mask = ((std::uint64_t{1} << data.width) - 1) << data.bit;
-    value = (read(whole) & ~mask) | (value << data.bit & mask);
+    value = (values().read(whole) & ~mask) | (value << data.bit & mask);
   }
   if (!machine_->write(whole, &value)) return false;
   if (has_ended()) return true;

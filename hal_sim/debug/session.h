@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "hal_sim/debug/expression.h"
 #include "hal_sim/debug/machine.h"
+#include "hal_sim/debug/values.h"
 #include "hal_sim/twin/twin.h"
 
 namespace debug {
@@ -92,28 +92,10 @@ class Session final : private chip::StepWatch {
   const std::string& robot() const { return setup_.robot; }
 
   // --- data
-  /// An expression of C (expression.h): variables and their parts (motors[n].speed, m->speed, *p), registers
-  /// (LATA, LATA.LATA6, w0, sr), pc, cycle, nesting. Names are those that are known at `pc`; without it,
-  /// where the program stands. False: `error` says why.
-  bool compute(const std::string& expression, Want want, CValue& value, std::string& error,
-               std::optional<std::uint32_t> pc = {}) const;
-  /// The same as a whole number, a float cut to its whole part: an address, a count.
-  bool evaluate(const std::string& expression, std::int64_t& value, std::string& error,
-                std::optional<std::uint32_t> pc = {}) const;
-  /// "3 (0x3)", "-1.75", "{mode = 1, speed = {-300, 300}}".
-  std::string shown(const CValue& value) const;
-  /// Where it lies, if it lies somewhere.
-  std::optional<Data> place_of(const CValue& value) const;
-  /// A variable, a part of one, a register.
-  std::optional<Data> find_data(const std::string& name) const;
+  /// What the program's names mean; without `pc`, where it stands. Until it runs on.
+  Values values(std::optional<std::uint32_t> pc = {}) const { return Values(machine_->runner(), pc); }
   /// As C's assignment. False: `error` says why.
   bool assign(const std::string& name, const std::string& expression, std::string& error);
-  /// As C would write it: "{mode = 1, speed = {-300, 300}}".
-  std::string typed(const Part& part) const;
-  /// Parameters and variables of the function that runs, a line each.
-  std::string locals() const;
-  /// At most 8 bytes; 0 where nothing can be read.
-  std::uint64_t read(const Data& data) const;
   /// As the debugger's doing, again in each repetition. False: not a place that can be written.
   bool write(const Data& data, std::uint64_t value);
 
@@ -133,11 +115,6 @@ class Session final : private chip::StepWatch {
   std::vector<Breakpoint>& breakpoints() { return breakpoints_; }
 
  private:
-  class SeenNames;
-  /// Symbols and registers, whatever the debug information says.
-  std::optional<Data> find_untyped(const std::string& name) const;
-  std::optional<Address> address_of(const Part& part) const;
-  std::optional<std::uint64_t> raw_value(const Part& part) const;
   enum class State { Running, Stopped, Ended };
   struct Moment {
     Cycle at = 0;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Names and values of the debugger: variables by their symbols and types, registers by the chip's table.
+#include "hal_sim/debug/values.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 
 #include "dspic30/asm/expression.h"
-#include "dspic30/memory/sfr_table.h"
-#include "hal_sim/debug/session.h"
+#include "hal_sim/debug/machine.h"
 
 namespace debug {
 
@@ -53,64 +53,49 @@ std::string number_text(const CValue& value) {
 
 }  // namespace
 
-/// What expressions see of the program.
-class Session::SeenNames final : public Names {
- public:
-  SeenNames(const Session& session, std::optional<std::uint32_t> pc)
-      : session_(session), pc_(pc.value_or(session.pc())) {}
+bool Values::find_variable(const std::string& name, Part& part) const {
+  std::string none;
+  part = {{}, {}, pc_};
+  return debug_info().find(name, pc_, part.found, none);
+}
 
-  const dspic::DebugInfo& debug_info() const override { return session_.file().debug.info(); }
-  bool find_variable(const std::string& name, Part& part) const override {
-    std::string none;
-    part = {{}, {}, pc_};
-    return debug_info().find(name, pc_, part.found, none);
+bool Values::find_other(const std::string& name, CValue& value) const {
+  const auto known = [&](CType::Kind kind, unsigned bits, std::int64_t raw) {
+    value = {};
+    value.type = {kind, bits};
+    value.raw = static_cast<std::uint64_t>(raw);
+    return true;
+  };
+  if (name == "pc") return known(CType::Kind::Signed, 64, runner_.processor().pc());
+  if (name == "cycle") return known(CType::Kind::Signed, 64, runner_.processor().now());
+  if (name == "nesting") return known(CType::Kind::Signed, 64, runner_.device().nesting());
+  if (const auto data = find_untyped(name)) {
+    Data some = *data;
+    some.bytes = std::min(data->bytes, 4u);
+    known(CType::Kind::Unsigned, some.width > 0 ? static_cast<unsigned>(some.width) : 8 * some.bytes, 0);
+    value.data = some;
+    return true;
   }
-  bool find_other(const std::string& name, CValue& value) const override {
-    const auto known = [&](CType::Kind kind, unsigned bits, std::int64_t raw) {
-      value = {};
-      value.type = {kind, bits};
-      value.raw = static_cast<std::uint64_t>(raw);
-      return true;
-    };
-    if (name == "pc") return known(CType::Kind::Signed, 64, session_.pc());
-    if (name == "cycle") return known(CType::Kind::Signed, 64, session_.now());
-    if (name == "nesting") return known(CType::Kind::Signed, 64, session_.machine().nesting());
-    if (const auto data = session_.find_untyped(name)) {
-      Data some = *data;
-      some.bytes = std::min(data->bytes, 4u);
-      known(CType::Kind::Unsigned, some.width > 0 ? static_cast<unsigned>(some.width) : 8 * some.bytes, 0);
-      value.data = some;
-      return true;
-    }
-    const auto code = session_.file().functions.find(name);
-    return code != session_.file().functions.end() &&
-           known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
-  }
-  std::optional<Address> address_of(const Part& part) const override { return session_.address_of(part); }
-  std::optional<std::uint64_t> raw_value(const Part& part) const override { return session_.raw_value(part); }
-  std::optional<std::uint64_t> raw_value(const Data& data) const override {
-    if (data.bytes > 8) return {};
-    return session_.read(data);
-  }
+  const auto code = runner_.file().functions.find(name);
+  return code != runner_.file().functions.end() &&
+         known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
+}
 
- private:
-  const Session& session_;
-  const std::uint32_t pc_;
-};
+std::optional<std::uint64_t> Values::raw_value(const Data& data) const {
+  if (data.bytes > 8) return {};
+  return read(data);
+}
 
-bool Session::compute(const std::string& expression, Want want, CValue& value, std::string& error,
-                      std::optional<std::uint32_t> at_pc) const {
+bool Values::compute(const std::string& expression, Want want, CValue& value, std::string& error) const {
   if (!is_too_deep(expression))
-    return debug::compute(SeenNames(*this, at_pc), dspic::assembly::trimmed(expression), want,
-                          at_pc.has_value(), value, error);
+    return debug::compute(*this, dspic::assembly::trimmed(expression), want, is_tried_, value, error);
   error = "got '" + expression + "', expected at most 8 [ or * within one another";
   return false;
 }
 
-bool Session::evaluate(const std::string& expression, std::int64_t& value, std::string& error,
-                       std::optional<std::uint32_t> at_pc) const {
+bool Values::evaluate(const std::string& expression, std::int64_t& value, std::string& error) const {
   CValue number;
-  if (!compute(expression, Want::Number, number, error, at_pc)) return false;
+  if (!compute(expression, Want::Number, number, error)) return false;
   value = number.whole();
   return true;
 }
@@ -118,13 +103,13 @@ bool Session::evaluate(const std::string& expression, std::int64_t& value, std::
 // --- parts of variables
 
 // registers are data, too
-std::optional<Address> Session::address_of(const Part& part) const {
+std::optional<Address> Values::address_of(const Part& part) const {
   if (part.pointed) return (*part.pointed + part.found.offset) & kAddressMask;
   const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
   if (!place || place->in == In::Value) return {};
   Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
   if (place->in == In::Frame) {
-    base += machine_->register_value(place->base);
+    base += read(Machine::register_data(place->base));
   } else if (place->in != In::Memory) {
     base = Machine::register_data(place->value).address;
   }
@@ -132,25 +117,47 @@ std::optional<Address> Session::address_of(const Part& part) const {
 }
 
 /// Its bits, from the lowest on; none: it is kept nowhere, or no number.
-std::optional<std::uint64_t> Session::raw_value(const Part& part) const {
-  const auto& type = file().debug.info().types[static_cast<std::size_t>(part.found.type)];
+std::optional<std::uint64_t> Values::raw_value(const Part& part) const {
+  const auto& type = debug_info().types[static_cast<std::size_t>(part.found.type)];
   if (type.bytes == 0 || type.bytes > 8 || type.kind == Kind::Array || type.kind == Kind::Struct) return {};
   std::uint64_t raw = 0;
   if (const auto address = address_of(part)) {
-    machine_->read({*address, bytes_of(type, part.found)}, &raw);
+    raw = read({*address, bytes_of(type, part.found)});
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
     if (!place) return {};
-    raw = place->in == In::Register ? machine_->register_value(place->value)
+    raw = place->in == In::Register ? read(Machine::register_data(place->value))
                                     : static_cast<std::uint64_t>(std::int64_t{place->value});
   }
   const unsigned bits = bits_of(type, part.found);
   return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
 }
 
-std::string Session::typed(const Part& whole) const {
+std::optional<CValue> Values::number(const Part& whole) const {
+  const auto& debug = debug_info();
+  const auto& type = debug.types[static_cast<std::size_t>(whole.found.type)];
+  const auto raw = raw_value(whole);
+  if (!raw) return {};
+  CValue value;
+  value.type = type_of(debug, whole.found.type);
+  if (whole.found.width > 0) value.type.bits = static_cast<unsigned>(whole.found.width);
+  value.raw = *raw;
+  if (value.type.is_float() && value.type.bits > 32) {
+    std::memcpy(&value.real, &*raw, sizeof value.real);
+  } else if (value.type.is_float()) {
+    float number;
+    std::memcpy(&number, &*raw, sizeof number);
+    value.real = static_cast<double>(number);
+  } else if (value.type.stars == 0 && value.type.kind == CType::Kind::Signed) {
+    const unsigned spare = 64 - bits_of(type, whole.found);
+    value.raw = static_cast<std::uint64_t>(static_cast<std::int64_t>(*raw << spare) >> spare);
+  }
+  return value;
+}
+
+std::string Values::typed(const Part& whole) const {
   constexpr unsigned kMostElements = 32;
-  const auto& debug = file().debug.info();
+  const auto& debug = debug_info();
   const auto& type = debug.types[static_cast<std::size_t>(whole.found.type)];
   Part part = whole;
   if (type.kind == Kind::Array) {
@@ -172,47 +179,32 @@ std::string Session::typed(const Part& whole) const {
     return "{" + text + "}";
   }
   if (type.bytes == 0 || type.bytes > 8) return "(of no known type)";
-  const auto raw = raw_value(whole);
-  if (!raw) return "(not kept here)";
-  CValue value;
-  value.type = type_of(debug, whole.found.type);
-  if (whole.found.width > 0) value.type.bits = static_cast<unsigned>(whole.found.width);
-  value.raw = *raw;
-  if (value.type.is_float() && value.type.bits > 32) {
-    std::memcpy(&value.real, &*raw, sizeof value.real);
-  } else if (value.type.is_float()) {
-    float number;
-    std::memcpy(&number, &*raw, sizeof number);
-    value.real = static_cast<double>(number);
-  } else if (value.type.stars == 0 && value.type.kind == CType::Kind::Signed) {
-    const unsigned spare = 64 - bits_of(type, whole.found);
-    value.raw = static_cast<std::uint64_t>(static_cast<std::int64_t>(*raw << spare) >> spare);
-  }
-  return number_text(value);
+  const auto value = number(whole);
+  return value ? number_text(*value) : "(not kept here)";
 }
 
-std::string Session::shown(const CValue& value) const {
+std::string Values::shown(const CValue& value) const {
   return value.part ? typed(*value.part) : number_text(value);
 }
 
-std::string Session::locals() const {
+std::string Values::locals() const {
   std::string text;
-  for (const auto& variable : file().debug.info().variables)
-    if (pc() >= variable.begin && pc() < variable.end)
-      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc()}) + "\n";
+  for (const auto& variable : debug_info().variables)
+    if (pc_ >= variable.begin && pc_ < variable.end)
+      text += "  " + variable.name + " = " + typed({{&variable, variable.type}, {}, pc_}) + "\n";
   return text.empty() ? "no variables of a function are known here\n" : text;
 }
 
-std::optional<Data> Session::place_of(const CValue& value) const {
+std::optional<Data> Values::place_of(const CValue& value) const {
   if (!value.part) return value.data;
   const auto address = address_of(*value.part);
   if (!address) return {};
   const dspic::DebugInfo::Found& found = value.part->found;
-  return Data{*address, bytes_of(file().debug.info().types[static_cast<std::size_t>(found.type)], found),
+  return Data{*address, bytes_of(debug_info().types[static_cast<std::size_t>(found.type)], found),
               found.bit, found.width};
 }
 
-std::optional<Data> Session::find_data(const std::string& name) const {
+std::optional<Data> Values::find_data(const std::string& name) const {
   CValue value;
   std::string error;
   if (compute(name, Want::Place, value, error))
@@ -222,34 +214,35 @@ std::optional<Data> Session::find_data(const std::string& name) const {
   return error.empty() ? value.data : std::nullopt;
 }
 
-std::optional<Data> Session::find_untyped(const std::string& name) const {
-  if (const auto object = file().objects.find(name); object != file().objects.end()) {
-    const auto bytes = file().object_bytes.find(name);
-    return Data{object->second, bytes == file().object_bytes.end() ? 2u : bytes->second};
+std::optional<Data> Values::find_untyped(const std::string& name) const {
+  const auto& file = runner_.file();
+  if (const auto object = file.objects.find(name); object != file.objects.end()) {
+    const auto bytes = file.object_bytes.find(name);
+    return Data{object->second, bytes == file.object_bytes.end() ? 2u : bytes->second};
   }
-  return machine_->find_register(name);
+  return Machine::find_register(name);
 }
 
-std::uint64_t Session::read(const Data& data) const {
+std::uint64_t Values::read(const Data& data) const {
   std::uint64_t value = 0;
-  Data some = data;
-  some.bytes = std::min(data.bytes, 8u);
-  machine_->read(some, &value);
+  runner_.read_memory(data.address & kAddressMask, &value, std::min(data.bytes, 8u));
   return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 
-bool Session::assign(const std::string& name, const std::string& expression, std::string& error) {
-  CValue to, value;
+bool Values::assignment(const std::string& name, const std::string& expression, Data& to, std::uint64_t& raw,
+                        std::string& error) const {
+  CValue target, value;
   if (!compute(expression, Want::Number, value, error)) return false;
   const auto data = find_data(name);
-  const bool is_typed = compute(name, Want::Place, to, error) && (to.part || to.data);
-  if (!data || data->bytes > 8 || (is_typed && to.type.kind == CType::Kind::Image && to.type.stars == 0)) {
+  const bool is_typed = compute(name, Want::Place, target, error) && (target.part || target.data);
+  if (!data || data->bytes > 8 ||
+      (is_typed && target.type.kind == CType::Kind::Image && target.type.stars == 0)) {
     error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
     return false;
   }
-  // as an assignment of C converts it
-  const CValue held = is_typed ? converted(value, to.type) : value;
-  std::uint64_t raw = held.raw;
+  const CValue held = is_typed ? converted(value, target.type) : value;
+  to = *data;
+  raw = held.raw;
   if (held.type.is_float() && held.type.bits > 32) {
     std::memcpy(&raw, &held.real, sizeof raw);
   } else if (held.type.is_float()) {
@@ -257,9 +250,20 @@ bool Session::assign(const std::string& name, const std::string& expression, std
     raw = 0;
     std::memcpy(&raw, &number, sizeof number);
   }
-  if (write(*data, raw)) return true;
-  error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
-  return false;
+  return true;
+}
+
+bool number_of(const chip::ChipRunner& runner, const std::string& expression, bool is_tried, double& value,
+               std::string& error) {
+  CValue number;
+  if (!Values(runner, 0, is_tried).compute(expression, Want::Number, number, error)) return false;
+  if (number.type.is_float())
+    value = number.real;
+  else if (number.type.kind == CType::Kind::Unsigned || number.type.stars > 0)
+    value = static_cast<double>(number.raw);
+  else
+    value = static_cast<double>(static_cast<std::int64_t>(number.raw));
+  return true;
 }
 
 }  // namespace debug

@@ -43,6 +43,12 @@ class FirmwareMind final : public sim::RobotMind {
     board_horizon_ = 0;
     set_idle_until(0);
   }
+  /// The same, and its wheels may turn otherwise from now on.
+  void disturb() {
+    course_.until = 0;
+    turns_ = 0;
+    wake();
+  }
   /// For changing, too.
   board::Board& board() {
     wake();

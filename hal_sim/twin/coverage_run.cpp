@@ -11,6 +11,7 @@
 
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/chip/coverage.h"
+#include "install/places.h"
 #include "sim_core/base/input_file.h"
 
 namespace twin {
@@ -21,7 +22,7 @@ constexpr std::size_t kLongestCoverage = 256u << 20;  // bytes
 
 /// Not the library's, nor what serves it.
 bool is_own_source(const std::string& path) {
-  const std::string root = project_root() + "/";
+  const std::string root = places::share_root().string() + "/";
   if (path.empty() || path.compare(0, root.size(), root) != 0) return path.find('/') != std::string::npos;
   for (const char* room : {"hal_dspic/", "hal_sim/", "compiler/", "firmware/library/", "firmware/include/",
                            "firmware/webots/", "firmware/libc/"})

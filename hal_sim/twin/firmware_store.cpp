@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // From what a user calls a firmware to an image file: a file as it is, a folder or a controller's name built
 // first.
-#include <unistd.h>
-
 #include <climits>
 #include <cmath>
 #include <cstdlib>
@@ -10,10 +8,11 @@
 
 #include "compiler/build/build.h"
 #include "hal_sim/twin/twin.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 #include "programs/build/build.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
-#include "twinpuck_paths.h"
 
 namespace twin {
 
@@ -39,7 +38,7 @@ std::vector<std::string> controller_names() {
   std::vector<std::string> names;
   std::error_code none;
   for (const char* room : {"firmware", "firmware/lab", "programs/supervisors"})
-    for (const auto& entry : fs::directory_iterator(fs::path(project_root()) / room, none))
+    for (const auto& entry : fs::directory_iterator(places::share_root() / room, none))
       if (entry.is_directory(none) && !is_room(entry.path().filename().string()) && holds_c(entry.path()))
         names.push_back(entry.path().filename().string());
   return names;
@@ -69,7 +68,7 @@ std::string said(const Program& program) {
 }
 
 std::string stored_controller(const std::string& name) {
-  const fs::path firmware = fs::path(project_root()) / "firmware";
+  const fs::path firmware = places::share_root() / "firmware";
   const bool of_lab = name.rfind("lab/", 0) == 0;
   const std::string plain = of_lab ? name.substr(4) : name;
   if (plain.empty() || plain[0] == '.' || plain.find('/') != std::string::npos || is_room(plain)) return "";
@@ -79,25 +78,8 @@ std::string stored_controller(const std::string& name) {
   const fs::path solution = firmware / "lab" / plain;
   if (fs::is_directory(solution, none)) return solution.string();
   // supervisors have names of their own
-  const fs::path supervisor = fs::path(project_root()) / "programs" / "supervisors" / plain;
+  const fs::path supervisor = places::share_root() / "programs" / "supervisors" / plain;
   return !of_lab && fs::is_directory(supervisor, none) ? supervisor.string() : "";
-}
-
-std::string project_root() {
-  if (const char* root = std::getenv("TWINPUCK_ROOT")) return root;
-  std::error_code none;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path(); at.has_relative_path();
-       at = at.parent_path())
-    if (fs::exists(at / "firmware" / "include")) return at.string();
-  return TWINPUCK_SOURCE_DIR;
-}
-
-std::string build_folder() {
-  std::error_code none;
-  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& folder : {here, here.parent_path()})
-    if (fs::exists(folder / "twinpuck-cc")) return folder.string();
-  return (fs::path(project_root()) / "build").string();
 }
 
 std::string hal_of(const Options& options, const std::string& path) {
@@ -120,8 +102,7 @@ std::string image_file(const std::string& folder, const Options& options) {
     for (unsigned char c : options.webots_settings) of_world = sim::mix64(of_world ^ c);
     std::snprintf(tag + 9, sizeof tag - 9, "-%06x", static_cast<unsigned>(of_world & 0xffffff));
   }
-  return (fs::path(build_folder()) / "controllers" /
-          (fs::path(folder).filename().string() + tag + kind + ".elf"))
+  return (places::cache_folder("images") / (fs::path(folder).filename().string() + tag + kind + ".elf"))
       .string();
 }
 
@@ -183,7 +164,7 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
   // "." and ".." are nobody's names
   if (!other || fs::path(name).filename().string().find_first_not_of('.') == std::string::npos)
     return path.string();
-  const fs::path of_lab = fs::path(project_root()) / "firmware" / "lab" / name;
+  const fs::path of_lab = places::share_root() / "firmware" / "lab" / name;
   const bool is_name = name.find('/') == std::string::npos;
   for (const fs::path& same : {fs::path(name), fs::path(stored_controller(name)), is_name ? of_lab : ""})
     if (other->empty() && !same.empty() && is_firmware(same) &&
@@ -211,6 +192,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   build.sanitize = options.sanitize;
   build.hal = with_hal.hal;
   build.webots_settings = options.webots_settings;
+  places::note_used(build.output);
   const cc::BuildResult result = cc::build_image(build);
   if (program) program->files = result.files;
   if (options.tell)
@@ -226,28 +208,11 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   return build.output.string();
 }
 
-namespace {
-
-/// Where compiled programs of the PC are kept: the user's, for who runs them may not be who built the
-/// product.
-std::string program_cache() {
-  const char* const xdg = std::getenv("XDG_CACHE_HOME");
-  const char* const home = std::getenv("HOME");
-  const fs::path base = xdg && *xdg == '/'     ? fs::path(xdg)
-                        : home && *home == '/' ? fs::path(home) / ".cache"
-                                               : fs::path();
-  return ((base.empty() ? fs::temp_directory_path() / ("twinpuck-" + std::to_string(getuid()))
-                        : base / "twinpuck") /
-          "programs")
-      .string();
-}
-
-}  // namespace
-
 bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
                     std::vector<std::string>& problems, programs::Launch& launch) {
   const std::string path = find_firmware(name, from_folder, problems);
-  return !path.empty() && programs::prepare(path, program_cache(), options.tell, problems, launch);
+  return !path.empty() &&
+         programs::prepare(path, places::cache_folder("programs").string(), options.tell, problems, launch);
 }
 
 }  // namespace twin

@@ -13,6 +13,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/board/uart_end.h"
 #include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/chip/library_sources.h"
 #include "hal_sim/chip/oscillator.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
@@ -119,7 +120,7 @@ Firmware open_firmware(const std::string& path, const Options& options, std::str
     error = path + ": firmware image: " + wrong + "; build it, or name the program's folder";
     return {};
   }
-  dspic::FirmwareFile file;
+  dspic::FirmwareFile file = chip::firmware_file();
   if (!dspic::load_firmware(bytes, path, file, error)) return {};
   const std::string hal = dspic::hal_of(file);
   if (hal == "sim" && dspic::host_table_of(file) != api::host_table_sum()) {

@@ -89,7 +89,8 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
 std::string image_file(const std::string& folder, const Options& options);
 
 /// Finds the controller that `name` means and builds it when it is source. Returns the path of the image;
-/// empty on failure, with lines appended to `problems`. Builds go to build/controllers/ and are incremental.
+/// empty on failure, with lines appended to `problems`. Images lie in the user's cache, and builds are
+/// incremental.
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems, Program* program = nullptr);
 
@@ -160,11 +161,5 @@ class Twin {
   const sim::RadioMedium* radio_ = nullptr;                         // the simulation's
   std::vector<std::shared_ptr<board::BluetoothModule>> bluetooth_;  // one per robot; its UART 1 holds it too
 };
-
-/// Folder of the project: the one that holds firmware/include. TWINPUCK_ROOT, or found from the executable's
-/// place.
-std::string project_root();
-/// Folder of the executables and of everything built from source.
-std::string build_folder();
 
 }  // namespace twin

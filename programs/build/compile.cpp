@@ -17,6 +17,8 @@
 
 #include "build.h"
 #include "compiler/cache/child_process.h"
+#include "install/cache_bound.h"
+#include "install/places.h"
 #include "makefile.h"
 #include "sim_core/base/pattern.h"
 #include "sources.h"
@@ -112,7 +114,7 @@ class Build {
  public:
   Build(const Found& found, std::string said, const fs::path& scratch, MakeSays says)
       : folder_(found.folder), said_(std::move(said)), scratch_(scratch), says_(std::move(says)) {
-    const fs::path root = source_root();
+    const fs::path root = places::product_share();
     ours_ = {"-I.", "-I" + (root / "programs" / "controller" / "include").string(), "-idirafter",
              (root / "firmware" / "include").string()};
     options_ = usable(says_.options);
@@ -432,17 +434,16 @@ class Scratch {
 
 fs::path controller_library() {
   if (const char* library = std::getenv("TWINPUCK_LIBCONTROLLER")) return library;
-  return product_folder() / "libcontroller.so";
+  return places::tools_folder() / "libcontroller.so";
 }
 
 Compiled compile(const Found& found, const std::string& said, const fs::path& cache,
                  const std::function<void(const std::string&)>& tell, std::vector<std::string>& problems) {
   Compiled made;
   std::error_code none;
-  fs::create_directories(cache, none);
   const fs::path home = fs::absolute(cache, none);
-  if (!fs::is_directory(home, none)) {
-    problems.push_back(cache.string() + ": cache: got no folder, expected one that can be written");
+  if (const std::string wrong = places::why_not_writable(home); !wrong.empty()) {
+    problems.push_back(wrong);
     return made;
   }
   if (const fs::path odd = found.main.empty() ? odd_file_below(found.folder) : fs::path(); !odd.empty()) {
@@ -473,6 +474,7 @@ Compiled compile(const Found& found, const std::string& said, const fs::path& ca
     made.files = std::atoi(needs[0].c_str());
     needs.erase(needs.begin());
     if (const fs::path kept = program_of(needs); fs::exists(kept, none)) {
+      for (const fs::path& used : {list_file, kept}) places::note_used(used);
       made.program = kept;
       return made;
     }
@@ -506,6 +508,7 @@ Compiled compile(const Found& found, const std::string& said, const fs::path& ca
       problems.push_back(made.program.string() + ": cache: cannot be written: " + wrong.message());
       made.program.clear();
     }
+    places::keep_caches_within_bound();
     return made;
   }
   problems.push_back(said + ": controller: does not compile:");

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "places.h"
+#include "files.h"
 
 namespace programs {
 

@@ -3,7 +3,7 @@
 #include <array>
 
 #include "build.h"
-#include "places.h"
+#include "files.h"
 #include "sim_core/base/pattern.h"
 
 namespace programs {

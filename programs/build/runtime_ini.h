@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "places.h"
+#include "files.h"
 
 namespace programs {
 

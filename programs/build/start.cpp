@@ -9,6 +9,7 @@
 #include "build.h"
 #include "compile.h"
 #include "compiler/cache/child_process.h"
+#include "install/places.h"
 #include "runtime_ini.h"
 
 namespace programs {
@@ -178,7 +179,7 @@ class Starter {
     const auto options = ini_.options.find("python");
     if (options != ini_.options.end())
       launch_.words.insert(launch_.words.end(), options->second.begin(), options->second.end());
-    const fs::path ours = source_root() / "programs" / "controller" / "python";
+    const fs::path ours = places::product_share() / "programs" / "controller" / "python";
     // a copy of Webots' own package beside the program would hide ours, and is nothing without Webots
     const fs::path copy = found_.folder / "controller.py";
     if (copy != found_.main && text_of(copy).find("_controller") != std::string::npos)
@@ -244,7 +245,7 @@ class Starter {
     if (machine.empty()) machine = on_path("java");
     if (machine.empty())
       return fail("got a program in Java, expected java to run it; apt install default-jre-headless");
-    const fs::path product = product_folder();
+    const fs::path product = places::tools_folder();
     std::string classpath = (product / "Controller.jar").string();
     for (const auto& [name, value] : ini_.environment)
       if (name == "CLASSPATH") classpath += ":" + value;

@@ -19,6 +19,7 @@ enum class ValueType {
   Integer,
   Number,
   Text,
+  Bytes,  ///< a text of any characters
   Flag,
   Choice,
   Pair,

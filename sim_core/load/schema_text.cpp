@@ -16,6 +16,7 @@ const char* type_name(ValueType type) {
       return "whole number";
     case ValueType::Number:
       return "number";
+    case ValueType::Bytes:
     case ValueType::Text:
       return "text in quotes";
     case ValueType::Flag:

@@ -14,103 +14,13 @@
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/floor_image.h"
 #include "sim_core/load/schema.h"
-#include "sim_core/load/toml_parser.h"
+#include "sim_core/load/schema_reader.h"
 #include "sim_core/sound/wav_file.h"
 
 namespace sim {
 namespace {
 
-constexpr std::size_t kMostProblems = 200;  // reported; more would help nobody
-
-constexpr std::size_t kLongestQuote = 60;  // characters of a value that a message repeats
-
-std::vector<std::string_view> split_lines(std::string_view text) {
-  std::vector<std::string_view> lines;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    lines.push_back(text.substr(begin, end - begin));
-    begin = end + 1;
-  }
-  return lines;
-}
-
-bool number_of(const toml::node& node, double& out) {
-  if (const auto* i = node.as_integer()) {
-    out = static_cast<double>(i->get());
-    return true;
-  }
-  if (const auto* f = node.as_floating_point()) {
-    out = f->get();
-    return std::isfinite(out);
-  }
-  return false;
-}
-
-bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
-
-bool in_range(const KeySpec& k, double v) { return v >= k.least && v <= k.most; }
-
-/// Reads a node into a value; false when its type or range is wrong.
-bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
-  const auto numbers = [&](const toml::node& list, std::vector<double>& out, std::size_t count, bool ranged) {
-    const toml::array* a = list.as_array();
-    if (!a || (count && a->size() != count)) return false;
-    for (const toml::node& n : *a) {
-      double x = 0;
-      if (!number_of(n, x) || (ranged && !in_range(k, x))) return false;
-      out.push_back(x);
-    }
-    return true;
-  };
-  switch (k.type) {
-    case ValueType::Integer: {
-      const auto* i = node.as_integer();
-      if (!i || !in_range(k, static_cast<double>(i->get()))) return false;
-      v.integer = i->get();
-      return true;
-    }
-    case ValueType::Number:
-      return number_of(node, v.number) && in_range(k, v.number);
-    case ValueType::Text: {
-      const auto* s = node.as_string();
-      if (s) v.text = s->get();
-      // names and titles go to terminals and into tables
-      return s && std::none_of(v.text.begin(), v.text.end(), is_control);
-    }
-    case ValueType::Choice: {
-      const auto* s = node.as_string();
-      if (!s || s->get().empty() || s->get().find('|') != std::string::npos) return false;
-      v.text = s->get();
-      return ("|" + std::string(k.choices) + "|").find("|" + v.text + "|") != std::string::npos;
-    }
-    case ValueType::Flag: {
-      const auto* b = node.as_boolean();
-      if (b) v.flag = b->get();
-      return b != nullptr;
-    }
-    case ValueType::Pair:
-      return numbers(node, v.numbers, 2, true);
-    case ValueType::Triple:
-    case ValueType::Colour:
-      return numbers(node, v.numbers, 3, true);
-    case ValueType::Numbers:
-      return numbers(node, v.numbers, 0, true);
-    case ValueType::Points:
-    case ValueType::Colours:
-    case ValueType::Rows: {
-      const toml::array* a = node.as_array();
-      if (!a) return false;
-      for (const toml::node& row : *a) {
-        v.rows.emplace_back();
-        if (!numbers(row, v.rows.back(), k.type == ValueType::Points ? 2 : 3, true)) return false;
-      }
-      return true;
-    }
-  }
-  return false;
-}
-
-class Reader {
+class Reader : private SchemaReader {
  public:
   Reader(const std::string& path, const std::vector<RobotModel>& models,
          const std::vector<PartKind>& part_kinds) {
@@ -121,27 +31,9 @@ class Reader {
 
   LoadedWorld read(std::string_view text) {
     LoadedWorld out;
-    if (text.size() > kLongestWorld) {
-      problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestWorld));
-    } else if (const TomlTrap trap = find_toml_trap(text); trap.line > 0) {
-      problems_.push_back({trap.line, trap.column, trap.text});
-    } else {
-      lines_ = split_lines(text);
-      const toml::parse_result result = toml::parse(text);
-      if (!result) {
-        // the library's sentence says what stands there; ours says what kind of file was wanted
-        std::string what(result.error().description());
-        std::replace(what.begin(), what.end(), '\n', ' ');
-        problem(result.error().source(), "not TOML: " + what);
-      } else {
-        read_all(result.table());
-      }
-    }
+    if (const auto root = parse(text)) read_all(*root);
     if (problems_.empty()) problems_ = check_world(world_);
-    if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
-    std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
-      return a.line != b.line ? a.line < b.line : a.column < b.column;
-    });
+    sort_problems();
     if (problems_.empty())
       out.world = std::move(world_);
     else
@@ -151,28 +43,6 @@ class Reader {
   }
 
  private:
-  void problem(const toml::source_region& where, std::string text) {
-    if (problems_.size() >= kMostProblems) return;
-    problems_.push_back(
-        {static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
-  }
-
-  /// A value as it stands in the file, for messages.
-  std::string written(const toml::node& node) const {
-    if (node.is_table()) return "a table";
-    if (node.is_array_of_tables()) return "several tables in [[ ]]";
-    const toml::source_region& at = node.source();
-    if (at.begin.line != at.end.line || at.begin.line < 1 || at.begin.line > lines_.size()) return "a list";
-    const std::string_view line = lines_[at.begin.line - 1];
-    if (at.begin.column < 1 || at.end.column < at.begin.column || at.end.column - 1 > line.size())
-      return "this";
-    std::string text(line.substr(at.begin.column - 1, at.end.column - at.begin.column));
-    if (text.size() > kLongestQuote) text = text.substr(0, kLongestQuote - 3) + "...";
-    return text;
-  }
-
-  static int line_of(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
-
   /// Sections that may stand inside `path`.
   static std::vector<std::string> inner_sections(const std::string& path) {
     std::vector<std::string> out;
@@ -189,59 +59,9 @@ class Reader {
   void read_table(const std::string& path, const toml::table& table, void* target) {
     read_table(section(path), table, target);
   }
-
   /// The same by a section that the schema does not hold as a whole.
   void read_table(const SectionSpec& spec, const toml::table& table, void* target) {
-    const std::string path = spec.path;
-    const std::vector<std::string> inner = inner_sections(path);
-    const std::string prefix = path.empty() ? "" : path + ".";
-    for (const auto& [key, node] : table) {
-      const std::string name(key.str());
-      const bool known =
-          std::any_of(spec.keys.begin(), spec.keys.end(), [&](const KeySpec& k) { return name == k.key; });
-      if (known || std::find(inner.begin(), inner.end(), name) != inner.end()) continue;
-      std::vector<std::string> candidates = inner;
-      for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
-      if (path == "world" && name == "interrupts") {
-        problem(key.source(),
-                "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
-        continue;
-      }
-      const std::string meant = did_you_mean(name, candidates);
-      std::string all;
-      for (const std::string& c : candidates) all += (all.empty() ? "" : ", ") + c;
-      problem(key.source(), fmt::format("unknown key '{}'{}{} (keys: {})", name.substr(0, 60),
-                                        path.empty() ? "" : " in " + path,
-                                        meant.empty() ? "" : "; did you mean '" + meant + "'?", all));
-    }
-    for (const KeySpec& k : spec.keys) {
-      const toml::node* node = table.get(k.key);
-      if (!node) {
-        if (std::strcmp(k.fallback, "required") == 0) {
-          problem(table.source(), fmt::format("{}{}: missing, expected {}", prefix, k.key, expected_text(k)));
-        }
-        continue;
-      }
-      Value value;
-      if (!read_value(k, *node, value)) {
-        std::string hint;
-        if (k.type == ValueType::Text && node->is_string()) hint = " without control characters";
-        if (k.type == ValueType::Choice && node->is_string()) hint = choice_hint(k, node->as_string()->get());
-        problem(node->source(), fmt::format("{}{}: got {}, expected {}{}", prefix, k.key, written(*node),
-                                            expected_text(k), hint));
-        continue;
-      }
-      const std::string wrong = k.set(target, value, world_);
-      if (!wrong.empty()) problem(node->source(), fmt::format("{}{}: {}", prefix, k.key, wrong));
-    }
-  }
-
-  static std::string choice_hint(const KeySpec& k, const std::string& got) {
-    std::vector<std::string> words;
-    std::istringstream in(k.choices);
-    for (std::string w; std::getline(in, w, '|');) words.push_back(w);
-    const std::string meant = did_you_mean(got, words);
-    return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+    SchemaReader::read_table(spec, inner_sections(spec.path), table, target, world_);
   }
 
   /// A [section], if it is there.
@@ -251,27 +71,6 @@ class Reader {
     if (const toml::table* table = node->as_table()) return read_table(path, *table, target);
     problem(node->source(),
             fmt::format("{}: got {}, expected a table, written [{}]", path, written(*node), path));
-  }
-
-  /// Every [[section]], in order; `each` gets the table.
-  template <typename F>
-  void read_many(const char* path, const toml::table& parent, const char* key, F each) {
-    const toml::node* node = parent.get(key);
-    if (!node) return;
-    const toml::array* list = node->as_array();
-    if (!list) {
-      problem(node->source(),
-              fmt::format("{}: got {}, expected [[{}]] with double brackets", path, written(*node), path));
-      return;
-    }
-    for (const toml::node& item : *list) {
-      if (const toml::table* table = item.as_table()) {
-        each(*table);
-      } else {
-        problem(item.source(),
-                fmt::format("{}: got {}, expected a table, written [[{}]]", path, written(item), path));
-      }
-    }
   }
 
   void read_objects(const toml::table& root, const char* path, ObjectKind kind) {
@@ -469,8 +268,6 @@ class Reader {
 
   WorldDesc world_;
   std::map<const RobotModel*, SectionSpec> robot_sections_;
-  std::vector<WorldProblem> problems_;
-  std::vector<std::string_view> lines_;
 };
 
 }  // namespace

@@ -256,7 +256,7 @@ TEST_F(Command, help_lists_and_builds_need_no_more_words_than_they_say) {
   EXPECT_EQ(worlds.text.find("Controllers"), std::string::npos);
   const Said build = twinpuck("build blink");
   EXPECT_EQ(build.exit_code, 0);
-  EXPECT_NE(build.text.find("/controllers/blink-"), std::string::npos) << build.text;
+  EXPECT_NE(build.text.find("/images/blink-"), std::string::npos) << build.text;
 }
 
 TEST_F(Command, a_run_says_what_it_has_written) {

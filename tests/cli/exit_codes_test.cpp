@@ -80,6 +80,7 @@ TEST_F(ExitCodes, every_row_of_the_table_is_an_ending_and_every_ending_a_row) {
        twinpuck("flash " + path("good.elf") + " --port /dev/ptmx --wait 0.3")},
       {"nothing to list", 5, twinpuck("list", "TWINPUCK_ROOT=" + path("nothing"))},
       {"an output that is lost", 7, run(good, "--record /dev/full")},
+      {"a fault that never took effect", 7, run(good, "--fault 'wheel_stuck at=9s'")},
       {"the PC's time", 124, run_for("1e6", good, "--host-limit 0.5")},
       {"a trap before the PC's time is over", 124, run_for("1e6", traps, "--host-limit 0.5")},
       {"Ctrl-C", 130,

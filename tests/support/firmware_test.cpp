@@ -8,9 +8,8 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/chip/chip_runner.h"
-#include "hal_sim/chip/code_cycles.h"
-#include "hal_sim/chip/named_functions.h"
 #include "hal_sim/chip/profile.h"
+#include "hal_sim/faults/injector.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
@@ -84,27 +83,12 @@ Robot& Robot::measured() {
   return *this;
 }
 Cost Robot::cost_of(const std::string& function, Caller caller) const {
-  if (profile_)
-    for (const auto& f : profile_->report().functions)
-      if (f.name == function && f.cycles.count > 0)
-        return {f.cycles.count, static_cast<double>(f.cycles.min), f.cycles.mean(),
-                static_cast<double>(f.cycles.max)};
   const auto* const runner = dynamic_cast<const chip::ChipRunner*>(test_->twin().mind(index_).runner());
-  const auto* const known = runner ? runner->file().code.function_named(function) : nullptr;
-  if (!known) {
-    ADD_FAILURE_AT(caller.file, caller.line)
-        << "no function '" << function << "' in the firmware"
-        << (runner ? ": it " + chip::why_no_code(runner->file(), function) : "");
-    return {};
-  }
-  const chip::PathCycles code = chip::CodeCycles(runner->file()).of_function(known->begin);
-  if (!code.is_known())
-    ADD_FAILURE_AT(caller.file, caller.line)
-        << function << "(): only a run tells what it takes: it " << code.why_not
-        << (profile_ ? "; it was not called" : "; call measured() of the robot before the first run")
-        << chip::copies_note(runner->file(), function);
-  const auto least = static_cast<double>(code.least), most = static_cast<double>(code.most);
-  return {0, least, code.least == code.most ? least : -1, most};
+  Cost cost;
+  std::string error = "no function '" + function + "' in the firmware";
+  if (!runner || !chip::cost_of_call(runner->file(), profile_.get(), function, cost, error))
+    ADD_FAILURE_AT(caller.file, caller.line) << error;
+  return cost;
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
   const auto found = mind().runner()->read_variable(name, bytes);
@@ -265,7 +249,8 @@ twin::Twin& FirmwareTest::twin(Caller caller) {
 void FirmwareTest::run_for(double seconds, Caller caller) {
   auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(seconds);
-  while (s.now() < end && !(team_ && team_->has_ended())) s.step();
+  while (s.now() < end && !(team_ && team_->has_ended())) step();
+  if (faults_) faults_->look();
 }
 
 bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s, Caller caller) {
@@ -273,9 +258,22 @@ bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s
   const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
   while (!done()) {
     if (s.now() >= end || (team_ && team_->has_ended())) return false;
-    s.step();
+    step();
   }
   return true;
+}
+
+void FirmwareTest::step() {
+  auto& s = twin_->simulation();
+  if (faults_)
+    faults_->advance(s.now());
+  else
+    s.step();
+}
+
+faults::Injector& FirmwareTest::faults(Caller caller) {
+  if (!faults_) faults_ = std::make_unique<faults::Injector>(twin(caller));
+  return *faults_;
 }
 
 programs::Team& FirmwareTest::team() {

@@ -18,12 +18,13 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/chip/call_cost.h"
 #include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 
-namespace chip {
-class Profile;
+namespace faults {
+class Injector;
 }
 
 namespace firmware_test {
@@ -40,11 +41,7 @@ struct Caller {
   }
 };
 
-/// What calls of a function took, in cycles.
-struct Cost {
-  std::int64_t calls = 0;             ///< 0: by its code alone
-  double min = 0, mean = 0, max = 0;  ///< mean: -1 when only the code is known and has several ways
-};
+using Cost = chip::CallCost;
 
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {
@@ -168,6 +165,8 @@ class FirmwareTest : public ::testing::Test {
   void expect_no_traps(Caller caller = Caller::here()) const;
   /// No diagnosis of any robot.
   void expect_no_diagnoses(Caller caller = Caller::here()) const;
+  /// Faults and stimuli (hal_sim/faults/injector.h); the runs look at them.
+  faults::Injector& faults(Caller caller = Caller::here());
   /// The world's supervisors; started on first use.
   programs::Team& team();
   /// The run is over: every supervisor has its last go. How they ended it.
@@ -180,10 +179,12 @@ class FirmwareTest : public ::testing::Test {
  private:
   friend class Robot;
   void start(const Caller& caller);
+  void step();
 
   std::vector<std::unique_ptr<Robot>> robots_;
   std::unique_ptr<twin::Twin> twin_;
   std::unique_ptr<programs::Team> team_;
+  std::unique_ptr<faults::Injector> faults_;
   std::unique_ptr<twin::CoverageRun> coverage_;
 };
 

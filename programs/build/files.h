@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Inside programs/build: files and folders of a project, what text says, and where our own things lie.
+// Inside programs/build: files and folders of a project, and what text says.
 #pragma once
 #include <cstdint>
 #include <filesystem>
@@ -12,11 +12,6 @@ namespace fs = std::filesystem;
 
 inline constexpr std::size_t kMostFiles = 5000;                 ///< of a folder that are looked at
 inline constexpr std::size_t kMostText = std::size_t{4} << 20;  ///< bytes of a source that are read
-
-/// The folder that holds firmware/include: TWINPUCK_ROOT, or found from the executable's place.
-fs::path source_root();
-/// The folder of what the product was built to: libcontroller.so.
-fs::path product_folder();
 
 /// Regular files below a folder, but for hidden ones and hidden folders; sorted. Links are followed, not in
 /// circles.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See places.h.
-#include "places.h"
+// See files.h.
+#include "files.h"
 
 #include <unistd.h>
 
@@ -12,27 +12,8 @@
 #include <set>
 
 #include "sim_core/base/hash.h"
-#include "twinpuck_paths.h"
 
 namespace programs {
-
-fs::path source_root() {
-  if (const char* root = std::getenv("TWINPUCK_ROOT")) return root;
-  std::error_code none;
-  for (fs::path at = fs::read_symlink("/proc/self/exe", none).parent_path(); at.has_relative_path();
-       at = at.parent_path())
-    if (fs::exists(at / "firmware" / "include", none)) return at;
-  return TWINPUCK_SOURCE_DIR;
-}
-
-fs::path product_folder() {
-  std::error_code none;
-  const fs::path here = fs::read_symlink("/proc/self/exe", none).parent_path();
-  for (const fs::path& folder : {here, here.parent_path()})
-    if (fs::exists(folder / "libcontroller.so", none) || fs::exists(folder / "twinpuck-cc", none))
-      return folder;
-  return source_root() / "build";
-}
 
 namespace {
 

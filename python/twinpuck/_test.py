@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: MIT
+"""`twinpuck test`: pytest with our plug-in, and Twinpuck's exit codes."""
+from __future__ import annotations
+
+import sys
+
+
+def main(arguments: list[str]) -> int:
+    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal error,
+    7 all that failed did so because a fault never took effect, 130 interrupted."""
+    try:
+        import numpy  # noqa: F401  what is missing shall be said in one line
+        import pytest
+    except ImportError as missing:
+        print(f"twinpuck test: got no Python package '{missing.name}', expected numpy and pytest (Debian: "
+              "python3-numpy, python3-pytest; python3-pytest-xdist for -n)", file=sys.stderr)
+        return 2
+    class Interrupted:
+        """Notes whether it was Ctrl-C: pytest says the same of files that cannot be read."""
+
+        by_user = False
+
+        def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+            self.by_user = excinfo.type is KeyboardInterrupt
+
+    class Invalid:
+        """Counts tests that failed, and those whose faults never took effect."""
+
+        failed = invalid = 0
+
+        def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+            self.failed += report.failed
+            self.invalid += report.failed and any(key == "twinpuck_invalid" for key, _ in report.user_properties)
+
+    interrupted, outcome = Interrupted(), Invalid()
+    code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])
+    if code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:
+        return 7
+    if code == pytest.ExitCode.INTERRUPTED:
+        return 130 if interrupted.by_user else 2
+    return int({pytest.ExitCode.INTERNAL_ERROR: 6, pytest.ExitCode.USAGE_ERROR: 2}.get(pytest.ExitCode(code), code))
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

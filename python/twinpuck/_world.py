@@ -1,0 +1,466 @@
+# SPDX-License-Identifier: MIT
+"""A world with its robots."""
+from __future__ import annotations
+
+import collections.abc
+import difflib
+import json
+import math
+import os
+import pathlib
+import tempfile
+import types
+import typing
+
+import numpy
+
+from . import _core
+from ._errors import FirmwareFault, InvalidRun, WorldError
+from ._faults import Fault
+from ._records import Recording
+from ._robot import Robot, Trap
+from ._worldtext import toml_text, toml_value
+
+Source = typing.Union[str, "os.PathLike[str]", "collections.abc.Mapping[str, typing.Any]"]
+Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[str, str | os.PathLike[str]]"]
+
+
+class Robots(collections.abc.Sequence):
+    """The robots of a world, in its order: by name or number, to go through, to count."""
+
+    def __init__(self, robots: list[Robot]) -> None:
+        self._robots = robots
+        self._by_name = {robot.name: robot for robot in robots}
+
+    @property
+    def names(self) -> list[str]:
+        """Their names, in order."""
+        return [robot.name for robot in self._robots]
+
+    @typing.overload
+    def __getitem__(self, key: int | str) -> Robot: ...
+    @typing.overload
+    def __getitem__(self, key: slice) -> list[Robot]: ...
+    def __getitem__(self, key: int | str | slice) -> Robot | list[Robot]:
+        """robots["left"], robots[0], robots[1:]. Raises KeyError or IndexError."""
+        if not isinstance(key, str):
+            return self._robots[key]
+        if key in self._by_name:
+            return self._by_name[key]
+        near = difflib.get_close_matches(key, self._by_name, 1)
+        raise KeyError(f"robot: got {key!r}, expected one of {self.names[:10]}" +
+                       (f"; did you mean {near[0]!r}?" if near else ""))
+
+    def __len__(self) -> int:
+        return len(self._robots)
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._by_name or name in self._robots
+
+    def __repr__(self) -> str:
+        return f"<{len(self)} robots: {', '.join(self.names[:10])}{' ...' if len(self) > 10 else ''}>"
+
+
+class Body:
+    """A movable thing of the world: a box, a cylinder, a ball."""
+
+    def __init__(self, world: World, index: int, name: str) -> None:
+        self._world, self._index, self.name = world, index, name
+
+    @property
+    def pose(self) -> tuple[float, float, float]:
+        """x, y (m), heading (degrees)."""
+        x_m, y_m, heading_rad = self._world._core.body_pose(self._index)
+        return x_m, y_m, math.degrees(heading_rad)
+
+    def move(self, x_m: float, y_m: float, heading_deg: float = 0.0) -> None:
+        """Puts it somewhere else, at rest."""
+        self._world._apply({"do": "move", "body": self._index, "x": float(x_m), "y": float(y_m),
+                            "heading": math.radians(heading_deg)})
+
+    def __repr__(self) -> str:
+        return f"<Body {self.name!r} at ({self.pose[0]:.3f}, {self.pose[1]:.3f}) m>"
+
+
+class Lamp:
+    """A lamp of the world."""
+
+    def __init__(self, world: World, index: int, name: str) -> None:
+        self._world, self._index, self.name = world, index, name
+
+    def switch(self, on: bool, intensity_w_m2: float | None = None) -> None:
+        """On or off; with another intensity (W/m2 where its attenuation is 1), else that of the world's file."""
+        more = {} if intensity_w_m2 is None else {"intensity": float(intensity_w_m2)}
+        self._world._apply({"do": "lamp", "lamp": self._index, "on": bool(on), **more})
+
+
+class Condition:
+    """A condition over named signals (`twinpuck list signals`): "abs(x_m) < 0.3 && led0", "left.x_m > right.x_m",
+    "$state == 3" for a variable of the program. Called, it says whether it holds now; value is the number behind it."""
+
+    def __init__(self, world: World, text: str, robot: Robot | None) -> None:
+        self._world, self.text, self._robot = world, text, robot
+        self._bound_to: typing.Any = None
+        self._bind()
+
+    def _bind(self) -> typing.Any:
+        if self._bound_to is not self._world._core:
+            try:
+                self._watch = _core.Watch(self._world._core, self.text, -1 if self._robot is None else self._robot.index)
+            except RuntimeError as wrong:
+                raise WorldError(f"condition {self.text!r}: {wrong}") from None
+            self._bound_to = self._world._core
+        return self._watch
+
+    def __call__(self) -> bool:
+        return self._bind().holds()
+
+    @property
+    def value(self) -> float:
+        """What the text computes to now: of "x_m - 0.1" the number, of "x_m > 0.1" 1 or 0."""
+        return self._bind().value
+
+    def __repr__(self) -> str:
+        return f"<Condition {self.text!r}>"
+
+
+class World:
+    """A world with its robots and their programs, at its time 0 when it is opened.
+
+    source: a world file, the name of one of Twinpuck's worlds, the text of a world file, or a dict with the same keys:
+        World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": "blink", "position": [0, 0]}]})
+    firmware: what robots run instead of what the file says: a folder of C files, an .elf, a .hex or the name of one of
+        Twinpuck's controllers; of all robots, or a dict by robot
+    seed: of all that is left to chance, instead of the file's
+    hal: "sim" (fast) or "dspic" (every driver as it is flashed), for programs that are built from source
+    optimise: "-O0", "-O1", "-O2", "-Os" for these; without it that of a project's file, else -O1
+    sanitize: programs are checked at each access of memory; what they do wrong is a trap
+    measured: names of robots whose functions are measured (profile(), cost_of()), ["*"] all; they run slower
+    coverage: an lcov file to which the lines that programs execute are added when the world is closed
+    threads: how many run firmware, 1 or more; nothing depends on it
+    uart1, uart2: other ends of serial lines as `twinpuck run --uart` has them, by robot ("*": all)
+    supervisors: programs as `twinpuck run --supervisor`
+    traps: "raise": run() and all that runs raise FirmwareFault when a program traps; "report": they do not
+
+    Raises WorldError when anything is wrong with the file, a program or an option; OSError when a file cannot be read.
+    A world is closed by close(), by `with`, or when nothing refers to it any more.
+    """
+
+    def __init__(self, source: Source, firmware: Firmware = None, *, seed: int | None = None, hal: str = "",
+                 optimise: str = "", sanitize: bool = False, measured: collections.abc.Iterable[str] = (),
+                 coverage: str | os.PathLike[str] = "", threads: int = 1,
+                 uart1: collections.abc.Mapping[str, str] | None = None,
+                 uart2: collections.abc.Mapping[str, str] | None = None,
+                 supervisors: collections.abc.Iterable[str] = (), traps: str = "raise") -> None:
+        if traps not in ("raise", "report"):
+            raise WorldError(f"World: traps: got {traps!r}, expected 'raise' or 'report'")
+        if hal not in ("", "sim", "dspic"):
+            raise WorldError(f"World: hal: got {hal!r}, expected 'sim' or 'dspic'")
+        if optimise not in ("", "-O0", "-O1", "-O2", "-Os"):
+            raise WorldError(f"World: optimise: got {optimise!r}, expected '-O0', '-O1', '-O2' or '-Os'")
+        if threads < 1 or threads > 256:
+            raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
+        __tracebackhide__ = True
+        self._text, self._file = _read(source)
+        self._options: dict[str, typing.Any] = {
+            "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
+            "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
+            "uart1": list((uart1 or {}).items()), "uart2": list((uart2 or {}).items()),
+            "firmware": _choices(firmware, pathlib.Path(self._file).parent)}
+        self.traps = traps
+        self._callables: list[collections.abc.Callable[[World], object]] = []
+        self._core: typing.Any = None
+        self._open()
+        self.robots = Robots([Robot(self, i, name) for i, name in enumerate(self._core.names)])
+
+    def _open(self) -> None:
+        __tracebackhide__ = True
+        try:
+            self._core = _core.World(self._text, self._file, self._options)
+        except ValueError as wrong:
+            raise WorldError(str(wrong)) from None
+        self._arrays = _core.Arrays(len(self._core.names))
+
+    def _apply(self, what: dict[str, typing.Any]) -> None:
+        try:
+            self._core.apply(json.dumps(what, allow_nan=False))
+        except RuntimeError as wrong:
+            raise ValueError(f"{what['do']}: {wrong}") from None
+
+    # --- time
+    @property
+    def time_s(self) -> float:
+        """Simulated time (s)."""
+        return self._core.now / _core.CLICKS_PER_SECOND
+
+    @property
+    def tick_s(self) -> float:
+        """The world's tick (s): 1/512 unless its file says otherwise. Everything is asked and touched between ticks."""
+        return self._core.tick_s
+
+    def run(self, seconds: float) -> None:
+        """Runs for so many simulated seconds, up to the end of a tick.
+
+        Raises FirmwareFault when a program traps (unless traps is "report"). Ctrl-C ends it at a tick. Other Python
+        threads run meanwhile, if no callable is called each tick.
+        """
+        __tracebackhide__ = True
+        self._run(seconds, None)
+
+    def run_until(self, condition: str | collections.abc.Callable[[], object], at_most: float) -> bool:
+        """Runs until condition() is true, which is asked now and after each tick; False: not within `at_most` seconds.
+
+        A text is a condition over signals: run_until("distance_m > 0.5", at_most=10). Raises as run() does, and
+        whatever the condition raises.
+        """
+        __tracebackhide__ = True
+        if isinstance(condition, str):
+            condition = self.condition(condition)
+        return bool(condition()) or self._run(at_most, condition)
+
+    def step(self, ticks: int = 1) -> None:
+        """Runs for so many ticks."""
+        __tracebackhide__ = True
+        for _ in range(ticks):
+            self._run(self.tick_s / 2, None)
+
+    def _run(self, seconds: float, condition: collections.abc.Callable[[], object] | None) -> bool:
+        __tracebackhide__ = True
+        if not 0 <= seconds <= 1e8:
+            raise ValueError(f"run: got {seconds} s, expected 0 to 1e8")
+        each_tick = condition
+        if self._callables:
+            def each_tick() -> bool:
+                for call in list(self._callables):
+                    call(self)
+                return condition is not None and bool(condition())
+        core = self._core
+        end = core.now + round(seconds * _core.CLICKS_PER_SECOND)
+        why = core.run(end, each_tick, self.traps == "raise")
+        if why == "trap":
+            raise FirmwareFault(self._newest_trap())
+        return why == "asked"
+
+    def _newest_trap(self) -> Trap:
+        return max((trap for robot in self.robots for trap in robot.traps), key=lambda trap: trap.time_s)
+
+    def on_tick(self, call: collections.abc.Callable[[World], object]) -> collections.abc.Callable[[World], object]:
+        """`call(world)` is called after each tick from now on; it may look and touch, not run. Works as a decorator."""
+        self._callables.append(call)
+        return call
+
+    def off_tick(self, call: collections.abc.Callable[[World], object]) -> None:
+        """`call` is called no more. Raises ValueError when it was not."""
+        self._callables.remove(call)
+
+    def reset(self, seed: int | None = None) -> None:
+        """Begins anew at time 0, as if it had just been opened: programs are built if their sources changed.
+
+        seed: another one than before. Robots of this world stay valid; callables of on_tick() stay.
+        """
+        if seed is not None:
+            self._options["seed"] = seed
+        self._core.close()
+        self._open()
+        for robot in self.robots:
+            robot._searched.clear()
+            robot._looked_at.clear()
+
+    def close(self) -> None:
+        """Ends programs of the PC and writes coverage. What is asked or run later raises RuntimeError."""
+        self._core.close()
+
+    def __enter__(self) -> World:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, value: BaseException | None,
+                 trace: types.TracebackType | None) -> None:
+        self.close()
+
+    # --- signals
+    def condition(self, text: str, robot: Robot | str | None = None) -> Condition:
+        """A condition over signals, to be called. robot: whose a name is that stands without a robot's; in a world of
+        one robot it need not be said. Raises WorldError, with a guess for names that are near."""
+        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else robot)
+
+    def signal(self, name: str) -> float:
+        """A signal now, in its unit: "time_s", "puck.x_m", "puck.$speed"."""
+        return self.condition(name).value
+
+    # --- faults
+    def inject(self, kind: str, robot: Robot | str | None = None, *, at_s: float | None = None, when: str | None = None,
+               for_s: float | None = None, **values: typing.Any) -> Fault:
+        """A fault: inject("sensor_blocked", "puck", sensor=0, at_s=2, for_s=1.5), inject("bump", when="x_m > 0.2").
+
+        It begins now, at a time (s) or when a condition over signals holds, for robot `robot` (None: for each), and ends
+        `for_s` later, or never. `twinpuck list faults` names kinds and their values. Raises ValueError.
+        """
+        table = {"kind": kind, "robot": robot.name if isinstance(robot, Robot) else robot, "at_s": at_s, "when": when,
+                 "for_s": for_s, **values}
+        text = "".join(f"{key} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
+        return self._add_faults("[[fault]]\n" + text)[0]
+
+    def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
+        """Faults and stimuli of a file (docs/faults.md). Raises OSError, or ValueError with all that is wrong."""
+        return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"))
+
+    def _add_faults(self, text: str) -> list[Fault]:
+        try:
+            return [Fault(self, number) for number in self._core.add_faults(text)]
+        except RuntimeError as wrong:
+            raise ValueError(str(wrong)) from None
+
+    @property
+    def faults(self) -> list[Fault]:
+        """All that were asked for in this run."""
+        return [Fault(self, number) for number in range(len(self._core.faults()))]
+
+    def check_faults(self) -> None:
+        """Raises InvalidRun when a fault never began, or never changed anything for a program or the world."""
+        __tracebackhide__ = True
+        if problems := self._core.fault_problems():
+            raise InvalidRun("\n".join(problems))
+
+    # --- all robots at once
+    @property
+    def poses(self) -> numpy.ndarray:
+        """x (m), y (m) and heading (rad) of all robots: an array of robots times 3, brought up to now. No copy: the next
+        look changes the same numbers; copy() keeps them. Read-only."""
+        self._core.refresh(self._arrays, True, False, False)
+        return self._arrays.poses
+
+    @property
+    def proximity(self) -> numpy.ndarray:
+        """What e_get_prox() would give (counts), robots times 8, as poses is."""
+        self._core.refresh(self._arrays, False, True, False)
+        return self._arrays.proximity
+
+    @property
+    def leds(self) -> numpy.ndarray:
+        """1 for each LED that is lit, robots times 10 (0 to 7 the ring, 8 body, 9 front), as poses is."""
+        self._core.refresh(self._arrays, False, False, True)
+        return self._arrays.leds
+
+    @property
+    def steps(self) -> numpy.ndarray:
+        """Motor steps of the left and right wheels, robots times 2, as poses is."""
+        self._core.refresh(self._arrays, False, False, True)
+        return self._arrays.steps
+
+    @property
+    def batteries_v(self) -> numpy.ndarray:
+        """Volts of all batteries, as poses is."""
+        self._core.refresh(self._arrays, False, False, True)
+        return self._arrays.battery_v
+
+    # --- its things
+    @property
+    def bodies(self) -> dict[str, Body]:
+        """Movable things by name, in the file's order; a name that several have is that of the last."""
+        names = self._core.bodies
+        return {names[i]: Body(self, i, names[i]) for i in range(len(self.robots), len(names))}
+
+    @property
+    def lamps(self) -> dict[str, Lamp]:
+        """Lamps by name; one without a name is "lamp 0", by its number."""
+        return {name or f"lamp {i}": Lamp(self, i, name) for i, name in enumerate(self._core.lamps)}
+
+    @property
+    def seed(self) -> int:
+        """Of all that is left to chance."""
+        return self._core.seed
+
+    @property
+    def file(self) -> str:
+        """The world's file; where relative names begin."""
+        return self._file
+
+    @property
+    def digest(self) -> str:
+        """Hash of the course so far: equal for equal runs (16 hexadecimal digits)."""
+        return f"{self._core.digest:016x}"
+
+    @property
+    def notices(self) -> list[str]:
+        """What the compiler had to say about the programs, a line each."""
+        return self._core.notices
+
+    @property
+    def ended(self) -> str | None:
+        """How a supervisor ended the run: its words; None: it goes on."""
+        has_ended, _, _, text = self._core.outcome
+        return text if has_ended else None
+
+    @property
+    def supervisor_lines(self) -> list[str]:
+        """Lines that supervisors have written."""
+        return self._core.console(-1)
+
+    # --- to keep
+    def record(self, every_s: float = 0.01) -> Recording:
+        """Rows of all robots from now on, at multiples of every_s (s), up to reset() or the world's end."""
+        if not 1e-4 <= every_s <= 1e6:
+            raise ValueError(f"record: every_s: got {every_s}, expected 0.0001 to 1e6 s")
+        return Recording(self._core.record(float(every_s)), self.robots.names)
+
+    def picture(self, file: str | os.PathLike[str] | None = None, *, rays: bool = False, width_px: int = 1200) -> bytes:
+        """The world from above with the robots' ways, as a PNG; also written to `file`, a .png or .svg, if given.
+
+        rays: with those of the proximity sensors. Raises RuntimeError when the file cannot be written.
+        """
+        caption = f"{self.time_s:g} s, seed {self.seed}, {len(self.robots)} robot{'' if len(self.robots) == 1 else 's'}"
+        if file is not None:
+            self._core.draw(os.fspath(file), caption, rays, width_px)
+            return pathlib.Path(file).read_bytes()
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture.png")
+            self._core.draw(path, caption, rays, width_px)
+            return pathlib.Path(path).read_bytes()
+
+    def _repr_png_(self) -> bytes:
+        return self.picture(width_px=600)  # of notebooks
+
+    def save_replay(self, file: str | os.PathLike[str]) -> None:
+        """Writes how the world was opened and every touch with its tick: `twinpuck run --replay FILE`, with any outputs,
+        does the run so far again and compares its digest."""
+        pathlib.Path(file).write_bytes(self._core.recording())
+
+    def __repr__(self) -> str:
+        if not self._core.is_open:
+            return "<World, closed>"
+        return f"<World {self._core.title or os.path.basename(self._file)!r}, {self.time_s:.3f} s, {self.robots!r}>"
+
+
+def _read(source: Source) -> tuple[str, str]:
+    """A world's text, and the file that it is of, or would be."""
+    if isinstance(source, collections.abc.Mapping):
+        return toml_text(source), os.path.join(os.getcwd(), "world.toml")
+    name = os.fspath(source)
+    if isinstance(source, str) and "\n" in source:
+        return source, os.path.join(os.getcwd(), "world.toml")
+    for path in (name, name + ".toml", os.path.join(_core.project_root(), "worlds", name + ".toml")):
+        if os.path.isfile(path):
+            try:
+                return _core.read_world(path), os.path.abspath(path)
+            except ValueError as wrong:
+                raise OSError(str(wrong)) from None
+    worlds = [p.stem for p in pathlib.Path(_core.project_root(), "worlds").glob("*.toml")]
+    near = difflib.get_close_matches(name, worlds, 1)
+    raise WorldError(f"{name}: world: got no such file, expected a .toml file or the name of one in worlds/" +
+                     (f"; did you mean {near[0]!r}?" if near else ""))
+
+
+def _choices(firmware: Firmware, folder: pathlib.Path) -> list[tuple[str, str]]:
+    """By robot; paths are made whole, so that a recording finds them from anywhere."""
+    if firmware is None:
+        return []
+    if not isinstance(firmware, collections.abc.Mapping):
+        firmware = {"*": firmware}
+    return [(robot, _whole(os.fspath(program), folder)) for robot, program in firmware.items()]
+
+
+def _whole(program: str, folder: pathlib.Path) -> str:
+    for base in (folder, pathlib.Path.cwd()):
+        if (base / program).exists():
+            return os.path.abspath(base / program)
+    return program

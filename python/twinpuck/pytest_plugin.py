@@ -1,0 +1,302 @@
+# SPDX-License-Identifier: MIT
+"""The pytest plug-in: fixtures for worlds and robots, runs over seeds, HALs and selectors, and what a failure shows.
+
+    def test_lights_up(world):          # world.toml beside the test, a fresh one for each test
+        world.run(1.0)
+        assert world.robots[0].leds[0]
+
+`twinpuck test` is pytest with this plug-in. docs/testing.md is the guide.
+"""
+from __future__ import annotations
+
+import collections.abc
+import itertools
+import pathlib
+import re
+import shlex
+import shutil
+import typing
+
+import pytest
+
+from . import _declarative, _matrix
+from ._errors import InvalidRun, TwinpuckError, WorldError
+from ._robot import Robot
+from ._world import World
+
+_WORLDS = pytest.StashKey[list[World]]()
+_LAST_LINES = 20
+
+
+# --- options and markers
+
+def pytest_addoption(parser: pytest.Parser) -> None:
+    group = parser.getgroup("twinpuck", "e-puck firmware on Twinpuck")
+    group.addoption("--seeds", metavar="1..50", help="run each test of a world with these seeds: 1..50 or 1,2,7")
+    group.addoption("--hal", metavar="sim,dspic", help="... with programs linked with these HALs")
+    group.addoption("--selector", metavar="0..15", help="... with all robots' selectors in these positions")
+    group.addoption("--firmware", metavar="DIR", help="what the robots run instead of what the world says")
+    group.addoption("--sanitize", action="store_true", help="check each access of memory of programs built from source")
+    group.addoption("--coverage", metavar="FILE", help="lcov file that counts of the programs' lines are added to")
+    group.addoption("--failures", metavar="DIR", help="where failures leave picture and recording (.twinpuck/failures)")
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    config.addinivalue_line("markers", "world(source, **options): the world of the fixture `world`, as twinpuck.World")
+    config.addinivalue_line("markers", "robot(name): the robot of the fixture `robot`; else the world's first")
+    config.addinivalue_line("markers", "points(n): what passing is worth in `twinpuck grade`; else 1")
+    config.addinivalue_line("markers", "seeds(1..50): run with each of these seeds")
+    config.addinivalue_line("markers", "hals(sim, dspic): run with programs linked with each of these HALs")
+    config.addinivalue_line("markers", "selectors(0..15): run with each of these positions of the selector")
+    for axis in _matrix.AXES:
+        try:
+            axis.values(config.getoption(axis.option))
+        except ValueError as wrong:
+            raise pytest.UsageError(str(wrong)) from None
+    if not hasattr(config, "workerinput"):  # one process begins, not each of several
+        shutil.rmtree(failures_folder(config), ignore_errors=True)
+
+
+def failures_folder(config: pytest.Config) -> pathlib.Path:
+    """Where failures leave what they show."""
+    return pathlib.Path(config.getoption("--failures") or config.rootpath / ".twinpuck" / "failures")
+
+
+def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    if not {"world", "make_world"} & set(metafunc.fixturenames):
+        return
+    for axis in _matrix.AXES:
+        marker = metafunc.definition.get_closest_marker(axis.marker)
+        try:
+            values = axis.values(metafunc.config.getoption(axis.option)) or axis.marked(marker and marker.args)
+        except ValueError as wrong:
+            raise pytest.UsageError(f"{metafunc.definition.nodeid}: {wrong}") from None
+        if values:
+            metafunc.fixturenames.append(axis.fixture)
+            metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)
+
+
+# --- fixtures
+
+@pytest.fixture(name="_seed")
+def _seed_of(request: pytest.FixtureRequest) -> int:
+    return request.param
+
+
+@pytest.fixture(name="_hal")
+def _hal_of(request: pytest.FixtureRequest) -> str:
+    return request.param
+
+
+@pytest.fixture(name="_selector")
+def _selector_of(request: pytest.FixtureRequest) -> int:
+    return request.param
+
+
+@pytest.fixture
+def _chosen(request: pytest.FixtureRequest) -> dict[str, typing.Any]:
+    """What the matrix says of this test: seed, hal, selector."""
+    parameters = request.node.callspec.params if hasattr(request.node, "callspec") else {}
+    return {axis.name: parameters[axis.fixture] for axis in _matrix.AXES if axis.fixture in parameters}
+
+
+@pytest.fixture
+def firmware(request: pytest.FixtureRequest) -> pathlib.Path | None:
+    """The program under test: --firmware, else the test's own folder if it holds C files; else None."""
+    given = request.config.getoption("--firmware")
+    if given:
+        return pathlib.Path(given).resolve()
+    folder = request.path.parent
+    return folder if any(folder.glob("*.c")) else None
+
+
+@pytest.fixture
+def make_world(request: pytest.FixtureRequest, _chosen: dict[str, typing.Any]) -> \
+        collections.abc.Iterator[collections.abc.Callable[..., World]]:
+    """Opens worlds: make_world(source, **options) as twinpuck.World, relative to the test's folder, with the seed, HAL
+    and selector of this run of the test. They are closed when the test is over."""
+    worlds = request.node.stash.setdefault(_WORLDS, [])
+
+    def make(source: typing.Any = "world.toml", *arguments: typing.Any, **options: typing.Any) -> World:
+        __tracebackhide__ = True
+        world = open_world(request.config, request.path.parent, source, _chosen, *arguments, **options)
+        worlds.append(world)
+        return world
+
+    yield make
+    for world in worlds:
+        world.close()
+
+
+@pytest.fixture
+def world(request: pytest.FixtureRequest, make_world: collections.abc.Callable[..., World]) -> World:
+    """A fresh world: that of @pytest.mark.world(source, **options), else world.toml beside the test."""
+    __tracebackhide__ = True
+    marker = request.node.get_closest_marker("world")
+    if marker:
+        return make_world(*marker.args, **marker.kwargs)
+    if not (request.path.parent / "world.toml").exists():
+        pytest.fail(f"{request.path.parent}: got no world.toml, expected one beside the test, or "
+                    "@pytest.mark.world(\"maze\", firmware=...) at it", pytrace=False)
+    return make_world("world.toml")
+
+
+@pytest.fixture
+def robot(request: pytest.FixtureRequest, world: World) -> Robot:
+    """A robot of the world: that of @pytest.mark.robot(name), else its first."""
+    marker = request.node.get_closest_marker("robot")
+    return world.robots[marker.args[0] if marker else 0]
+
+
+def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
+               firmware: typing.Any = None, **options: typing.Any) -> World:
+    """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
+    if isinstance(source, (str, pathlib.Path)) and "\n" not in str(source) and (folder / source).is_file():
+        source = folder / source
+    if config.getoption("--firmware"):
+        firmware = pathlib.Path(config.getoption("--firmware")).resolve()
+    elif isinstance(firmware, (str, pathlib.Path)) and (folder / firmware).exists():
+        firmware = folder / firmware
+    for name in ("seed", "hal"):
+        if name in chosen:
+            options[name] = chosen[name]
+    if config.getoption("--sanitize"):
+        options["sanitize"] = True
+    if config.getoption("--coverage"):
+        options["coverage"] = str(pathlib.Path(config.getoption("--coverage")).resolve())
+    world = World(source, firmware, **options)
+    if "selector" in chosen:
+        for each in world.robots:
+            each.selector = chosen["selector"]
+    return world
+
+
+# --- tests without a program
+
+def pytest_collect_file(file_path: pathlib.Path, parent: pytest.Collector) -> pytest.Collector | None:
+    if not file_path.name.endswith(".test.toml"):
+        return None
+    return DeclarativeFile.from_parent(parent, path=file_path)
+
+
+class DeclarativeFile(pytest.File):
+    """A *.test.toml file: a test for each seed, HAL and selector."""
+
+    def collect(self) -> collections.abc.Iterator[pytest.Item]:
+        file = _declarative.TestFile(self.path)
+        axes = [[(axis.name, value) for value in axis.values(self.config.getoption(axis.option)) or file.values(axis)]
+                for axis in _matrix.AXES]
+        for chosen in itertools.product(*(values for values in axes if values)):
+            matrix = "-".join(f"{name}={value}" for name, value in chosen)
+            yield DeclarativeTest.from_parent(self, name=file.title + (f"[{matrix}]" if matrix else ""), file=file,
+                                              chosen=dict(chosen))
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
+        return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
+
+
+class DeclarativeTest(pytest.Item):
+    """One run of a *.test.toml file."""
+
+    def __init__(self, *, file: _declarative.TestFile, chosen: dict[str, typing.Any], **more: typing.Any) -> None:
+        super().__init__(**more)
+        self.file, self._chosen = file, chosen
+        self.add_marker(pytest.mark.points(file.table.get("points", 1)))
+
+    def runtest(self) -> None:
+        table = self.file.table
+        world = open_world(self.config, self.path.parent, table["world"], self._chosen, table.get("firmware"))
+        self.stash[_WORLDS] = [world]
+        _declarative.Run(self.file, world).run()
+
+    def teardown(self) -> None:
+        for world in self.stash.get(_WORLDS, []):
+            world.close()
+
+    def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
+        return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
+
+    def reportinfo(self) -> tuple[pathlib.Path, int, str]:
+        return self.path, 0, self.name
+
+
+# --- what a failure shows
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_call(item: pytest.Item) -> None:
+    """Behind a test that passed: a run whose faults never took effect shows nothing, so it did not pass."""
+    for world in item.stash.get(_WORLDS, []):
+        world.check_faults()
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) -> collections.abc.Iterator[None]:
+    outcome = yield
+    report: pytest.TestReport = outcome.get_result()
+    if call.when != "call" or not report.failed:
+        return
+    if call.excinfo is not None and isinstance(call.excinfo.value, InvalidRun):
+        item.user_properties.append(("twinpuck_invalid", str(call.excinfo.value)))
+    for number, world in enumerate(item.stash.get(_WORLDS, [])):
+        properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
+        try:
+            shown, files = show(world, folder_of(item, number))
+        except (TwinpuckError, OSError, RuntimeError) as wrong:  # the failure itself must be told
+            shown, files = f"nothing more can be shown: {wrong}", {}
+        report.sections.append((f"world {pathlib.Path(world.file).name}", shown))
+        # JUnit's readers take files that are named so, and text that stands beside them
+        properties.update(files)
+        item.add_report_section("call", "stdout", "\n".join(
+            [shown] + [f"[[ATTACHMENT|{file}]]" for file in files.values() if isinstance(file, pathlib.Path)]) + "\n")
+        item.user_properties += [(f"twinpuck_{key}", str(value)) for key, value in properties.items()]
+    report.user_properties = list(item.user_properties)
+
+
+def folder_of(item: pytest.Item, number: int) -> pathlib.Path:
+    """Where the failure of a test leaves its files; `number`: of its world."""
+    name = re.sub(r"[^\w.=\-\[\]]+", "_", item.nodeid)
+    return failures_folder(item.config) / (name if number == 0 else f"{name}-{number + 1}")
+
+
+def show(world: World, folder: pathlib.Path) -> tuple[str, dict[str, typing.Any]]:
+    """What is known of a run, as text; and the files that it leaves in `folder`, with the command that shows it again."""
+    folder.mkdir(parents=True, exist_ok=True)
+    picture, recording = folder / "picture.png", folder / "run.inputs"
+    world.picture(picture)
+    world.save_replay(recording)
+    lines = [f"at {world.time_s:.3f} s, seed {world.seed}"]
+    for robot in world.robots[:8]:
+        lines += told(robot)
+    if len(world.robots) > 8:
+        lines.append(f"... and {len(world.robots) - 8} robots more")
+    again = f"twinpuck view --replay {shlex.quote(nearby(recording))}"
+    lines += [f"picture: {nearby(picture)}", f"again:   {again}"]
+    return "\n".join(lines), {"picture": picture, "recording": recording, "again": again}
+
+
+def nearby(path: pathlib.Path) -> str:
+    """As a person here would type it."""
+    try:
+        return str(path.relative_to(pathlib.Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def told(robot: Robot) -> list[str]:
+    """A robot's state in a few lines: where it is, where its program stands and why, its last serial lines."""
+    lines = [f"{robot.name}: at ({robot.x_m:.3f}, {robot.y_m:.3f}) m, {robot.heading_deg:.0f} deg, selector "
+             f"{robot.selector}, battery {robot.battery_v:.2f} V"]
+    if robot.hal:
+        state = "stopped in" if robot.has_stopped else "stands in"
+        lines.append(f"  its program ({robot.program}, hal {robot.hal}) {state} {robot.place}")
+        lines += [f"  {line}" for line in robot.why().rstrip().splitlines()]
+    lines += [f"  trap: {line}" for trap in robot.traps for line in str(trap).splitlines()]
+    lines += [f"  {diagnosis}" for diagnosis in robot.diagnoses]
+    for port, serial in (("uart1", robot.uart1), ("uart2", robot.uart2)):
+        if serial.lines:
+            lines.append(f"  last lines of {port}:")
+            lines += [f"    {line.encode('unicode_escape').decode()}" for line in serial.lines[-_LAST_LINES:]]
+    return lines
+
+
+__all__ = ["firmware", "make_world", "robot", "world", "WorldError"]

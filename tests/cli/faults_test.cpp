@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// Faults through the command: files and lines, what is told at the end, exit codes, lists.
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/command.h"
+
+namespace {
+
+using namespace cli_test;
+
+class FaultsOfARun : public CommandTest {
+ protected:
+  static Said run(const std::string& more) { return twinpuck("run maze --fw obstacle --for 3 " + more); }
+};
+
+TEST_F(FaultsOfARun, those_that_took_effect_are_in_the_summary) {
+  const std::string file =
+      write("f.toml",
+            "[[fault]]\nkind = \"sensor_blocked\"\nrobot = \"puck\"\nsensor = 0\nat_s = 1\nfor_s = "
+            "0.5\n[[stimulus]]\nturn = 3\nwhen = \"distance_m > 0.05\"\n");
+  const Said said =
+      run("--faults " + file + " --fault 'wheel_slip share=0.2 at=500ms' --summary " + path("s.json"));
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+  EXPECT_NE(said.text.find("sensor_blocked sensor=0 of puck: from 1.000 s, took effect at 1.0"),
+            std::string::npos)
+      << said.text;
+  const auto faults = nlohmann::json::parse(read(path("s.json"))).at("faults");
+  ASSERT_EQ(faults.size(), 3u);
+  EXPECT_EQ(faults[0].at("kind"), "sensor_blocked");
+  EXPECT_EQ(faults[0].at("robot"), "puck");
+  EXPECT_EQ(faults[0].at("where"), file + ":1:1");
+  EXPECT_EQ(faults[0].at("begun_s"), 1.0);
+  EXPECT_EQ(faults[0].at("ended_s"), 1.5);
+  EXPECT_EQ(faults[2].at("begun_s"), 0.5);
+  EXPECT_TRUE(faults[2].at("ended_s").is_null());
+}
+
+TEST_F(FaultsOfARun, one_that_never_took_effect_makes_the_run_invalid) {
+  const Said late = run("--fault 'wheel_stuck at=100s'");
+  EXPECT_EQ(late.exit_code, 7);
+  EXPECT_NE(late.text.find("command line: --fault: wheel_stuck: never began: the run ended before 100 s"),
+            std::string::npos)
+      << late.text;
+  const Said unheld = run("-q --fault \"bump when='x_m > 50'\" --summary " + path("s.json"));
+  EXPECT_EQ(unheld.exit_code, 7);
+  EXPECT_NE(unheld.text.find("never began: 'x_m > 50' never held"), std::string::npos) << unheld.text;
+  EXPECT_TRUE(nlohmann::json::parse(read(path("s.json"))).at("faults")[0].at("begun_s").is_null());
+  // obstacle sends nothing over UART 2
+  const Said unfelt = run("--fault 'bytes_lost uart=2'");
+  EXPECT_EQ(unfelt.exit_code, 7);
+  EXPECT_NE(unfelt.text.find(
+                "bytes_lost uart=2: never took effect: it began at 0.000 s, and it was never so that a byte "
+                "that was sent did not arrive"),
+            std::string::npos)
+      << unfelt.text;
+}
+
+TEST_F(FaultsOfARun, what_is_wrong_with_them_is_told_before_anything_runs) {
+  const std::string file =
+      write("f.toml", "[[fault]]\nkind = \"wheel_stick\"\n\n[[fault]]\nkind = \"hot_light\"\nsensor = 8\n");
+  const Said bad = run("--faults " + file);
+  EXPECT_EQ(bad.exit_code, 2);
+  EXPECT_NE(bad.text.find(file + ":2:8: fault.kind: got \"wheel_stick\""), std::string::npos) << bad.text;
+  EXPECT_NE(bad.text.find(file + ":6:10: fault.sensor: got 8"), std::string::npos) << bad.text;
+  EXPECT_EQ(run("--faults " + path("nowhere.toml")).exit_code, 2);
+  const Said line = run("--fault 'wheel_stuck whel=left'");
+  EXPECT_EQ(line.exit_code, 2);
+  EXPECT_NE(line.text.find("command line: --fault: unknown key 'whel' in fault; did you mean 'wheel'?"),
+            std::string::npos)
+      << line.text;
+  const Said robot = run("--faults " + write("g.toml", "[[fault]]\nkind = \"bump\"\nrobot = \"pukc\"\n"));
+  EXPECT_EQ(robot.exit_code, 2);
+  EXPECT_NE(
+      robot.text.find("g.toml:1:1: robot: got 'pukc', expected a robot of the world: did you mean 'puck'?"),
+      std::string::npos)
+      << robot.text;
+}
+
+TEST_F(FaultsOfARun, the_same_with_any_number_of_threads) {
+  const auto digest = [&](const std::string& more) {
+    run("-q --fault 'steps_lost share=0.3 at=1s' --fault 'bump at=2s' --summary " + path("s.json") + " " +
+        more);
+    return nlohmann::json::parse(read(path("s.json"))).at("digest").get<std::string>();
+  };
+  const std::string one = digest("--threads 1");
+  EXPECT_EQ(one, digest("--threads 4"));
+  EXPECT_NE(one, digest("--seed 9"));
+}
+
+TEST_F(FaultsOfARun, without_any_the_summary_has_no_list) {
+  EXPECT_EQ(run("-q --summary " + path("s.json")).exit_code, 0);
+  EXPECT_FALSE(nlohmann::json::parse(read(path("s.json"))).contains("faults"));
+}
+
+TEST(FaultLists, name_kinds_and_signals) {
+  const Said faults = twinpuck("list faults");
+  EXPECT_EQ(faults.exit_code, 0);
+  EXPECT_NE(faults.text.find("battery_sag"), std::string::npos);
+  EXPECT_NE(faults.text.find("drop_v: 0 to 2 V, usually 0.6"), std::string::npos) << faults.text;
+  const Said signals = twinpuck("list signals");
+  EXPECT_EQ(signals.exit_code, 0);
+  EXPECT_NE(signals.text.find("proximity0 to proximity7"), std::string::npos);
+}
+
+}  // namespace

@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: MIT
+"""Faults and stimuli in Python and in tests. What each kind does is tested in tests/faults."""
+import pytest
+
+import twinpuck
+
+COUNTS = """#include <motor_led/e_init_port.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+volatile int near;
+int main(void) { e_init_port(); e_init_ad_scan(ALL_ADC); while (1) near = e_get_prox(0); }
+"""
+NEAR_A_WALL = {"position": [0.43, 0]}
+
+
+def test_a_fault_begins_takes_effect_and_ends(opened):
+    world = opened(COUNTS, more=NEAR_A_WALL)
+    robot = world.robots[0]
+    world.run(0.3)  # e_init_ad_scan() takes more than half of it
+    assert robot.variable("near") > 100
+    fault = world.inject("sensor_dead", robot, sensor=0, at_s=0.4, for_s=0.2)
+    assert fault.begun_s is None and len(world.faults) == 1
+    world.run(0.2)
+    assert fault.begun_s == pytest.approx(0.4, abs=0.003) and robot.variable("near") < 10
+    world.run(0.2)
+    assert fault.ended_s == pytest.approx(0.6, abs=0.003) and robot.variable("near") > 100
+    assert fault.took_effect_s is not None
+    world.check_faults()
+
+
+def test_a_fault_by_condition_and_one_that_is_ended_by_hand(opened):
+    world = opened(COUNTS, more=NEAR_A_WALL)
+    robot = world.robots[0]
+    dead = world.inject("sensor_dead", sensor=0, when="$near > 100")
+    assert world.run_until(lambda: dead.begun_s is not None, at_most=0.5)
+    world.run(0.1)
+    assert robot.variable("near") < 10
+    dead.end()
+    world.run(0.1)
+    assert robot.variable("near") > 100 and dead.ended_s is not None
+    assert "sensor_dead" in repr(dead) and "ended at" in repr(dead)
+
+
+def test_a_run_whose_faults_took_no_effect_is_invalid(opened):
+    world = opened("int main(void) { while (1) ; }")
+    world.inject("bytes_lost", uart=1, share=1)
+    world.inject("wheel_stuck", wheel="left", at_s=100)
+    world.run(0.1)
+    with pytest.raises(twinpuck.InvalidRun) as wrong:
+        world.check_faults()
+    assert "bytes_lost" in str(wrong.value) and "wheel_stuck" in str(wrong.value)
+
+
+@pytest.mark.parametrize("call, said", [
+    (dict(kind="sensor_blokced", sensor=0), "sensor_blocked"), (dict(kind="sensor_dead", sensor=9), "9"),
+    (dict(kind="sensor_dead", sensr=1), "sensor"), (dict(kind="sensor_dead", sensor=0, when="xm > 1"), "x_m"),
+    (dict(kind="sensor_dead", sensor=0, robot="pack"), "puck"), (dict(kind="sensor_dead", sensor=0, at_s=-1), "at_s")])
+def test_what_is_no_fault_is_said(opened, call, said):
+    world = opened(COUNTS)
+    with pytest.raises(ValueError, match=said):
+        world.inject(**call)
+    assert world.faults == []
+
+
+def test_faults_are_in_recordings(opened, command, tmp_path):
+    world = opened(COUNTS, more=NEAR_A_WALL)
+    world.run(0.1)
+    fault = world.inject("sensor_dead", sensor=0)
+    world.inject("robot_moved", "puck", to=[0.0, 0.1, 90], at_s=0.2)
+    world.run(0.2)
+    fault.end()
+    world.run(0.1)
+    world.save_replay(tmp_path / "run.inputs")
+    done = command("run", "--replay", tmp_path / "run.inputs", "-q")
+    assert done.returncode == 0, done.stderr
+
+
+def test_faults_of_a_file(opened, tmp_path):
+    (tmp_path / "bench.toml").write_text('[[fault]]\nkind = "sensor_dead"\nsensor = 0\n[[stimulus]]\nturn = 3\nat_s = 0.1\n')
+    world = opened(COUNTS, more=NEAR_A_WALL)
+    assert len(world.load_faults(tmp_path / "bench.toml")) == 2
+    world.run(0.2)
+    assert world.robots[0].selector == 3
+    (tmp_path / "bench.toml").write_text('[[fault]]\nknd = "x"\n')
+    with pytest.raises(ValueError, match="faults:1:1: .*kind"):
+        world.load_faults(tmp_path / "bench.toml")
+
+
+def test_a_test_with_a_fault_that_took_no_effect_does_not_pass(project, command):
+    folder = project(world__toml='twinpuck = 1\n[[robot]]\nname = "puck"\nfirmware = "."\nposition = [0, 0]\n',
+                     main__c="int main(void) { while (1) ; }",
+                     test_a__py="def test_good(world): pass\n"
+                                "def test_a(world):\n    world.inject('bytes_lost', uart=1, share=1)\n    world.run(0.1)\n",
+                     b__test__toml='world = "world.toml"\nat_most_s = 0.1\n[[fault]]\nkind = "wheel_stuck"\nwheel = "left"\n')
+    done = command("test", cwd=folder)
+    assert done.returncode == 7 and "1 passed" in done.stdout and "2 failed" in done.stdout, done.stdout
+    assert "wheel_stuck" in done.stdout and "bytes_lost" in done.stdout
+    (folder / "test_a.py").write_text("def test_b(world): assert 0\n")
+    assert command("test", cwd=folder).returncode == 1

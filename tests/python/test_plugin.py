@@ -1,0 +1,291 @@
+# SPDX-License-Identifier: MIT
+"""The pytest plug-in and twinpuck test, as a user has them: a folder of one's own, the command, its text and files."""
+import json
+import re
+import time
+import xml.etree.ElementTree
+
+import pytest
+
+WORLD = """twinpuck = 1
+[arena]
+size = [1, 1]
+[[robot]]
+name = "puck"
+firmware = "."
+position = [0, 0]
+"""
+
+MAIN = """#include <uart/e_uart_char.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/e_epuck_ports.h>
+#include <motor_led/advance_one_timer/e_led.h>
+#include <stdio.h>
+volatile int position;
+int main(void)
+{
+  char text[30];
+  e_init_port();
+  e_init_uart1();
+  position = SELECTOR0 + 2 * SELECTOR1 + 4 * SELECTOR2 + 8 * SELECTOR3;
+  e_send_uart1_char(text, sprintf(text, "selector %d\\r\\n", position));
+  e_set_led(0, 1);
+  while (1) ;
+}
+"""
+
+
+@pytest.fixture
+def mine(project):
+    """A folder with a program, its world and this text of tests."""
+    def make(tests="", **more):
+        return project(**{"world__toml": WORLD, "main__c": MAIN, "test_mine__py": tests, **more})
+
+    return make
+
+
+def names(output):
+    """Tests that were run, with how they ended."""
+    return dict(re.findall(r"^(\S+::.+?) (PASSED|FAILED|ERROR)", output, re.M))
+
+
+def test_a_world_beside_the_test_is_a_fixture(mine, command):
+    folder = mine("def test_lights(world, robot):\n    world.run(0.2)\n    assert robot.leds[0]\n"
+                  "def test_is_fresh(world):\n    assert world.time_s == 0 and world.robots['puck'].steps == (0, 0)\n"
+                  "def test_firmware(firmware):\n    assert (firmware / 'main.c').exists()\n")
+    done = command("test", "-v", cwd=folder)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert names(done.stdout) == {"test_mine.py::test_lights": "PASSED", "test_mine.py::test_is_fresh": "PASSED",
+                                  "test_mine.py::test_firmware": "PASSED"}
+    assert command("test", folder / "test_mine.py", "-k", "lights", cwd="/").returncode == 0
+
+
+def test_seeds_hals_and_selectors_are_in_the_tests_names(mine, command):
+    folder = mine("def test_reads(world, robot, request):\n    robot.uart1.expect(f'selector {robot.selector}\\r')\n    for word in (f'seed={world.seed}', f'hal={robot.hal}', f'selector={robot.selector}'):\n        assert word in request.node.name\n"
+                  "def test_plain():\n    pass\n")
+    done = command("test", "-v", "--seeds", "1..2", "--hal", "sim,dspic", "--selector", "0,15", cwd=folder)
+    expected = {f"test_mine.py::test_reads[{a}-{b}-{c}]": "PASSED" for a in ("seed=1", "seed=2")
+                for b in ("hal=sim", "hal=dspic") for c in ("selector=0", "selector=15")}
+    found = names(done.stdout)
+    # which axis comes first in a name is pytest's to say
+    same = {re.sub(r"\[.*", "", name) + str(sorted(re.findall(r"\w+=\w+", name))): how for name, how in found.items()}
+    wanted = {re.sub(r"\[.*", "", name) + str(sorted(re.findall(r"\w+=\w+", name))): how for name, how in expected.items()}
+    assert same == {**wanted, "test_mine.py::test_plain[]": "PASSED"}
+
+
+def test_markers_say_what_a_test_runs_over(mine, command):
+    folder = mine("import pytest\n@pytest.mark.seeds('3..4', 9)\n@pytest.mark.selectors(range(2))\n"
+                  "def test_seeds(world):\n    assert world.seed in (3, 4, 9)\n"
+                  "@pytest.mark.world('maze', firmware='blink')\n@pytest.mark.robot('puck')\n"
+                  "def test_maze(world, robot):\n    assert robot.name == 'puck' and world.bodies == {}\n"
+                  "def test_two(make_world):\n    a, b = make_world(), make_world('maze', firmware='.', seed=3)\n"
+                  "    b.run(0.1)\n    assert a.time_s == 0 and b.robots[0].leds[0]\n")
+    done = command("test", "-v", cwd=folder)
+    assert done.returncode == 0, done.stdout
+    assert sum("test_seeds" in name for name in names(done.stdout)) == 6
+    # the command line goes before
+    assert sum("test_seeds" in name for name in names(command("test", "-v", "--seeds", "3", cwd=folder).stdout)) == 2
+
+
+@pytest.mark.parametrize("words, said", [
+    (("--seeds", "5..1"), "--seeds: got '5..1', expected numbers from 0"), (("--seeds", "x"), "--seeds: got 'x'"),
+    (("--hal", "native"), "--hal: got 'native', expected sim or dspic"),
+    (("--selector", "16"), "--selector: got '16', expected numbers from 0 to 15"),
+    (("--seeds", "0..999999999"), "--seeds: got"), (("nowhere.py",), "not found"), (("--nothing",), "unrecognized")])
+def test_bad_words_are_bad_input(mine, command, words, said):
+    done = command("test", *words, cwd=mine("def test_x(world): pass\n"))
+    assert done.returncode == 2 and said in done.stdout + done.stderr
+
+
+def test_exit_codes(mine, command):
+    folder = mine("def test_good(): pass\ndef test_bad(): assert 0\n")
+    assert command("test", "-k", "good", cwd=folder).returncode == 0
+    assert command("test", cwd=folder).returncode == 1
+    assert command("test", "-k", "none", cwd=folder).returncode == 5
+    help_text = command("test", "--help")
+    assert help_text.returncode == 0 and "--seeds 1..50" in help_text.stdout
+
+
+def test_a_failure_shows_what_it_can_and_leaves_a_run_to_look_at(mine, command):
+    folder = mine("def test_dark(world, robot):\n    world.run(0.25)\n    robot.selector = 7\n    world.run(0.25)\n"
+                  "    assert not robot.leds[0]\n")
+    done = command("test", "--seeds", "4", "--junitxml", "out.xml", cwd=folder)
+    assert done.returncode == 1
+    for part in ("assert not", "at 0.500 s, seed 4", "stands in main", "main.c:15", "last lines of uart1:", "selector 0",
+                 "picture: .twinpuck/failures/", "again:   twinpuck view --replay '.twinpuck/failures/"):
+        assert part in done.stdout, part
+    # inside of twinpuck nobody wants to see
+    assert "_world.py" not in done.stdout
+    case = xml.etree.ElementTree.parse(folder / "out.xml").find(".//testcase")
+    properties = {p.get("name"): p.get("value") for p in case.iter("property")}
+    assert properties["twinpuck_seed"] == "4" and properties["twinpuck_time_s"] == "0.5"
+    assert "[[ATTACHMENT|" + properties["twinpuck_picture"] + "]]" in case.find("system-out").text
+    assert "stands in main" in case.find("system-out").text
+    with open(properties["twinpuck_picture"], "rb") as picture:
+        assert picture.read(4) == b"\x89PNG"
+    again = command("run", "--replay", properties["twinpuck_recording"], "--summary", "s.json", "-q", cwd=folder)
+    assert again.returncode == 0, again.stderr
+    assert json.loads((folder / "s.json").read_text())["simulated_s"] == 0.5
+
+
+def test_a_trap_fails_a_test_with_its_line(mine, command):
+    folder = mine("def test_it(world):\n    world.run(1)\n",
+                  main__c="volatile int zero;\nint main(void)\n{\n  zero = 1 / zero;\n  while (1) ;\n}\n")
+    done = command("test", cwd=folder)
+    assert done.returncode == 1 and "math error" in done.stdout and re.search(r"main \(.*main\.c:4\)", done.stdout)
+
+
+def test_a_program_that_does_not_compile_fails_each_test(mine, command):
+    folder = mine("def test_a(world): pass\ndef test_b(world): pass\n", main__c="int main(void) { retrun 0; }\n")
+    done = command("test", cwd=folder)
+    assert done.returncode == 1 and done.stdout.count("main.c:1:18: error") >= 2
+    assert "_core" not in done.stdout  # nor the inside
+
+
+def test_no_world_is_said(project, command):
+    done = command("test", cwd=project(test_a__py="def test_a(world): pass\n"))
+    assert done.returncode == 1 and "got no world.toml, expected one beside the test" in done.stdout
+
+
+def test_firmware_of_the_command_line_goes_before(mine, command, programs):
+    folder = mine("def test_dark(world, robot):\n    world.run(0.1)\n    assert not robot.leds[0]\n")
+    assert command("test", cwd=folder).returncode == 1
+    assert command("test", "--firmware", programs("int main(void) { while (1) ; }"), cwd=folder).returncode == 0
+    assert command("test", "--firmware", "nowhere", cwd=folder).returncode == 1
+
+
+def test_coverage_and_sanitize(mine, command):
+    folder = mine("def test_a(world):\n    world.run(0.1)\n")
+    assert command("test", "--coverage", "c.info", cwd=folder).returncode == 0
+    assert f"SF:{folder / 'main.c'}" in (folder / "c.info").read_text()
+    (folder / "main.c").write_text("int few[2]; volatile int n = 3;\nint main(void) { few[n] = 1; while (1) ; }\n")
+    assert command("test", cwd=folder).returncode == 0
+    done = command("test", "--sanitize", cwd=folder)
+    assert done.returncode == 1 and "few" in done.stdout
+
+
+def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path):
+    """Programs are built side by side by many processes, each once or more, and nothing is in another one's way."""
+    import threading
+
+    (tmp_path / "world.toml").write_text(WORLD)
+    text = ("import pytest\n@pytest.mark.parametrize('n', range(12))\ndef test_n(make_world, tmp_path, n):\n"
+            "    (tmp_path / 'main.c').write_text(f'volatile int n = {n % 5}; int main(void) {{ while (1) ; }}')\n"
+            "    w = make_world({'robot': [{'name': 'p', 'position': [0, 0], 'firmware': str(tmp_path)}]})\n"
+            "    w.run(0.05)\n    assert w.robots[0].variable('n') == n % 5\n")
+    folder = mine(text)
+    done = []
+    environment = {"XDG_CACHE_HOME": str(tmp_path / "cache")}
+    shells = [threading.Thread(target=lambda: done.append(command("test", "-q", "-n", 4, cwd=folder, env=environment)))
+              for _ in range(2)]
+    for shell in shells:
+        shell.start()
+    for shell in shells:
+        shell.join()
+    assert [d.returncode for d in done] == [0, 0], done[0].stdout + done[1].stdout
+
+
+def test_an_edit_is_seen_in_a_second(mine, command):
+    folder = mine("def test_led(world, robot):\n    world.run(0.2)\n    assert robot.leds[0]\n")
+    command("test", cwd=folder)
+    (folder / "main.c").write_text(MAIN.replace("e_set_led(0, 1)", "e_set_led(1, 1)"))
+    began = time.process_time()
+    assert command("test", cwd=folder).returncode == 1
+    assert time.process_time() - began < 1
+
+
+# --- tests without a program
+
+def test_a_test_file(mine, command):
+    folder = mine(robot__test__toml="""
+world = "world.toml"
+title = "says its selector"
+at_most_s = 2
+selectors = "0..2"
+[[step]]
+expect = 'selector \\d+'
+[[step]]
+wait = "led0"
+[[step]]
+wait = 0.25
+[[always]]
+that = "collisions == 0"
+[[never]]
+that = "led1"
+[[finally]]
+that = "led0 && $position == selector && time_s > 0.25"
+""")
+    done = command("test", "-v", cwd=folder)
+    assert done.returncode == 0, done.stdout
+    assert {f"robot.test.toml::says its selector[selector={i}]" for i in range(3)} <= set(names(done.stdout))
+
+
+@pytest.mark.parametrize("text, said", [
+    ('[[step]]\nexpect = "never"\nwithin_s = 0.1\nbecause = "it should"\n',
+     r"robot.test.toml:3: robot 'puck' uart1: expected 'never' within 0.1 s, got .*selector 0.*; it should"),
+    ('[[step]]\nwait = "led3"\n[[step]]\nwait = 1\n', r"robot.test.toml:3: step 1: expected 'led3' within 1 s, got otherwise up to 1.000 s \(it is 0\)"),
+    ('[[always]]\nthat = "!led0"\n', r"robot.test.toml:3: always: expected always '!led0', got otherwise at 0.0\d+ s"),
+    ('[[never]]\nthat = "led0"\nfrom_s = 0.5\nbecause = "dark"\n', r"robot.test.toml:3: never: expected never 'led0', got it at 0.500 s; dark"),
+    ('[[finally]]\nthat = "led0"\n[[finally]]\nthat = "led1"\n', r"robot.test.toml:5: finally: expected 'led1', got otherwise at 1.000 s"),
+    ('[[step]]\nwait = "lde3"\n', r"robot.test.toml:3: step: condition 'lde3': .*did you mean 'led"),
+    ('[[step]]\nset = "positon = 3"\n', r"robot.test.toml:3: step.set: .*"),
+    ('[[step]]\nwait = 5\n', r"robot.test.toml:3: step.wait: got 5 s, expected at most the 1 s that are left of at_most_s = 1"),
+    ('[[step]]\nexpect = "("\n', r"robot.test.toml:3: step.expect: got '\(', expected a regular expression"),
+    ('robot = "pack"\n[[step]]\nturn = 3\n', r"did you mean 'puck'"),
+])
+def test_what_a_test_file_expects_and_is_not_so(mine, command, text, said):
+    done = command("test", cwd=mine(robot__test__toml='world = "world.toml"\nat_most_s = 1\n'.replace("\n", "; ", 0) + text
+                                    if not text.startswith("robot") else f'world = "world.toml"\nat_most_s = 1\n{text}'))
+    assert done.returncode == 1, done.stdout
+    assert re.search(said, done.stdout), done.stdout
+    assert "again:   twinpuck view --replay" in done.stdout and "_declarative.py" not in done.stdout
+
+
+def test_steps_touch_the_robot(mine, command):
+    folder = mine(robot__test__toml="""
+world = "world.toml"
+[[step]]
+turn = 5
+[[step]]
+reset = 1
+[[step]]
+expect = "selector 5"
+[[step]]
+move = [0.2, 0.1, 90]
+[[step]]
+wait = "abs(x_m - 0.2) < 0.001 && abs(heading_deg - 90) < 0.1"
+within_s = 0.1
+[[step]]
+set = "position = 3 * 4"
+[[step]]
+battery = 3.5
+[[step]]
+wait = 0.1
+[[finally]]
+that = "$position == 12 && battery_v < 3.6"
+""")
+    assert command("test", cwd=folder).returncode == 0
+
+
+@pytest.mark.parametrize("text, said", [
+    ('wrld = "x"\n', "unknown key 'wrld' in test; did you mean 'world'?"),
+    ('world = "world.toml"\nat_most_s = -1\n', "test.at_most_s: got -1, expected a number from 0 to 1e+06 s"),
+    ('world = "world.toml"\n[[step]]\nturn = 16\n', "robot.test.toml:2: step.turn: got 16, expected a whole number from 0 to 15"),
+    ('world = "world.toml"\n[[step]]\nturn = 1\nwait = 1\n', "step: got wait and turn to do, expected one of"),
+    ('world = "world.toml"\n[[step]]\n', "step: got nothing to do"),
+    ('world = "world.toml"\n[[always]]\n', "robot.test.toml:2: always.that: is missing"),
+    ('world = "world.toml"\nstep = 3\n', "step: got 3, expected [[step]] tables"),
+    ('world = "world.toml"\nseeds = "9..1"\n', "seeds: got '9..1'"), ('world = [\n', "Invalid"),
+    ('at_most_s = 1\n', "world: is missing")])
+def test_a_wrong_test_file_is_told_with_all_that_is_wrong(mine, command, text, said):
+    done = command("test", cwd=mine(robot__test__toml=text))
+    assert done.returncode == 2 and said in done.stdout, done.stdout
+
+
+def test_the_page_of_test_files_is_made_of_the_table():
+    import pathlib
+
+    from twinpuck import _declarative
+
+    page = pathlib.Path(__file__).parents[2] / "docs" / "test-format.md"
+    assert page.read_text() == _declarative.page(), "make it anew: PYTHONPATH=build/python python3 -m twinpuck._declarative"
