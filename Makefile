@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels clean \
+.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels students clean \
   product install deb
 
 ## help: this list
@@ -164,6 +164,10 @@ fuzz: setup
 ## levels: digests with the simulator at -O0 and -O2 must agree
 levels: tool
 	@scripts/digest_levels.sh $(BUILD)
+
+## students: the students' edition, without the lab's solutions: build/twinpuck-students.tar.gz
+students:
+	@scripts/students.py $(BUILD)/twinpuck-students
 
 ## clean: remove everything that was built
 clean:

@@ -52,7 +52,7 @@ write_basic_package_version_file(${CMAKE_BINARY_DIR}/twinpuckConfigVersion.cmake
 install(FILES ${CMAKE_BINARY_DIR}/twinpuckConfigVersion.cmake DESTINATION lib/cmake/twinpuck)
 
 # sources that the compiler reads, and what people name or copy
-foreach(folder firmware hal_dspic worlds editors examples programs/supervisors programs/controller/include
+foreach(folder firmware hal_dspic worlds editors examples tools/templates programs/supervisors programs/controller/include
                programs/controller/python)
   cmake_path(GET folder PARENT_PATH parent)
   install(DIRECTORY ${folder} DESTINATION ${share}/${parent}
@@ -60,7 +60,7 @@ foreach(folder firmware hal_dspic worlds editors examples programs/supervisors p
           REGEX "/firmware/.*/test\\.cpp$" EXCLUDE)
 endforeach()
 # what verbs read
-install(FILES docs/lab.toml docs/lab-answers.md DESTINATION ${share}/docs)
+install(FILES docs/lab.toml docs/lab-answers.md DESTINATION ${share}/docs OPTIONAL)  # the students' edition has no answers
 install(FILES hal_sim/api/call_cycles.inc DESTINATION ${share}/hal_sim/api)
 install(DIRECTORY docs/ DESTINATION share/doc/twinpuck FILES_MATCHING PATTERN *.md PATTERN *.png)
 install(FILES README.md DESTINATION share/doc/twinpuck)

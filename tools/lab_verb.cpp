@@ -234,8 +234,7 @@ int lab(const LabArguments& given) {
   LabArguments a = given;
   a.setting.is_mine = !a.mine.empty();
   std::vector<std::string> problems;
-  const std::string table =
-      a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
+  const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
   auto all = read_lab_table(table, problems);
   if (a.setting.is_mine) all = own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);

@@ -48,8 +48,7 @@ void add_paths(CLI::App& app, int& exit_code) {
     }
     for (const Place& place : kPlaces) {
       std::error_code none;
-      const std::string path =
-          fs::weakly_canonical(places::share_root() / place.folder, none).string();
+      const std::string path = fs::weakly_canonical(places::share_root() / place.folder, none).string();
       if (what->empty()) std::cout << fmt::format("{:<12} {}\n", place.name, path);
       if (*what == place.name) std::cout << path << '\n';
     }

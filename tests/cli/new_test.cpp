@@ -90,6 +90,30 @@ TEST_F(New, its_makefile_has_five_lines_that_work) {
   EXPECT_TRUE(contains(run("-n view").text, "twinpuck view world.toml"));
 }
 
+TEST_F(New, its_tests_pass_and_fail_with_the_program) {
+  ASSERT_EQ(in_folder("new my_robot").exit_code, 0);
+  const Said good = shell("make -C '" + path("my_robot") + "' test ARGS='--junitxml build/tests.xml'");
+  EXPECT_EQ(good.exit_code, 0) << good.text;
+  EXPECT_TRUE(contains(good.text, " 2 passed")) << good.text;
+  EXPECT_TRUE(fs::exists(folder / "my_robot/build/tests.xml"));
+  // blind and dumb: both see it
+  std::string program = read(path("my_robot/main.c"));
+  for (const char* line :
+       {"  e_send_uart1_char(", "  int right = e_get_prox(0)", "  int left = e_get_prox(7)"})
+    program.insert(program.find(line), "//");
+  program.insert(program.find("static void control_step"), "static int left, right;\n");
+  write("my_robot/main.c", program);
+  const Said bad = in_folder("test", "my_robot");
+  EXPECT_EQ(bad.exit_code, 1) << bad.text;
+  EXPECT_TRUE(contains(bad.text, " 2 failed")) << bad.text;
+  // a program of one's own that does nothing passes what init asks of it
+  write("old/main.c", "int main(void) { while (1); }\n");
+  ASSERT_EQ(in_folder("init old").exit_code, 0);
+  const Said old = in_folder("test", "old");
+  EXPECT_EQ(old.exit_code, 0) << old.text;
+  EXPECT_TRUE(contains(old.text, " 2 passed")) << old.text;
+}
+
 TEST_F(New, editors_find_the_headers) {
   ASSERT_EQ(in_folder("new my_robot").exit_code, 0);
   const std::string compiler = "/usr/lib/llvm-14/bin/clang";
