@@ -53,7 +53,7 @@ install(FILES ${CMAKE_BINARY_DIR}/twinpuckConfigVersion.cmake DESTINATION lib/cm
 
 # sources that the compiler reads, and what people name or copy
 foreach(folder firmware hal_dspic worlds editors examples programs/supervisors programs/controller/include
-               programs/controller/python)
+               programs/controller/python tools/templates)
   cmake_path(GET folder PARENT_PATH parent)
   install(DIRECTORY ${folder} DESTINATION ${share}/${parent}
           PATTERN __pycache__ EXCLUDE PATTERN node_modules EXCLUDE PATTERN build EXCLUDE
