@@ -24,6 +24,7 @@ namespace {
 
 constexpr int kDeepest = 5;  // folders between a program and the top of its tree, at most
 constexpr std::uint64_t kLeastFreeBytes = std::uint64_t{16} << 20;  // of a disk that is taken for a cache
+constexpr std::uint64_t kFullBytes = std::uint64_t{1} << 20;        // less than any build leaves
 
 /// The file that holds this code: a program, or a library that another program has loaded.
 fs::path own_file() {
@@ -105,6 +106,11 @@ bool make_folder(const fs::path& folder) {
   return mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST;
 }
 
+std::uint64_t free_bytes(const fs::path& folder) {
+  struct statvfs disk;
+  return statvfs(folder.c_str(), &disk) == 0 ? std::uint64_t(disk.f_bavail) * disk.f_frsize : UINT64_MAX;
+}
+
 /// Whether the user owns `folder`, which is made if need be, may write there, and has room there.
 bool is_ours(const fs::path& folder, bool among_others) {
   struct stat s;
@@ -119,9 +125,7 @@ bool is_ours(const fs::path& folder, bool among_others) {
   if ((among_others ? lstat(folder.c_str(), &s) : stat(folder.c_str(), &s)) != 0) return false;
   if (!S_ISDIR(s.st_mode) || s.st_uid != geteuid()) return false;
   if (among_others && (s.st_mode & 022) != 0) return false;
-  struct statvfs disk;
-  if (statvfs(folder.c_str(), &disk) == 0 && std::uint64_t(disk.f_bavail) * disk.f_frsize < kLeastFreeBytes)
-    return false;
+  if (free_bytes(folder) < kLeastFreeBytes) return false;
   return faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0;
 }
 
@@ -156,8 +160,13 @@ fs::path cache_folder(const std::string& name) {
 
 std::string why_not_writable(const fs::path& folder) {
   errno = 0;
-  if (make_folder(folder) && faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0) return "";
-  return folder.string() + ": cache: got " + std::strerror(errno ? errno : ENOTDIR) +
+  const bool is_writable =
+      make_folder(folder) && faccessat(AT_FDCWD, folder.c_str(), W_OK | X_OK, AT_EACCESS) == 0;
+  const std::string got = !is_writable                      ? std::strerror(errno ? errno : ENOTDIR)
+                          : free_bytes(folder) < kFullBytes ? std::strerror(ENOSPC)
+                                                            : "";
+  if (got.empty()) return "";
+  return folder.string() + ": cache: got " + got +
          ", expected a folder that can be written; set XDG_CACHE_HOME to one";
 }
 

@@ -46,8 +46,9 @@ bool is_installed();
 /// whoever writes there then reports it, with why_not_writable().
 std::filesystem::path cache_folder(const std::string& name);
 
-/// "" when files can be made in `folder`, which is made if need be; else a line for the user: "FOLDER: cache:
-/// got Read-only file system, expected a folder that can be written; set XDG_CACHE_HOME to one".
+/// "" when files can be made in `folder`, which is made if need be, and its disk has 1 MB left; else a line
+/// for the user: "FOLDER: cache: got Read-only file system, expected a folder that can be written; set
+/// XDG_CACHE_HOME to one".
 std::string why_not_writable(const std::filesystem::path& folder);
 
 }  // namespace places

@@ -212,6 +212,42 @@ TEST_F(Installed, a_home_that_cannot_be_written_is_no_hindrance) {
   if (geteuid() == 0) fs::remove_all(fs::temp_directory_path() / ("twinpuck-" + std::to_string(id("ann"))));
 }
 
+TEST_F(Installed, a_full_disk_is_told_in_a_line) {
+  if (geteuid() != 0 || shell("unshare -m true").exit_code != 0)
+    GTEST_SKIP() << "only root makes small disks";
+  write_mine("bob");
+  const std::string disk = home("bob").string() + "/disk";
+  const std::string run = (prefix() / "bin/twinpuck").string() + " run maze --fw '" +
+                          (home("bob") / "mine").string() + "' --for 1";
+  fs::create_directories(disk);
+  const auto on_it = [&](const std::string& then) {
+    return shell("unshare -m sh -c \"mount -t tmpfs -o size=64k none '" + disk + "' && XDG_CACHE_HOME='" +
+                 disk + "' " + then + "\"");
+  };
+  const Said full = on_it("HOME=/proc TMPDIR='" + disk + "' " + run);
+  EXPECT_EQ(full.exit_code, 2) << full.text;
+  EXPECT_NE(full.text.find(disk + "/twinpuck/objects: cache: got No space left on device"), std::string::npos)
+      << full.text;
+  const Said elsewhere = on_it("HOME='" + (top() / "root").string() + "' " + run);
+  EXPECT_EQ(elsewhere.exit_code, 0) << "another place does: " << elsewhere.text;
+}
+
+TEST_F(Installed, what_new_makes_passes_its_own_tests) {
+  if (shell("/usr/bin/python3 -c 'import numpy, pytest'").exit_code != 0)
+    GTEST_SKIP() << "numpy or pytest is not here";
+  const Said made = said_by("ann", "twinpuck new my_robot && cd my_robot && twinpuck test");
+  EXPECT_EQ(made.exit_code, 0) << made.text;
+}
+
+TEST_F(Installed, python_finds_its_module) {
+  if (shell("/usr/bin/python3 -c 'import numpy'").exit_code != 0) GTEST_SKIP() << "numpy is not here";
+  const Said s =
+      said_by("ann", "PYTHONPATH=" + (prefix() / "lib/twinpuck/python").string() +
+                         " /usr/bin/python3 -c 'import twinpuck; w = twinpuck.World(\\\"maze\\\"); "
+                         "w.run(1); print(\\\"at\\\", w.time_s)'");
+  EXPECT_EQ(s.exit_code, 0) << s.text;
+}
+
 TEST_F(Installed, it_makes_a_controller_where_one_stands) {
   const Said made = said_by("ann", "twinpuck new my_robot && twinpuck run maze --fw ./my_robot --for 2");
   EXPECT_EQ(made.exit_code, 0) << made.text;
