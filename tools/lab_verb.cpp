@@ -236,6 +236,10 @@ int lab(const LabArguments& given) {
   std::vector<std::string> problems;
   const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
   auto all = read_lab_table(table, problems);
+  if (!problems.empty()) {
+    complain(problems);
+    return kBadInput;
+  }
   if (a.setting.is_mine) all = own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);
   check_together(a, problems);

@@ -306,6 +306,7 @@ TEST_F(LabClass, what_cannot_be_replayed_is_named) {
            Case{"I1 --csv x --html x", "--html", 2},
            Case{"I1 --junitxml /nonexistent/x.xml", "--junitxml: ", 2},
            Case{"s2", "did you mean 'S2'?", 2},
+           Case{"I1 --table nowhere.toml", "nowhere.toml: cannot be read", 2},
        }) {
     const Said s = here(std::string("lab ") + c.arguments);
     EXPECT_EQ(s.exit_code, c.exit_code) << c.arguments << s.text;
