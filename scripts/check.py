@@ -55,6 +55,7 @@ MAY_INCLUDE = {
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
+    "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "viewer/inputs.h", "install"],  # as viewer, for a language
     "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp

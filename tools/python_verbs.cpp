@@ -47,8 +47,8 @@ int become(const char* module, const std::vector<std::string>& arguments) {
 }
 
 /// A verb whose arguments are for Python to read.
-void add_python_verb(CLI::App& app, const char* name, const char* does, const char* module, const char* footer,
-                     int& exit_code) {
+void add_python_verb(CLI::App& app, const char* name, const char* does, const char* module,
+                     const char* footer, int& exit_code) {
   auto* verb = app.add_subcommand(name, does);
   verb->prefix_command();
   verb->footer(footer);

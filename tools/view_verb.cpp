@@ -66,8 +66,8 @@ int view(const ViewArguments& a) {
   }
   opening.options.threads = a.threads;
 
-  auto live = viewer::LiveView::open(std::move(opening), a.record, std::move(replay), a.port,
-                                     places::page_folder().string(), problems);
+  auto live = viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(),
+                                     problems, std::move(replay));
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});

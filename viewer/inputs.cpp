@@ -94,7 +94,8 @@ class TypedLine final : public board::UartEnd {
 Inputs::~Inputs() = default;
 
 bool Inputs::is_input(const std::string& what) {
-  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp", "write", "faults", "end_fault", "world"})
+  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp",
+                            "write", "faults", "end_fault", "world"})
     if (what == known) return true;
   return false;
 }
@@ -216,7 +217,8 @@ void Inputs::apply(const Json& input) {
     const int bytes = whole(input, "bytes", 1, 8);
     const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
     const auto value = input.at("value").get<std::uint64_t>();
-    program_of(input, robot).write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
+    program_of(input, robot)
+        .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
   } else {
     refuse_input(fmt::format("do: got '{}', expected an input", what));
   }

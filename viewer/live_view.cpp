@@ -3,8 +3,9 @@
 
 namespace viewer {
 
-std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record,
-                                         std::unique_ptr<Replay> replay, int port, const std::string& page_folder, std::vector<std::string>& problems) {
+std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record, int port,
+                                         const std::string& page_folder, std::vector<std::string>& problems,
+                                         std::unique_ptr<Replay> replay) {
   std::unique_ptr<LiveView> view(new LiveView);
   LiveView* v = view.get();
   // the session's thread sends through the server, and the server's threads post to the session: neither runs

@@ -44,8 +44,8 @@ class Session {
 
   /// `opening.text` is what `opening.file` holds. `record`: file for the inputs; empty: none.
   Session(Opening opening, std::string record, Outlet outlet);
-  /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end. Before
-  /// open().
+  /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end.
+  /// Before open().
   void replay(std::unique_ptr<Replay> recording) { replay_ = std::move(recording); }
   ~Session();
   Session(const Session&) = delete;
@@ -146,8 +146,8 @@ class Session {
   std::unique_ptr<programs::Team> team_;
   std::unique_ptr<Inputs> inputs_;
   std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<Replay> replay_;  // null: there is none, or it did not fit
-  bool is_replayed_ = false;        // to its end
+  std::unique_ptr<Replay> replay_;    // null: there is none, or it did not fit
+  bool is_replayed_ = false;          // to its end
   std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
   sim::Clicks traced_ = 0;            // until when pages know it
   Wall::time_point next_trace_{};

@@ -123,7 +123,8 @@ bool read_text(const std::string& text, const std::string& key, MachineCode& cod
 bool find_own_functions() {
   static const char anything = 0;
   Dl_info here{};
-  if (dladdr(&anything, &here) && here.dli_fname) dlopen(here.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
+  if (dladdr(&anything, &here) && here.dli_fname)
+    dlopen(here.dli_fname, RTLD_LAZY | RTLD_NOLOAD | RTLD_GLOBAL);
   return true;
 }
 

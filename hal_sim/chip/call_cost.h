@@ -10,8 +10,8 @@ namespace chip {
 
 /// In cycles, callees included, handlers not.
 struct CallCost {
-  std::int64_t calls = 0;  ///< 0: by its code alone
-  Cycle total = 0;         ///< of all calls
+  std::int64_t calls = 0;             ///< 0: by its code alone
+  Cycle total = 0;                    ///< of all calls
   double min = 0, mean = 0, max = 0;  ///< mean: -1 when only the code is known and has several ways
 };
 

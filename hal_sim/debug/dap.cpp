@@ -371,7 +371,8 @@ void DapServer::variables(const Json& request) {
         if (!session_->values().compute(name, Want::Place, known, none)) continue;
         const Address at = address;
         const auto value = session_->values().read({at, bytes->second});
-        add(name, known.part ? session_->values().typed(*known.part) : fmt::format("{} ({:#x})", value, value),
+        add(name,
+            known.part ? session_->values().typed(*known.part) : fmt::format("{} ({:#x})", value, value),
             fmt::format("{:#x}", at));
       }
       break;
@@ -413,8 +414,10 @@ void DapServer::evaluate(const Json& request) {
   std::string error;
   if (!session_->values().compute(text, Want::Place, value, error)) return refuse(request, error);
   // what pointers point to is what one wants to see
-  const bool is_pointer = value.type.stars > 0 && session_->values().compute(text, Want::Number, number, error);
-  if (!value.part && !session_->values().compute(text, Want::Number, number, error)) return refuse(request, error);
+  const bool is_pointer =
+      value.type.stars > 0 && session_->values().compute(text, Want::Number, number, error);
+  if (!value.part && !session_->values().compute(text, Want::Number, number, error))
+    return refuse(request, error);
   Json body{{"result", value.part ? session_->values().shown(value) : session_->values().shown(number)},
             {"variablesReference", 0}};
   if (const Json memory = reference(is_pointer ? number : value); !memory.is_null())

@@ -200,8 +200,8 @@ std::optional<Data> Values::place_of(const CValue& value) const {
   const auto address = address_of(*value.part);
   if (!address) return {};
   const dspic::DebugInfo::Found& found = value.part->found;
-  return Data{*address, bytes_of(debug_info().types[static_cast<std::size_t>(found.type)], found),
-              found.bit, found.width};
+  return Data{*address, bytes_of(debug_info().types[static_cast<std::size_t>(found.type)], found), found.bit,
+              found.width};
 }
 
 std::optional<Data> Values::find_data(const std::string& name) const {

@@ -61,7 +61,8 @@ class Values final : public Names {
 };
 
 /// A number by the names that are known everywhere, globals and statics, as the program has it now.
-/// `is_tried`: it has not run yet, so its values mean nothing. False: `error` says why, "got ..., expected ...".
+/// `is_tried`: it has not run yet, so its values mean nothing. False: `error` says why, "got ..., expected
+/// ...".
 bool number_of(const chip::ChipRunner& runner, const std::string& expression, bool is_tried, double& value,
                std::string& error);
 

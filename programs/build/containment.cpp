@@ -12,8 +12,15 @@ namespace {
 
 const char* const kBubblewrap = "/usr/bin/bwrap";
 /// Of the system: what programs are made of, and nothing of anybody's.
-const char* const kSystem[] = {"/usr",    "/bin",      "/lib",        "/lib32",          "/lib64",
-                               "/libx32", "/etc/fonts", "/etc/ld.so.cache", "/etc/alternatives"};
+const char* const kSystem[] = {"/usr",
+                               "/bin",
+                               "/lib",
+                               "/lib32",
+                               "/lib64",
+                               "/libx32",
+                               "/etc/fonts",
+                               "/etc/ld.so.cache",
+                               "/etc/alternatives"};
 
 }  // namespace
 
@@ -26,9 +33,9 @@ std::vector<std::string> contained(const std::vector<std::string>& words, const 
                                    const std::vector<std::string>& readable,
                                    const std::vector<std::string>& writable) {
   if (access(kBubblewrap, X_OK) != 0) return {};
-  std::vector<std::string> all{kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session",
-                               "--dev",     "/dev",          "--tmpfs",           "/tmp",          "--setenv", "HOME",
-                               "/tmp"};
+  std::vector<std::string> all{
+      kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session", "--dev", "/dev",
+      "--tmpfs",   "/tmp",          "--setenv",          "HOME",          "/tmp"};
   const auto bind = [&all](const char* how, const std::string& path) {
     if (!path.empty()) all.insert(all.end(), {how, path, path});
   };

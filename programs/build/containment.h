@@ -6,12 +6,13 @@
 
 namespace programs {
 
-/// Shall programs of the PC be contained? The environment says so: TWINPUCK_CONTAIN=1, as `twinpuck grade` does.
+/// Shall programs of the PC be contained? The environment says so: TWINPUCK_CONTAIN=1, as `twinpuck grade`
+/// does.
 bool is_contained();
 
-/// `words`, which start a process, so that it sees no file but the system's programs and libraries and what lies
-/// in `readable`, writes to nothing but an empty /tmp, has no network, and sees no process, for there is no /proc.
-/// `folder`: where it works. Its open descriptors stay. Empty when bubblewrap is not installed.
+/// `words`, which start a process, so that it sees no file but the system's programs and libraries and what
+/// lies in `readable`, writes to nothing but an empty /tmp, has no network, and sees no process, for there is
+/// no /proc. `folder`: where it works. Its open descriptors stay. Empty when bubblewrap is not installed.
 std::vector<std::string> contained(const std::vector<std::string>& words, const std::string& folder,
                                    const std::vector<std::string>& readable,
                                    const std::vector<std::string>& writable = {});

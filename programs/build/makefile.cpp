@@ -101,30 +101,31 @@ MakeSays ask_makefile(const fs::path& folder, const fs::path& scratch,
   const fs::path home = scratch.parent_path() / "webots";
   make_home(home);
   std::vector<std::string> words{"env",
-                                                  "--chdir=" + folder.string(),
-                                                  "-u",
-                                                  "MAKEFLAGS",
-                                                  "-u",
-                                                  "MFLAGS",
-                                                  "-u",
-                                                  "MAKELEVEL",
-                                                  "LC_ALL=C",
-                                                  "timeout",
-                                                  "-s",
-                                                  "KILL",
-                                                  kMakeSeconds,
-                                                  "make",
-                                                  "-r",
-                                                  "-s",
-                                                  "--no-print-directory",
-                                                  "-f",
-                                                  copy.string(),
-                                                  "SHELL=/bin/sh",
-                                                  "WEBOTS_HOME=" + home.string(),
-                                                  "WEBOTS_HOME_PATH=" + home.string(),
-                                                  "twinpuck-asks"};
+                                 "--chdir=" + folder.string(),
+                                 "-u",
+                                 "MAKEFLAGS",
+                                 "-u",
+                                 "MFLAGS",
+                                 "-u",
+                                 "MAKELEVEL",
+                                 "LC_ALL=C",
+                                 "timeout",
+                                 "-s",
+                                 "KILL",
+                                 kMakeSeconds,
+                                 "make",
+                                 "-r",
+                                 "-s",
+                                 "--no-print-directory",
+                                 "-f",
+                                 copy.string(),
+                                 "SHELL=/bin/sh",
+                                 "WEBOTS_HOME=" + home.string(),
+                                 "WEBOTS_HOME_PATH=" + home.string(),
+                                 "twinpuck-asks"};
   // its $(shell ...) runs whatever it says
-  if (is_contained()) words = contained(words, folder.string(), {folder.string()}, {scratch.parent_path().string()});
+  if (is_contained())
+    words = contained(words, folder.string(), {folder.string()}, {scratch.parent_path().string()});
   if (words.empty()) return says;
   const cc::ProcessResult done = cc::run_process(words);
   std::map<std::string, std::vector<std::string>> values;

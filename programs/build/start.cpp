@@ -106,7 +106,8 @@ class Starter {
     launch_.words = contained(launch_.words, launch_.folder, readable);
     launch_.name.clear();
     if (launch_.words.empty())
-      return fail("got a program that shall be contained, expected bubblewrap to do it; apt install bubblewrap");
+      return fail(
+          "got a program that shall be contained, expected bubblewrap to do it; apt install bubblewrap");
     return true;
   }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck._core: World and what it is asked, as the Python files of twinpuck/ use it. Users see those.
 //
-// Running releases the interpreter's lock; each tick's Python callable, and Ctrl-C, take it again. A world that
-// runs in one Python thread refuses questions of another.
+// Running releases the interpreter's lock; each tick's Python callable, and Ctrl-C, take it again. A world
+// that runs in one Python thread refuses questions of another.
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -57,7 +57,8 @@ class Handle {
     explicit Running(Handle& handle) : handle_(handle) {
       handle.check();
       if (handle.is_running_.exchange(true))
-        throw std::runtime_error("the world runs already: a callable of run() or another thread called it again");
+        throw std::runtime_error(
+            "the world runs already: a callable of run() or another thread called it again");
       handle.runner_ = std::this_thread::get_id();
     }
     ~Running() { handle_.is_running_ = false; }
@@ -105,7 +106,8 @@ T option(const py::dict& options, const char* key, T usual) {
   return options.contains(key) && !options[key].is_none() ? options[key].cast<T>() : usual;
 }
 
-std::unique_ptr<Handle> open_world(const std::string& text, const std::string& file, const py::dict& options) {
+std::unique_ptr<Handle> open_world(const std::string& text, const std::string& file,
+                                   const py::dict& options) {
   Opening o;
   o.text = text;
   o.file = file;
@@ -161,11 +163,16 @@ std::string run(Handle& handle, sim::Clicks end, const py::object& each_tick, bo
   world.should_stop = nullptr;
   if (thrown) std::rethrow_exception(thrown);
   switch (why) {
-    case World::Why::Time: return "time";
-    case World::Why::Asked: return "asked";
-    case World::Why::Trap: return "trap";
-    case World::Why::Ended: return "ended";
-    case World::Why::Stopped: break;
+    case World::Why::Time:
+      return "time";
+    case World::Why::Asked:
+      return "asked";
+    case World::Why::Trap:
+      return "trap";
+    case World::Why::Ended:
+      return "ended";
+    case World::Why::Stopped:
+      break;
   }
   return "stopped";
 }
@@ -277,8 +284,9 @@ py::object picture_of(Handle& handle, int robot) {
 debug::Machine& machine_of(Handle& handle, int robot) {
   debug::Machine* const machine = handle.world().machine(handle.robot(robot));
   if (!machine)
-    throw std::invalid_argument("robot '" + handle.world().twin().world().robots[static_cast<std::size_t>(robot)].name +
-                                "' runs no program of the chip, expected one for variables, registers and why()");
+    throw std::invalid_argument(
+        "robot '" + handle.world().twin().world().robots[static_cast<std::size_t>(robot)].name +
+        "' runs no program of the chip, expected one for variables, registers and why()");
   return *machine;
 }
 
@@ -303,8 +311,11 @@ void assign_to(Handle& handle, int robot, const std::string& expression, const p
       machine.read(whole, &before);
       raw = (before & ~mask) | (raw << to.bit & mask);
     }
-    handle.world().apply(
-        {{"do", "write"}, {"robot", name}, {"address", whole.address}, {"bytes", whole.bytes}, {"value", raw}});
+    handle.world().apply({{"do", "write"},
+                          {"robot", name},
+                          {"address", whole.address},
+                          {"bytes", whole.bytes},
+                          {"value", raw}});
   });
 }
 
@@ -361,22 +372,27 @@ py::array_t<double> rows_of(const Record& record) {
 void bind_arrays(py::module_& module) {
   py::class_<Arrays, std::shared_ptr<Arrays>>(module, "Arrays")
       .def(py::init<std::size_t>())
-      .def_property_readonly("poses", [](const py::object& self) {
-        auto& a = self.cast<Arrays&>();
-        return view(a.poses, {static_cast<py::ssize_t>(a.battery_v.size()), 3}, self);
-      })
-      .def_property_readonly("proximity", [](const py::object& self) {
-        auto& a = self.cast<Arrays&>();
-        return view(a.proximity, {static_cast<py::ssize_t>(a.battery_v.size()), 8}, self);
-      })
-      .def_property_readonly("leds", [](const py::object& self) {
-        auto& a = self.cast<Arrays&>();
-        return view(a.leds, {static_cast<py::ssize_t>(a.battery_v.size()), 10}, self);
-      })
-      .def_property_readonly("steps", [](const py::object& self) {
-        auto& a = self.cast<Arrays&>();
-        return view(a.steps, {static_cast<py::ssize_t>(a.battery_v.size()), 2}, self);
-      })
+      .def_property_readonly("poses",
+                             [](const py::object& self) {
+                               auto& a = self.cast<Arrays&>();
+                               return view(a.poses, {static_cast<py::ssize_t>(a.battery_v.size()), 3}, self);
+                             })
+      .def_property_readonly(
+          "proximity",
+          [](const py::object& self) {
+            auto& a = self.cast<Arrays&>();
+            return view(a.proximity, {static_cast<py::ssize_t>(a.battery_v.size()), 8}, self);
+          })
+      .def_property_readonly("leds",
+                             [](const py::object& self) {
+                               auto& a = self.cast<Arrays&>();
+                               return view(a.leds, {static_cast<py::ssize_t>(a.battery_v.size()), 10}, self);
+                             })
+      .def_property_readonly("steps",
+                             [](const py::object& self) {
+                               auto& a = self.cast<Arrays&>();
+                               return view(a.steps, {static_cast<py::ssize_t>(a.battery_v.size()), 2}, self);
+                             })
       .def_property_readonly("battery_v", [](const py::object& self) {
         auto& a = self.cast<Arrays&>();
         return view(a.battery_v, {static_cast<py::ssize_t>(a.battery_v.size())}, self);
@@ -389,7 +405,8 @@ void bind_arrays(py::module_& module) {
 py::list signal_table() {
   py::list table;
   for (const signals::Signal& s : signals::all())
-    table.append(py::make_tuple(s.count > 0 ? std::string(s.name) + "0" : s.name, s.unit, s.least, s.most, s.what));
+    table.append(
+        py::make_tuple(s.count > 0 ? std::string(s.name) + "0" : s.name, s.unit, s.least, s.most, s.what));
   return table;
 }
 
@@ -453,13 +470,13 @@ void bind_robots(py::class_<Handle>& world) {
       .def("profile", &profile_of)
       .def("cost_of", &cost_of)
       .def("picture", &picture_of)
-      .def("value", [](Handle& h, int r, const std::string& e) { return value_of(machine_of(h, r).runner(), e); })
+      .def("value",
+           [](Handle& h, int r, const std::string& e) { return value_of(machine_of(h, r).runner(), e); })
       .def("assign", &assign_to)
-      .def("program",
-           [](Handle& h, int r) {
-             return py::make_tuple(h.world().twin().program(h.robot(r)).path, h.world().twin().image_path(r),
-                                   h.world().twin().hal(r));
-           });
+      .def("program", [](Handle& h, int r) {
+        return py::make_tuple(h.world().twin().program(h.robot(r)).path, h.world().twin().image_path(r),
+                              h.world().twin().hal(r));
+      });
 }
 
 }  // namespace
@@ -495,26 +512,29 @@ PYBIND11_MODULE(_core, module) {
       .def_property_readonly("names",
                              [](Handle& h) {
                                std::vector<std::string> names;
-                               for (const auto& robot : h.world().twin().world().robots) names.push_back(robot.name);
+                               for (const auto& robot : h.world().twin().world().robots)
+                                 names.push_back(robot.name);
                                return names;
                              })
-      .def_property_readonly("bodies",
-                             [](Handle& h) {
-                               const sim::Layout& layout = h.world().simulation().scene().layout();
-                               std::vector<std::string> names = layout.moving_name;
-                               const std::size_t robots = names.size() - layout.loose_object.size();
-                               // as the file calls them; "box 2" where it does not
-                               for (std::size_t i = robots; i < names.size(); ++i)
-                                 if (const auto& object = h.world().twin().world().objects[static_cast<std::size_t>(
-                                         layout.loose_object[i - robots])];
-                                     !object.name.empty())
-                                   names[i] = object.name;
-                               return names;
-                             })
+      .def_property_readonly(
+          "bodies",
+          [](Handle& h) {
+            const sim::Layout& layout = h.world().simulation().scene().layout();
+            std::vector<std::string> names = layout.moving_name;
+            const std::size_t robots = names.size() - layout.loose_object.size();
+            // as the file calls them; "box 2" where it does not
+            for (std::size_t i = robots; i < names.size(); ++i)
+              if (const auto& object = h.world().twin().world().objects[static_cast<std::size_t>(
+                      layout.loose_object[i - robots])];
+                  !object.name.empty())
+                names[i] = object.name;
+            return names;
+          })
       .def_property_readonly("lamps",
                              [](Handle& h) {
                                std::vector<std::string> names;
-                               for (const auto& lamp : h.world().twin().world().lamps) names.push_back(lamp.name);
+                               for (const auto& lamp : h.world().twin().world().lamps)
+                                 names.push_back(lamp.name);
                                return names;
                              })
       .def("signal",

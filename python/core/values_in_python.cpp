@@ -32,7 +32,8 @@ debug::Part element(const debug::Values& values, const debug::Part& whole, unsig
 
 debug::Part member_of(const debug::Part& whole, const dspic::DebugInfo::Member& member) {
   debug::Part part = whole;
-  part.found = {whole.found.variable, member.type, whole.found.offset + member.offset, member.bit, member.width};
+  part.found = {whole.found.variable, member.type, whole.found.offset + member.offset, member.bit,
+                member.width};
   return part;
 }
 
@@ -69,7 +70,8 @@ std::string c_number(const std::string& what, const py::object& value) {
   if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "1" : "0";
   if (py::isinstance<py::float_>(value) || !py::hasattr(value, "__index__")) {
     if (!py::hasattr(value, "__float__"))
-      throw std::invalid_argument(what + ": got " + py::repr(value).cast<std::string>() + ", expected a number");
+      throw std::invalid_argument(what + ": got " + py::repr(value).cast<std::string>() +
+                                  ", expected a number");
     std::string text = py::repr(py::float_(value)).cast<std::string>();
     if (text.find_first_of("ni") != std::string::npos)
       throw std::invalid_argument(what + ": got " + text + ", expected a finite number");
@@ -82,14 +84,16 @@ void plan(const debug::Values& values, const std::string& expression, const py::
           std::vector<Change>& changes) {
   if (py::isinstance<py::dict>(value)) {
     for (const auto& [key, inner] : value.cast<py::dict>())
-      plan(values, expression + "." + py::str(key).cast<std::string>(), py::reinterpret_borrow<py::object>(inner),
-           changes);
+      plan(values, expression + "." + py::str(key).cast<std::string>(),
+           py::reinterpret_borrow<py::object>(inner), changes);
     return;
   }
   const bool is_text = py::isinstance<py::str>(value);
   if (is_text || (py::isinstance<py::sequence>(value)) || py::hasattr(value, "tolist")) {
-    if (is_text) throw std::invalid_argument(expression + ": got text, expected a number, bytes, a list or a dict");
-    const py::object list = py::hasattr(value, "tolist") ? value.attr("tolist")() : py::object(py::list(value));
+    if (is_text)
+      throw std::invalid_argument(expression + ": got text, expected a number, bytes, a list or a dict");
+    const py::object list =
+        py::hasattr(value, "tolist") ? value.attr("tolist")() : py::object(py::list(value));
     if (py::isinstance<py::list>(list)) {
       debug::CValue array;
       std::string error;

@@ -69,7 +69,8 @@ void World::listen() {
   for (int robot = 0; robot < twin_->robots(); ++robot) {
     host::FirmwareMind& mind = twin_->mind(robot);
     for (int port = 1; port <= 2; ++port)
-      mind.board().uart(port).listen(&heard_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)]);
+      mind.board().uart(port).listen(
+          &heard_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)]);
     mind.board().virtual_devices().on_console = [this, robot](const std::string& line) {
       consoles_[robot].push_back(line);
     };
@@ -190,8 +191,9 @@ bool World::cost_of(int robot, const std::string& function, chip::CallCost& cost
   const debug::Machine* const program = machine(robot);
   const auto profile = profiles_.find(robot);
   error = "no function '" + function + "' in the firmware";
-  return program && chip::cost_of_call(program->file(), profile == profiles_.end() ? nullptr : profile->second.get(),
-                                       function, cost, error);
+  return program &&
+         chip::cost_of_call(program->file(), profile == profiles_.end() ? nullptr : profile->second.get(),
+                            function, cost, error);
 }
 
 const board::CameraPicture* World::picture(int robot) const {
@@ -223,7 +225,8 @@ void World::refresh(Arrays& arrays, bool poses, bool proximity, bool others) {
     sim::RobotMind& mind = *simulation.minds()[r];
     if (proximity) {
       const auto& robot_desc = simulation.scene().world().robots[r];
-      const std::size_t sensors = std::min<std::size_t>(8, scene.world().model_of(robot_desc)->proximity.size());
+      const std::size_t sensors =
+          std::min<std::size_t>(8, scene.world().model_of(robot_desc)->proximity.size());
       for (std::size_t i = 0; i < sensors; ++i)
         arrays.proximity[8 * r + i] = mind.proximity_counts(scene, static_cast<int>(i));
     }

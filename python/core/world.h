@@ -40,11 +40,11 @@ struct Opening {
 struct Arrays {
   explicit Arrays(std::size_t robots)
       : poses(3 * robots), proximity(8 * robots), leds(10 * robots), steps(2 * robots), battery_v(robots) {}
-  std::vector<double> poses;           ///< x, y (m), heading (rad)
+  std::vector<double> poses;            ///< x, y (m), heading (rad)
   std::vector<std::int32_t> proximity;  ///< counts, as e_get_prox gives them
-  std::vector<std::uint8_t> leds;      ///< 0 to 7 the ring, 8 body, 9 front; 1: lit
-  std::vector<std::int64_t> steps;     ///< left, right
-  std::vector<double> battery_v;       ///< V
+  std::vector<std::uint8_t> leds;       ///< 0 to 7 the ring, 8 body, 9 front; 1: lit
+  std::vector<std::int64_t> steps;      ///< left, right
+  std::vector<double> battery_v;        ///< V
 };
 
 /// Rows of all robots, one after the other, at multiples of a time.
