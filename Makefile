@@ -137,8 +137,9 @@ format:
 bench: tool
 	@scripts/setup.sh bench
 	@$(CMAKE) -B $(BUILD) >/dev/null
-	@$(NINJA) bench
+	@$(NINJA) bench bench_steps python_core
 	@$(BUILD)/bin/bench $(ARGS)
+	@PYTHONPATH=$(BUILD)/python /usr/bin/python3 bench/python_steps.py $(BUILD)
 
 # the tests that run the simulator in their own process: the compiler's and the command's start others
 SANITIZED = dspic30_test,sim_core_test,board_test,drivers_test,import_test,golden_test,firmware_test,chip_test,flash_test,programs_link_test,programs_nodes_test,controller_test

@@ -110,7 +110,8 @@ sim::Clicks World::next_look() const {
 World::Why World::run(sim::Clicks end, const std::function<bool()>& each_tick, bool stops_at_traps) {
   using Wall = std::chrono::steady_clock;
   sim::Simulation& simulation = twin_->simulation();
-  const std::int64_t traps = stops_at_traps ? traps_seen() : 0;
+  if (stops_at_traps && traps_ < 0) traps_ = traps_seen();
+  if (!stops_at_traps) traps_ = -1;
   auto asked = Wall::now();
   while (simulation.now() < end) {
     if (team_->has_ended()) return Why::Ended;
@@ -119,7 +120,11 @@ World::Why World::run(sim::Clicks end, const std::function<bool()>& each_tick, b
     else
       inputs_->faults().advance(std::min(end, next_look()));
     sample();
-    if (stops_at_traps && traps_seen() != traps) return Why::Trap;
+    if (stops_at_traps)
+      if (const std::int64_t traps = traps_seen(); traps != traps_) {
+        traps_ = traps;
+        return Why::Trap;
+      }
     if (each_tick && each_tick()) return Why::Asked;
     if (!should_stop) continue;
     if (const auto now = Wall::now(); now - asked > kStopEvery) {

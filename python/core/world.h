@@ -143,6 +143,7 @@ class World {
   std::unique_ptr<sim::Trajectories> ways_;
   sim::Clicks sampled_ = -1;
   std::vector<std::shared_ptr<Record>> records_;
+  std::int64_t traps_ = 0;  // up to the last run's end; -1: not looked
   bool is_finished_ = false;
 };
 

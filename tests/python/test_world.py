@@ -214,6 +214,7 @@ def test_the_interpreter_goes_on_while_a_world_runs():
 def test_ctrl_c_ends_a_run_at_a_tick_and_the_world_goes_on():
     program = """
 import os, signal, threading, twinpuck
+signal.signal(signal.SIGINT, signal.default_int_handler)  # what runs in the background ignores it
 world = twinpuck.World("maze", firmware="obstacle")
 threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
 try:

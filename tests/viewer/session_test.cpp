@@ -535,6 +535,39 @@ TEST_F(Session, a_recorded_session_repeats_bit_by_bit) {
   EXPECT_EQ(simulation.digest(), replay->digest());
 }
 
+TEST_F(Session, a_recording_is_shown_again_to_its_end) {
+  {
+    Page page(open("world.toml", path("inputs.jsonl")));
+    page.event("hello");
+    steps(page, 20);
+    page.good({{"do", "move"}, {"robot", "puck"}, {"x", -0.4}, {"y", 0.1}, {"heading", 0.3}});
+    steps(page, 20);
+  }
+  close();
+  auto replay = viewer::Replay::open(path("inputs.jsonl"), problems_);
+  ASSERT_TRUE(replay) << problems_.at(0);
+  const auto end = replay->end();
+  char digest[20];
+  std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(replay->digest()));
+  viewer::Opening opening = replay->opening;
+  view_ = viewer::LiveView::open(std::move(opening), "", 0, path("page"), problems_, std::move(replay));
+  ASSERT_TRUE(view_);
+  Page page(*view_);
+  page.event("hello");
+  page.good({{"do", "speed"}, {"factor", "max"}});
+  // each run from time 0 is the recording's, whoever begins it
+  for (int run = 0; run < 2; ++run) {
+    page.good({{"do", "restart"}, {"play", true}});
+    page.frame([&](const Frame& f) { return f.time_s * sim::kClicksPerSecond >= static_cast<double>(end) && (f.flags & 1) == 0; });
+    const Json state = page.good({{"do", "state"}}).at("state");
+    EXPECT_EQ(state.at("clicks"), end) << "it stands still there";
+    EXPECT_EQ(state.at("digest"), digest);
+  }
+  // and may go on
+  page.good({{"do", "play"}});
+  page.frame([&](const Frame& f) { return f.time_s * sim::kClicksPerSecond > static_cast<double>(end); });
+}
+
 // --- programs
 
 TEST_F(Session, a_saved_program_is_rebuilt_and_started_where_the_robot_stands) {
