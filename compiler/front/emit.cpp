@@ -103,15 +103,17 @@ bool write(Module& m, const Unit& unit, TargetMachine& machine) {
     m.print(out.stream(), nullptr);
     return out.finish();
   }
-  legacy::PassManager passes;
-  TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
-  library.disableAllFunctions();
-  passes.add(new TargetLibraryInfoWrapperPass(library));
-  const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
-  if (machine.addPassesToEmitFile(passes, out.stream(), nullptr, kind)) return false;
   bool has_failed = false;
-  m.getContext().setDiagnosticHandler(std::make_unique<AssemblerMistakes>(unit.facts, has_failed));
-  passes.run(m);
+  {
+    legacy::PassManager passes;  // holds what is not yet written of a text
+    TargetLibraryInfoImpl library(Triple(m.getTargetTriple()));
+    library.disableAllFunctions();
+    passes.add(new TargetLibraryInfoWrapperPass(library));
+    const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
+    if (machine.addPassesToEmitFile(passes, out.stream(), nullptr, kind)) return false;
+    m.getContext().setDiagnosticHandler(std::make_unique<AssemblerMistakes>(unit.facts, has_failed));
+    passes.run(m);
+  }
   return out.finish() && !has_failed;
 }
 
