@@ -209,10 +209,16 @@ sim::Clicks Session::replay_due() {
   }
   if (now >= end && end >= 0 && !is_replayed_) {
     is_replayed_ = true;
-    playing_ = false;
-    tell_state();
+    stand_still();
   }
   return std::min(replay_->next(), now < end ? end : sim::kEver);
+}
+
+/// By itself, not because somebody asked: everybody gets a last frame of it.
+void Session::stand_still() {
+  playing_ = false;
+  for (auto& [client, page] : pages_) page.fresh = true;
+  tell_state();
 }
 
 void Session::advance_slice() {
@@ -263,8 +269,7 @@ void Session::after_ticks() {
   traps_told_ = std::max(traps_told_, traps.size());
   if (team_->has_ended() && !ended_) {
     ended_ = true;
-    playing_ = false;
-    tell_state();
+    stand_still();
   }
 }
 

@@ -114,6 +114,7 @@ class Session {
   void choose_program(int robot, const std::string& name);
   Program& program_named(const std::string& name);
   void advance_slice();
+  void stand_still();
   sim::Clicks replay_due();
   void step_ticks(double span_s, int count);
   bool step_interrupt(int robot);
