@@ -5,14 +5,12 @@ from __future__ import annotations
 import os
 import typing
 
-import numpy
-
 if typing.TYPE_CHECKING:
+    import numpy
     import pandas
 
 _FIELDS = [("time_s", float), ("robot", "U64"), ("x_m", float), ("y_m", float), ("heading_rad", float),
-           ("left_steps", numpy.int64), ("right_steps", numpy.int64), *((f"ir{i}", numpy.int32) for i in range(8)),
-           ("leds", numpy.int32)]
+           ("left_steps", "i8"), ("right_steps", "i8"), *((f"ir{i}", "i4") for i in range(8)), ("leds", "i4")]
 
 
 class Recording:
@@ -28,6 +26,8 @@ class Recording:
     @property
     def array(self) -> numpy.ndarray:
         """All rows so far, as a structured array: `recording.array["x_m"]`. A copy."""
+        import numpy  # it takes a while, and most tests need none
+
         rows = self._core.rows
         array = numpy.zeros(len(rows), dtype=_FIELDS + [("battery_v", float)])
         for column, (name, _) in enumerate(_FIELDS + [("battery_v", float)]):
@@ -54,6 +54,8 @@ def read_recording(path: str | os.PathLike[str]) -> numpy.ndarray:
 
     Raises OSError where the file cannot be read, ValueError where it is no recording.
     """
+    import numpy
+
     with open(path, encoding="utf-8") as file:
         header = file.readline().strip().split(",")
         expected = [name for name, _ in _FIELDS]

@@ -7,11 +7,11 @@ import math
 import re
 import typing
 
-import numpy
-
 from ._errors import ExpectTimeout, TwinpuckError, WorldError
 
 if typing.TYPE_CHECKING:
+    import numpy
+
     from ._world import World
 
 Pattern = typing.Union[str, bytes, "re.Pattern[str]", "re.Pattern[bytes]"]

@@ -2,19 +2,20 @@
 """`twinpuck test`: pytest with our plug-in, and Twinpuck's exit codes."""
 from __future__ import annotations
 
+import importlib.util
 import sys
 
 
 def main(arguments: list[str]) -> int:
     """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal error,
     7 all that failed did so because a fault never took effect, 130 interrupted."""
-    try:
-        import numpy  # noqa: F401  what is missing shall be said in one line
-        import pytest
-    except ImportError as missing:
-        print(f"twinpuck test: got no Python package '{missing.name}', expected numpy and pytest (Debian: "
+    missing = [name for name in ("numpy", "pytest") if importlib.util.find_spec(name) is None]
+    if missing:
+        print(f"twinpuck test: got no Python package '{missing[0]}', expected numpy and pytest (Debian: "
               "python3-numpy, python3-pytest; python3-pytest-xdist for -n)", file=sys.stderr)
         return 2
+    import pytest
+
     class Interrupted:
         """Notes whether it was Ctrl-C: pytest says the same of files that cannot be read."""
 

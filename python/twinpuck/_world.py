@@ -12,14 +12,15 @@ import tempfile
 import types
 import typing
 
-import numpy
-
 from . import _core
 from ._errors import FirmwareFault, InvalidRun, WorldError
 from ._faults import Fault
 from ._records import Recording
 from ._robot import Robot, Trap
 from ._worldtext import toml_text, toml_value
+
+if typing.TYPE_CHECKING:
+    import numpy
 
 Source = typing.Union[str, "os.PathLike[str]", "collections.abc.Mapping[str, typing.Any]"]
 Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[str, str | os.PathLike[str]]"]

@@ -7,12 +7,12 @@ import json
 import numbers
 import typing
 
-import numpy
-
 
 def toml_value(value: typing.Any, where: str) -> str:
     """One value as TOML writes it. Raises TypeError for what TOML has not."""
-    if isinstance(value, (bool, numpy.bool_)):
+    if hasattr(value, "tolist"):  # NumPy's numbers and arrays; it need not be here
+        value = value.tolist()
+    if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, numbers.Integral):
         return str(int(value))
@@ -23,7 +23,7 @@ def toml_value(value: typing.Any, where: str) -> str:
     if isinstance(value, collections.abc.Mapping):
         inner = (f"{json.dumps(str(key))} = {toml_value(v, f'{where}.{key}')}" for key, v in value.items())
         return "{" + ", ".join(inner) + "}"
-    if isinstance(value, (collections.abc.Sequence, numpy.ndarray)) and not isinstance(value, (bytes, bytearray)):
+    if isinstance(value, collections.abc.Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(toml_value(v, f"{where}[{i}]") for i, v in enumerate(value)) + "]"
     raise TypeError(f"{where}: got {value!r}, expected a number, text, list or dict")
 
