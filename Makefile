@@ -142,7 +142,7 @@ bench: tool
 	@PYTHONPATH=$(BUILD)/python /usr/bin/python3 bench/python_steps.py $(BUILD)
 
 # the tests that run the simulator in their own process: the compiler's and the command's start others
-SANITIZED = dspic30_test,sim_core_test,board_test,drivers_test,import_test,golden_test,firmware_test,chip_test,flash_test,programs_link_test,programs_nodes_test,controller_test
+SANITIZED = dspic30_test,sim_core_test,board_test,drivers_test,import_test,golden_test,firmware_test,chip_test,flash_test,programs_link_test,programs_nodes_test,controller_test,faults_test,python_test
 
 ## asan: the simulator's tests under the address and undefined-behaviour sanitizers
 asan: setup

@@ -161,7 +161,8 @@ INSTANTIATE_TEST_SUITE_P(
         Bad{"period_is_nan", "cycles blink --period nan", 2, "--period: got nan"},
         Bad{"trigger_is_nan", "run maze --vcd @/x.vcd --vcd-trigger puck:LED0=nan", 2,
             "got value 'nan', expected a whole number from 0 to 1"},
-        Bad{"bad_name", "new 'My Robot'", 2, "a name of letters"}, Bad{"name_taken", "new worlds", 2, "not empty"}),
+        Bad{"bad_name", "new 'My Robot'", 2, "a name of letters"},
+        Bad{"name_taken", "new worlds", 2, "not empty"}),
     [](const auto& info) { return std::string(info.param.name); });
 
 class BadLuck : public CommandTest {};

@@ -132,8 +132,8 @@ class Installed : public testing::Test {
 TEST_F(Installed, it_runs_what_it_brings_along) {
   const Said here = shell("cd / && '" TWINPUCK_BUILD_DIR "/twinpuck' run maze --for 2");
   const bool has_page = fs::exists(TWINPUCK_BUILD_DIR "/page/page.js");  // a build of its own
-  const Said there = said_by("ann", std::string("twinpuck run maze --for 2 --picture p.png") +
-                                        (has_page ? " --report r.html" : ""));
+  const Said there = said_by(
+      "ann", std::string("twinpuck run maze --for 2 --picture p.png") + (has_page ? " --report r.html" : ""));
   EXPECT_EQ(there.exit_code, 0) << there.text;
   EXPECT_EQ(digest_in(there.text), digest_in(here.text));
   EXPECT_NE(there.text.find((prefix() / "share/twinpuck/worlds/maze.toml").string()), std::string::npos)

@@ -10,12 +10,14 @@ import pytest
 
 import twinpuck
 
+
 def pytest_make_parametrize_id(val):
     """Names of tests hold no sentences."""
     return re.sub(r"\W+", "_", val)[:24].strip("_") if isinstance(val, str) else None
 
 
 TWINPUCK = os.environ["TWINPUCK"]
+os.environ.pop("LD_PRELOAD", None)  # a sanitizer's; compilers have too little memory for it
 
 
 @pytest.fixture(scope="session")

@@ -558,7 +558,9 @@ TEST_F(Session, a_recording_is_shown_again_to_its_end) {
   // each run from time 0 is the recording's, whoever begins it
   for (int run = 0; run < 2; ++run) {
     page.good({{"do", "restart"}, {"play", true}});
-    page.frame([&](const Frame& f) { return f.time_s * sim::kClicksPerSecond >= static_cast<double>(end) && (f.flags & 1) == 0; });
+    page.frame([&](const Frame& f) {
+      return f.time_s * sim::kClicksPerSecond >= static_cast<double>(end) && (f.flags & 1) == 0;
+    });
     const Json state = page.good({{"do", "state"}}).at("state");
     EXPECT_EQ(state.at("clicks"), end) << "it stands still there";
     EXPECT_EQ(state.at("digest"), digest);
