@@ -116,7 +116,7 @@ class TestFile:
             try:
                 self.values(axis)
             except ValueError as wrong:
-                self._problems.append(f"{path}: {axis.marker}: {str(wrong).removeprefix(axis.option + ': ')}")
+                self._problems.append(f"{path}: {axis.marker}: {str(wrong).removeprefix(f'--{axis.option}: ')}")
         if self._problems:
             raise TestFileError("\n".join(self._problems))
 

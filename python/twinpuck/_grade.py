@@ -98,6 +98,7 @@ def run_tests(arguments: list[str]) -> int:
         shown = [content for name, content in report.sections if name.startswith("world ")]
         return "\n".join([first, *shown]) if report.outcome == "failed" else ""
 
+    os.environ["TWINPUCK_TEST"] = "1"
     pytest.main(["-p", "twinpuck.pytest_plugin", "-p", "no:cacheprovider", "-q", "-q", *arguments[1:]],
                 plugins=[Collector()])
     pathlib.Path(arguments[0]).write_text(json.dumps([dataclasses.asdict(case) for case in cases]), encoding="utf-8")
@@ -292,7 +293,7 @@ def bad_input(options: argparse.Namespace) -> str:
     """What is wrong with the call; empty: nothing."""
     for axis in _matrix.AXES:
         try:
-            axis.values(getattr(options, axis.option.removeprefix("--")))
+            axis.values(getattr(options, axis.option))
         except ValueError as wrong:
             return str(wrong)
     for path in options.tests:

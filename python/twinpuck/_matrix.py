@@ -12,7 +12,7 @@ _MOST = 100_000  # runs of one test
 
 @dataclasses.dataclass(frozen=True)
 class Axis:
-    """One thing that varies. name: in a test's name; least, most: of numbers; None: it is one of the words."""
+    """One thing that varies. name: in a test's name; option: of the command line, without dashes; least, most: of numbers; None: it is one of the words."""
 
     name: str
     option: str
@@ -42,24 +42,24 @@ class Axis:
             else:
                 values += self._part(str(argument))
         if len(values) > _MOST:
-            raise ValueError(f"{self.option}: got {len(values)} runs, expected at most {_MOST}")
+            raise ValueError(f"--{self.option}: got {len(values)} runs, expected at most {_MOST}")
         return list(dict.fromkeys(values))
 
     def _part(self, part: str) -> list[typing.Any]:
         if self.words:
             if part not in self.words:
-                raise ValueError(f"{self.option}: got {part!r}, expected {' or '.join(self.words)}")
+                raise ValueError(f"--{self.option}: got {part!r}, expected {' or '.join(self.words)}")
             return [part]
         match = re.fullmatch(r"(\d{1,18})(?:\.\.(\d{1,18}))?", part)
         first, last = (int(match[1]), int(match[2] or match[1])) if match else (0, -1)
         if not self.least <= first <= last <= self.most or last - first >= _MOST:
-            raise ValueError(f"{self.option}: got {part!r}, expected numbers from {self.least} to {self.most}, such as "
+            raise ValueError(f"--{self.option}: got {part!r}, expected numbers from {self.least} to {self.most}, such as "
                              f"{self.least}..{self.least + 9} or {self.least},{self.least + 1}")
         return list(range(first, last + 1))
 
 
 AXES = (
-    Axis("seed", "--seeds", "seeds", 0, 10**18 - 1),
-    Axis("hal", "--hal", "hals", words=("sim", "dspic")),
-    Axis("selector", "--selector", "selectors", 0, 15),
+    Axis("seed", "seeds", "seeds", 0, 10**18 - 1),
+    Axis("hal", "hal", "hals", words=("sim", "dspic")),
+    Axis("selector", "selector", "selectors", 0, 15),
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import sys
 
 
@@ -33,6 +34,7 @@ def main(arguments: list[str]) -> int:
             self.failed += report.failed
             self.invalid += report.failed and any(key == "twinpuck_invalid" for key, _ in report.user_properties)
 
+    os.environ["TWINPUCK_TEST"] = "1"  # also for the processes of -n
     interrupted, outcome = Interrupted(), Invalid()
     code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])
     if code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import collections.abc
 import itertools
+import os
 import pathlib
 import re
 import shlex
@@ -32,13 +33,24 @@ _LAST_LINES = 20
 
 def pytest_addoption(parser: pytest.Parser) -> None:
     group = parser.getgroup("twinpuck", "e-puck firmware on Twinpuck")
-    group.addoption("--seeds", metavar="1..50", help="run each test of a world with these seeds: 1..50 or 1,2,7")
-    group.addoption("--hal", metavar="sim,dspic", help="... with programs linked with these HALs")
-    group.addoption("--selector", metavar="0..15", help="... with all robots' selectors in these positions")
-    group.addoption("--firmware", metavar="DIR", help="what the robots run instead of what the world says")
-    group.addoption("--sanitize", action="store_true", help="check each access of memory of programs built from source")
-    group.addoption("--coverage", metavar="FILE", help="lcov file that counts of the programs' lines are added to")
-    group.addoption("--failures", metavar="DIR", help="where failures leave picture and recording (.twinpuck/failures)")
+    # where the plug-in is found by itself, short names might be those of somebody's conftest.py
+    prefix = "--" if os.environ.get("TWINPUCK_TEST") == "1" else "--twinpuck-"
+
+    def add(name: str, **words: typing.Any) -> None:
+        group.addoption(prefix + name, dest=f"twinpuck_{name}", **words)
+
+    add("seeds", metavar="1..50", help="run each test of a world with these seeds: 1..50 or 1,2,7")
+    add("hal", metavar="sim,dspic", help="... with programs linked with these HALs")
+    add("selector", metavar="0..15", help="... with all robots' selectors in these positions")
+    add("firmware", metavar="DIR", help="what the robots run instead of what the world says")
+    add("sanitize", action="store_true", help="check each access of memory of programs built from source")
+    add("coverage", metavar="FILE", help="lcov file that counts of the programs' lines are added to")
+    add("failures", metavar="DIR", help="where failures leave picture and recording (.twinpuck/failures)")
+
+
+def option(config: pytest.Config, name: str) -> typing.Any:
+    """What the command line says: option(config, "seeds")."""
+    return config.getoption(f"twinpuck_{name}")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -50,7 +62,7 @@ def pytest_configure(config: pytest.Config) -> None:
     config.addinivalue_line("markers", "selectors(0..15): run with each of these positions of the selector")
     for axis in _matrix.AXES:
         try:
-            axis.values(config.getoption(axis.option))
+            axis.values(option(config, axis.option))
         except ValueError as wrong:
             raise pytest.UsageError(str(wrong)) from None
     if not hasattr(config, "workerinput"):  # one process begins, not each of several
@@ -59,7 +71,7 @@ def pytest_configure(config: pytest.Config) -> None:
 
 def failures_folder(config: pytest.Config) -> pathlib.Path:
     """Where failures leave what they show."""
-    return pathlib.Path(config.getoption("--failures") or config.rootpath / ".twinpuck" / "failures")
+    return pathlib.Path(option(config, "failures") or config.rootpath / ".twinpuck" / "failures")
 
 
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
@@ -68,7 +80,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
     for axis in _matrix.AXES:
         marker = metafunc.definition.get_closest_marker(axis.marker)
         try:
-            values = axis.values(metafunc.config.getoption(axis.option)) or axis.marked(marker and marker.args)
+            values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
         except ValueError as wrong:
             raise pytest.UsageError(f"{metafunc.definition.nodeid}: {wrong}") from None
         if values:
@@ -103,7 +115,7 @@ def _chosen(request: pytest.FixtureRequest) -> dict[str, typing.Any]:
 @pytest.fixture
 def firmware(request: pytest.FixtureRequest) -> pathlib.Path | None:
     """The program under test: --firmware, else the test's own folder if it holds C files; else None."""
-    given = request.config.getoption("--firmware")
+    given = option(request.config, "firmware")
     if given:
         return pathlib.Path(given).resolve()
     folder = request.path.parent
@@ -153,17 +165,17 @@ def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, 
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
     if isinstance(source, (str, pathlib.Path)) and "\n" not in str(source) and (folder / source).is_file():
         source = folder / source
-    if config.getoption("--firmware"):
-        firmware = pathlib.Path(config.getoption("--firmware")).resolve()
+    if option(config, "firmware"):
+        firmware = pathlib.Path(option(config, "firmware")).resolve()
     elif isinstance(firmware, (str, pathlib.Path)) and (folder / firmware).exists():
         firmware = folder / firmware
     for name in ("seed", "hal"):
         if name in chosen:
             options[name] = chosen[name]
-    if config.getoption("--sanitize"):
+    if option(config, "sanitize"):
         options["sanitize"] = True
-    if config.getoption("--coverage"):
-        options["coverage"] = str(pathlib.Path(config.getoption("--coverage")).resolve())
+    if option(config, "coverage"):
+        options["coverage"] = str(pathlib.Path(option(config, "coverage")).resolve())
     world = World(source, firmware, **options)
     if "selector" in chosen:
         for each in world.robots:
@@ -184,7 +196,7 @@ class DeclarativeFile(pytest.File):
 
     def collect(self) -> collections.abc.Iterator[pytest.Item]:
         file = _declarative.TestFile(self.path)
-        axes = [[(axis.name, value) for value in axis.values(self.config.getoption(axis.option)) or file.values(axis)]
+        axes = [[(axis.name, value) for value in axis.values(option(self.config, axis.option)) or file.values(axis)]
                 for axis in _matrix.AXES]
         for chosen in itertools.product(*(values for values in axes if values)):
             matrix = "-".join(f"{name}={value}" for name, value in chosen)

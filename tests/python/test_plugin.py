@@ -2,6 +2,8 @@
 """The pytest plug-in and twinpuck test, as a user has them: a folder of one's own, the command, its text and files."""
 import json
 import re
+import subprocess
+import sys
 import time
 import xml.etree.ElementTree
 
@@ -140,6 +142,16 @@ def test_a_program_that_does_not_compile_fails_each_test(mine, command):
     done = command("test", cwd=folder)
     assert done.returncode == 1 and done.stdout.count("main.c:1:18: error") >= 2
     assert "_core" not in done.stdout  # nor the inside
+
+
+def test_plain_pytest_has_long_options_and_takes_no_short_ones_away(mine):
+    folder = mine("def test_a(world, hal):\n    assert hal == 'mine' and world.seed == 3\n",
+                  conftest__py="import pytest\ndef pytest_addoption(parser):\n    parser.addoption('--hal')\n"
+                               "    parser.addoption('--seeds')\n@pytest.fixture\ndef hal(request):\n"
+                               "    return request.config.getoption('--hal')\n")
+    words = [sys.executable, "-m", "pytest", "-p", "twinpuck.pytest_plugin", "--hal", "mine", "--twinpuck-seeds", "3"]
+    done = subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=30, check=False)
+    assert done.returncode == 0, done.stdout + done.stderr
 
 
 def test_no_world_is_said(project, command):
