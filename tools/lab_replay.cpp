@@ -35,6 +35,7 @@ class ReplayLooker final : public TrialOnlooker {
     twin_ = &twin;
     outputs_ = std::make_unique<RunOutputs>(outputs_wanted_, twin, &team);
     was_opened = outputs_->open(problems);
+    if (!was_opened) outputs_.reset();  // they look at the twin, which goes
     return was_opened;
   }
   void before_run() override {
@@ -50,6 +51,7 @@ class ReplayLooker final : public TrialOnlooker {
     outputs_->finish(*summary, problems);
     lost_outputs = problems.size() > before || outputs_->failed();
     written = outputs_->written();
+    outputs_.reset();
   }
 
   std::optional<Summary> summary;
