@@ -112,6 +112,7 @@ install: product
 
 ## deb: the Debian package, in build/package/
 deb: product
+	@scripts/setup.sh deb
 	@rm -rf $(BUILD)/package && mkdir $(BUILD)/package
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb

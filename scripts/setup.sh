@@ -3,7 +3,7 @@
 # Installs what building and testing need on Debian 12, and says nothing when all is there.
 #
 #   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, view (make view),
-#                               browser (make test-view)
+#                               browser (make test-view), deb (make deb)
 #
 # Needs root or sudo only when something is missing.
 set -eu
@@ -21,6 +21,7 @@ fuzz="libclang-rt-14-dev"
 view="esbuild nodejs"
 command -v npm >/dev/null || view="$view npm"  # other nodejs packages than Debian's bring it along
 browser="chromium"
+deb="dpkg-dev file"
 
 group=${1:-build}
 case $group in
@@ -31,8 +32,9 @@ case $group in
   fuzz) packages=$fuzz ;;
   view) packages=$view ;;
   browser) packages=$browser ;;
+  deb) packages=$deb ;;
   *)
-    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, view or browser" >&2
+    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, view, browser or deb" >&2
     exit 2
     ;;
 esac
