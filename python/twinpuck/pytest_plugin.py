@@ -21,7 +21,7 @@ import typing
 import pytest
 
 from . import _declarative, _matrix
-from ._errors import InvalidRun, TwinpuckError, WorldError
+from ._errors import InvalidRun, TwinpuckError
 from ._robot import Robot
 from ._world import World
 
@@ -309,6 +309,3 @@ def told(robot: Robot) -> list[str]:
             lines.append(f"  last lines of {port}:")
             lines += [f"    {line.encode('unicode_escape').decode()}" for line in serial.lines[-_LAST_LINES:]]
     return lines
-
-
-__all__ = ["firmware", "make_world", "robot", "world", "WorldError"]
