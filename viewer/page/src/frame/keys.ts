@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// What keys do, and the list of them.
+import { byId, h } from "../dom";
+import type { Inspector } from "../panes/inspector";
+import type { Touch } from "../scene/touch";
+import type { Client } from "../store/client";
+import type { Pieces } from "../store/pieces";
+import type { Store } from "../store/store";
+import type { Bar, Views } from "./bar";
+import { dismiss } from "./notices";
+
+const kKeys: [string, string][] = [
+  ["Space", "play, pause"],
+  ["N, Shift N", "one control step, one tick"],
+  ["I", "to the next interrupt"],
+  [", .", "slower, faster"],
+  ["Ctrl R", "restart"],
+  ["1 2 F", "from above, aslant, fit"],
+  ["Y P K", "rays, paths, what the camera sees"],
+  ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"],
+  ["Q E", "turn by 15°, with Shift 1°"],
+  ["Arrows", "move by 1 cm, with Shift 1 mm"],
+  ["Ctrl D, Del", "copy, delete"],
+  ["Ctrl Z Y S", "undo, redo, save"],
+  ["Shift while dragging", "without the grid of 1 cm"],
+  ["Left, right drag, wheel", "move the view, turn it, zoom"],
+  ["Esc", "nothing selected"],
+];
+
+export interface Hands {
+  store: Store;
+  client: Client;
+  pieces: Pieces;
+  bar: Bar;
+  views: Views;
+  touch: Touch;
+  inspector: Inspector;
+}
+
+export function listenToKeys(hands: Hands) {
+  byId("stage").append(
+    h(
+      "div",
+      { id: "keys", hidden: true },
+      h("h3", {}, "Keys"),
+      ...kKeys.map(([k, text]) => h("div", {}, h("kbd", {}, k), text)),
+    ),
+  );
+  addEventListener("keydown", (e) => act(e, hands));
+}
+
+function act(e: KeyboardEvent, { store, client, pieces, bar, views, touch, inspector }: Hands) {
+  const target = e.target as HTMLElement;
+  const typing = target.closest("input:not([type=range]):not([type=checkbox]),textarea,select,.cm-editor");
+  const ctrl = e.ctrlKey || e.metaKey,
+    key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
+  const act = (f: () => unknown) => {
+    e.preventDefault();
+    f();
+  };
+  if (ctrl && key === "s" && !target.closest(".cm-editor")) return act(() => bar.save());
+  if (typing) {
+    if (key === "Escape") target.blur();
+    return;
+  }
+  if (ctrl) {
+    const keys: Record<string, () => unknown> = {
+      z: () => client.do(e.shiftKey ? "redo" : "undo"),
+      y: () => client.do("redo"),
+      d: () => pieces.copy(),
+      r: () => bar.restart(),
+    };
+    if (keys[key]) act(keys[key]);
+    return;
+  }
+  const move = (x: number, y: number) => pieces.nudge(x, y, e.shiftKey ? 0.001 : 0.01);
+  const tools: Record<string, string> = {
+    v: "select",
+    w: "wall",
+    b: "box",
+    c: "cylinder",
+    o: "ball",
+    l: "lamp",
+    r: "robot",
+  };
+  const keys: Record<string, () => unknown> = {
+    " ": () => bar.togglePlay(),
+    n: () => bar.step(e.shiftKey ? "tick" : "control"),
+    i: () => bar.stepInterrupt(),
+    ",": () => bar.faster(-1),
+    ".": () => bar.faster(1),
+    "1": () => views.fit(true),
+    "2": () => views.fit(false),
+    f: () => views.fit(true),
+    y: () => client.toggleRays(),
+    p: () => bar.toggleTrails(),
+    q: () => pieces.turn(e.shiftKey ? 1 : 15),
+    e: () => pieces.turn(e.shiftKey ? -1 : -15),
+    Delete: () => pieces.remove(),
+    Backspace: () => pieces.remove(),
+    k: () => inspector.toggleView(),
+    Escape: () => {
+      dismiss();
+      touch.choose("select");
+      store.select(0);
+    },
+    ArrowLeft: () => move(-1, 0),
+    ArrowRight: () => move(1, 0),
+    ArrowUp: () => move(0, 1),
+    ArrowDown: () => move(0, -1),
+    "?": () => byId("keys").toggleAttribute("hidden"),
+  };
+  if (tools[key]) act(() => touch.choose(tools[key]));
+  else if (keys[key]) act(keys[key]);
+}
