@@ -11,6 +11,7 @@ import { listenToKeys } from "./frame/keys";
 import { notice } from "./frame/notices";
 import { PastBar } from "./frame/past_bar";
 import { Report } from "./frame/report";
+import { WorldFile } from "./frame/save";
 import { Connection } from "./link/connection";
 import { Playback } from "./link/playback";
 import { Console } from "./panes/console";
@@ -22,6 +23,7 @@ import { TimeLine } from "./panes/timeline";
 import { WorldTextPane } from "./panes/world_text";
 import { SceneView } from "./scene/scene_view";
 import { Touch } from "./scene/touch";
+import { Buffers } from "./store/buffers";
 import { Client } from "./store/client";
 import { Pieces } from "./store/pieces";
 import { Store } from "./store/store";
@@ -33,6 +35,7 @@ store.dark = localStorage.getItem("theme")
   ? localStorage.getItem("theme") === "dark"
   : matchMedia("(prefers-color-scheme: dark)").matches;
 const client = new Client(store, playback ?? new Connection());
+const buffers = new Buffers(store, client);
 const pieces = new Pieces(store, client);
 
 // the scene hears of a world before the hand that pulls at it
@@ -42,11 +45,12 @@ const inspector = new Inspector(store, client, pieces);
 const past = new PastBar(store);
 const report = playback && new Report(store, client, past, playback);
 const views = { fit: (above: boolean) => view.scene.fit(above), toggleTrails: () => view.toggleTrails() };
-const bar = new Bar(store, client, past, views, report);
 const console_ = new Console(store, client);
 const plots = new Plots(store, client);
-const program = new ProgramPane(store, client);
-const text = new WorldTextPane(store, client);
+const program = new ProgramPane(store, buffers);
+const text = new WorldTextPane(store, buffers);
+const file = new WorldFile(store, client, buffers, text);
+const bar = new Bar(store, client, past, file, views, report);
 const timeline = new TimeLine(store, client);
 const problems = new ProblemsPane(store);
 showBadges(store);
@@ -61,10 +65,10 @@ const tabs: Tab[] = [
 if (report) tabs.unshift({ id: "summary", text: "Summary", pane: h("div", { className: "pane pad" }) });
 const dock = new Dock(store, tabs);
 dock.show("console");
-listenToKeys({ store, client, pieces, bar, views, touch, inspector });
+listenToKeys({ store, client, pieces, bar, file, views, touch, inspector });
 setTheme(store, store.dark);
 addEventListener("beforeunload", (e) => {
-  if (!store.state.saved) e.preventDefault();
+  if (!store.state.saved || buffers.dirty().length) e.preventDefault();
 });
 playback?.play();
 
@@ -73,6 +77,8 @@ const shown = {
   store,
   client,
   connection: client.link,
+  buffers,
+  file,
   pieces,
   scene: view.scene,
   touch,

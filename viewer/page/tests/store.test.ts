@@ -3,24 +3,9 @@ import assert from "node:assert/strict";
 import test from "node:test";
 import { FakeLink, freshDocument, settle } from "./dom";
 import { readFrame } from "../src/link/protocol";
-import type { World } from "../src/link/protocol";
 import { Client } from "../src/store/client";
 import { Store } from "../src/store/store";
-
-export const world = (more: Partial<World> = {}): World => ({
-  title: "",
-  file: "/w/world.toml",
-  text: "",
-  step_s: 0.032,
-  tick_s: 1 / 512,
-  floor: { colour: [1, 1, 1], image: "" },
-  things: [],
-  robots: [],
-  elements: [],
-  problems: [],
-  ...more,
-});
-const thing = (id: number) => ({ id, kind: "box", position: [0, 0], colour: [1, 1, 1] });
+import { thing, world } from "./worlds";
 
 /** A frame without bodies: revision, time, subscription, values. */
 function frame(revision: number, time: number, subscription: number, values: number[]) {

@@ -5,9 +5,9 @@ import { RobotState } from "../link/protocol";
 import type { State } from "../link/protocol";
 import type { Client } from "../store/client";
 import type { Store } from "../store/store";
-import { notice } from "./notices";
 import type { PastBar } from "./past_bar";
 import type { Report } from "./report";
+import type { WorldFile } from "./save";
 
 export const kSpeeds: [string, number][] = [
   ["1/16", 1 / 16],
@@ -34,6 +34,7 @@ export class Bar {
     private store: Store,
     private client: Client,
     private past: PastBar,
+    file: WorldFile,
     private views: Views,
     private report?: Report,
   ) {
@@ -63,8 +64,8 @@ export class Bar {
       group(
         button("undo", "undo", "Undo (Ctrl Z)", () => client.do("undo")),
         button("redo", "redo", "Redo (Ctrl Y)", () => client.do("redo")),
-        button("save", "Save", "Save the world file (Ctrl S)", () => this.save()),
-        button("save-as", "Save as…", "Save under another name", () => this.saveAs()),
+        button("save", "Save", "Save the world file (Ctrl S)", () => void file.save()),
+        button("save-as", "Save as…", "Save under another name", () => void file.saveAs()),
       ),
       group(
         button("above", "Top", "Seen from above (1)", () => views.fit(true)),
@@ -156,22 +157,6 @@ export class Bar {
   faster(by: number) {
     const at = kSpeeds.findIndex(([, v]) => v === this.store.state.speed);
     this.setSpeed(kSpeeds[Math.max(0, Math.min(kSpeeds.length - 1, (at < 0 ? 4 : at) + by))][1]);
-  }
-  async save() {
-    if (await this.client.do("save")) notice("saved");
-  }
-  async saveAs() {
-    const name = prompt("Save in the same folder as", this.store.world.file.split("/").pop());
-    if (!name) return;
-    const full = name.endsWith(".toml") ? name : name + ".toml";
-    try {
-      await this.client.ask("save_as", { name: full });
-      notice(`saved as ${full}`);
-    } catch (e) {
-      if (!/overwrite/.test((e as Error).message)) return notice((e as Error).message, true);
-      if (confirm(`${full} is there already. Overwrite it?`))
-        await this.client.do("save_as", { name: full, overwrite: true });
-    }
   }
 }
 

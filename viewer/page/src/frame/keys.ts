@@ -8,6 +8,7 @@ import type { Pieces } from "../store/pieces";
 import type { Store } from "../store/store";
 import type { Bar, Views } from "./bar";
 import { dismiss } from "./notices";
+import type { WorldFile } from "./save";
 
 const kKeys: [string, string][] = [
   ["Space", "play, pause"],
@@ -32,6 +33,7 @@ export interface Hands {
   client: Client;
   pieces: Pieces;
   bar: Bar;
+  file: WorldFile;
   views: Views;
   touch: Touch;
   inspector: Inspector;
@@ -47,18 +49,28 @@ export function listenToKeys(hands: Hands) {
     ),
   );
   addEventListener("keydown", (e) => act(e, hands));
+  // a button that the mouse has pressed gives the keys back to the scene; one that the keyboard has reached keeps them
+  addEventListener("click", (e) => {
+    const button = (e.target as HTMLElement).closest?.("button");
+    if (button && e.detail > 0 && document.activeElement === button) button.blur();
+  });
 }
 
-function act(e: KeyboardEvent, { store, client, pieces, bar, views, touch, inspector }: Hands) {
+/** Keys that change the scene are for it alone: a field, a slider, a list has its own. */
+const isForScene = (target: HTMLElement) =>
+  target === document.body || target === document.documentElement || !!target.closest?.("#stage canvas");
+
+function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch, inspector }: Hands) {
+  if (e.defaultPrevented) return;
   const target = e.target as HTMLElement;
-  const typing = target.closest("input:not([type=range]):not([type=checkbox]),textarea,select,.cm-editor");
   const ctrl = e.ctrlKey || e.metaKey,
     key = e.key.length === 1 ? e.key.toLowerCase() : e.key;
   const act = (f: () => unknown) => {
     e.preventDefault();
     f();
   };
-  if (ctrl && key === "s" && !target.closest(".cm-editor")) return act(() => bar.save());
+  const typing = target.closest?.("input:not([type=range]):not([type=checkbox]),textarea,select,.cm-editor");
+  if (ctrl && key === "s" && !target.closest?.(".cm-editor")) return act(() => void file.save());
   if (typing) {
     if (key === "Escape") target.blur();
     return;
@@ -71,6 +83,11 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, views, touch, inspe
       r: () => bar.restart(),
     };
     if (keys[key]) act(keys[key]);
+    return;
+  }
+  if (key === "Escape") dismiss();
+  if (!isForScene(target)) {
+    if (key === "Escape") target.blur();
     return;
   }
   const move = (x: number, y: number) => pieces.nudge(x, y, e.shiftKey ? 0.001 : 0.01);
@@ -100,7 +117,6 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, views, touch, inspe
     Backspace: () => pieces.remove(),
     k: () => inspector.toggleView(),
     Escape: () => {
-      dismiss();
       touch.choose("select");
       store.select(0);
     },

@@ -18,24 +18,66 @@ export interface Choice<T> {
   text: string;
   value: T;
   strong?: boolean;
+  hidden?: boolean;
 }
-/** What a person chooses; undefined: nothing. A later question takes the place of this one. */
-export function question<T>(text: string, choices: Choice<T>[]): Promise<T | undefined> {
+/** Puts a question; the last one takes the place of any before. */
+function put<T>(fill: (answer: (value?: T) => void) => Node[], label: string): Promise<T | undefined> {
   return new Promise((done) => {
+    const box = byId("question"),
+      before = document.activeElement as HTMLElement | null;
     const answer = (value?: T) => {
-      byId("question").replaceChildren();
+      const inside = box.contains(document.activeElement);
+      box.replaceChildren();
       no = undefined;
+      if (inside) before?.focus?.();
       done(value);
     };
     no?.();
     no = () => answer();
-    byId("question").replaceChildren(
-      h("span", {}, text),
-      ...choices.map((c) =>
-        h("button", { id: c.id, className: c.strong ? "strong" : "", onclick: () => answer(c.value) }, c.text),
-      ),
-    );
+    box.setAttribute("aria-label", label);
+    box.replaceChildren(...fill(answer));
   });
+}
+/** What a person chooses; undefined: nothing. */
+export function question<T>(text: string, choices: Choice<T>[]): Promise<T | undefined> {
+  return put((answer) => {
+    const buttons = choices
+      .filter((c) => !c.hidden)
+      .map((c) =>
+        h("button", { id: c.id, className: c.strong ? "strong" : "", onclick: () => answer(c.value) }, c.text),
+      );
+    queueMicrotask(() => buttons[0]?.focus());
+    return [h("span", {}, text), ...buttons];
+  }, text);
+}
+/** A text that a person types; undefined: none. */
+export function askText(text: string, value: string): Promise<string | undefined> {
+  return put((answer) => {
+    const input = h("input", {
+      id: "question-text",
+      value,
+      "aria-label": text,
+      onkeydown: (e: KeyboardEvent) => {
+        if (e.key === "Enter") answer(input.value.trim() || undefined);
+        if (e.key === "Escape") answer();
+        e.stopPropagation();
+      },
+    });
+    queueMicrotask(() => {
+      input.focus();
+      input.select();
+    });
+    return [
+      h("span", {}, text),
+      input,
+      h(
+        "button",
+        { id: "question-yes", className: "strong", onclick: () => answer(input.value.trim() || undefined) },
+        "OK",
+      ),
+      h("button", { id: "leave", onclick: () => answer() }, "Leave it"),
+    ];
+  }, text);
 }
 /** No to whatever is asked. */
 export function dismiss() {

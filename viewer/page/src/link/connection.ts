@@ -43,7 +43,7 @@ export class Connection extends Link {
       if (!("answer" in data)) return this.tell(data);
       const asked = this.waiting.get(data.answer);
       this.waiting.delete(data.answer);
-      if (data.error) asked?.fail(Object.assign(new Error(data.error), { anew: data.anew }));
+      if (data.error) asked?.fail(Object.assign(new Error(data.error), data));
       else asked?.done(data);
     };
     socket.onmessage = (message) => hear(message.data);

@@ -44,6 +44,14 @@ export interface Robot {
   sensors: Vec[];
   parts: string[];
 }
+/** What a compiler says: `file` is one of the program's files where it is one of them, line 0: of no line. */
+export interface Finding {
+  kind: "error" | "warning" | "note";
+  file: string;
+  line: number;
+  column: number;
+  text: string;
+}
 export interface Problem {
   line: number;
   column: number;
@@ -54,12 +62,18 @@ export interface Element {
   id: number;
   path: string;
   line: number;
+  /** 1-based and inclusive. */
+  last_line?: number;
+  name?: string;
   values: Record<string, string>;
 }
 export interface World {
   title: string;
   file: string;
   text: string;
+  /** Of the text, as the server names it. */
+  base?: string;
+  undo_depth?: number;
   step_s: number;
   tick_s: number;
   arena?: { id: number; size: Vec; centre: Vec; wall_height: number; wall_thickness: number; colour: Vec };
@@ -74,6 +88,10 @@ export interface Program {
   robots: string[];
   folder: string;
   files: string[];
+  /** Did its last build do? Only where there was one. */
+  ok?: boolean;
+  built?: boolean;
+  findings?: Finding[];
 }
 export interface State {
   playing: boolean;
@@ -86,6 +104,9 @@ export interface State {
   redo: boolean;
   steering: number;
   runs: boolean;
+  recording?: null | { file: string; error: string };
+  /** The robot that is debugged; empty: none. */
+  debugging?: string;
   outcome?: { code: number; text: string };
 }
 export interface KeySpec {

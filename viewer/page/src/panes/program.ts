@@ -1,157 +1,237 @@
 // SPDX-License-Identifier: MIT
 // Sources of the controllers.
-import { EditorView } from "codemirror";
 import { cpp } from "@codemirror/lang-cpp";
 import { setDiagnostics, lintGutter } from "@codemirror/lint";
-import { oneDark } from "@codemirror/theme-one-dark";
-import { Compartment } from "@codemirror/state";
 import { h } from "../dom";
 import { notice } from "../frame/notices";
 import type { Look } from "../link/protocol";
-import type { Client } from "../store/client";
+import { isDirty, keyOf } from "../store/buffer";
+import type { Buffer } from "../store/buffer";
+import type { Buffers } from "../store/buffers";
 import type { SourceLine, Store } from "../store/store";
-import { editor, markedLine, markLine, put } from "./editor";
+import { banner, TextEditor } from "./editor";
 
 export class ProgramPane {
   readonly pane: HTMLElement;
-  private view: EditorView;
+  readonly editor: TextEditor;
   private file = h("select", {
     id: "source-file",
-    title: "Sources of the controllers",
-    onchange: () => this.open(),
-  }) as HTMLSelectElement;
-  private messages = h("div", { id: "build-messages" });
-  private theme = new Compartment();
-  private saved = "";
-  private marked = 0;
+    "aria-label": "Source file",
+    title: "Sources of the controllers; a dot: not saved",
+    onchange: () => void this.open(),
+  });
+  private button = h(
+    "button",
+    {
+      id: "source-save",
+      onclick: () => void this.save(),
+      title: "Save, build and start where the robots stand (Ctrl S)",
+    },
+    "Save and run",
+  );
+  private locked = h("span", { className: "bad", hidden: true }, "read-only");
+  private messages = h("div", { id: "build-messages", role: "status" });
+  private told = h("div", { id: "source-conflict" });
+
   constructor(
     private store: Store,
-    private client: Client,
+    private buffers: Buffers,
   ) {
-    const area = h("div", { className: "editor", id: "source" });
+    this.editor = new TextEditor({
+      id: "source",
+      label: "Source of a controller",
+      dark: store.dark,
+      save: () => void this.save(),
+      typed: (text) => this.buffers.edit(this.file.value, text),
+      extensions: [cpp(), lintGutter()],
+    });
     this.pane = h(
       "div",
       { className: "pane column" },
-      h(
-        "div",
-        { className: "toolbar" },
-        this.file,
-        h(
-          "button",
-          {
-            id: "source-save",
-            onclick: () => this.save(),
-            title: "Save, build and start where the robots stand (Ctrl S)",
-          },
-          "Save and run",
-        ),
-        this.messages,
-      ),
-      area,
+      h("div", { className: "toolbar" }, this.file, this.button, this.locked, this.messages),
+      this.told,
+      this.editor.element,
     );
-    this.view = editor(area, () => this.save(), this.theme, store.dark, [cpp(), lintGutter(), markedLine]);
-    store.on("theme", (dark) => this.setDark(dark));
-    store.on("programs", () => this.programs());
+    store.on("theme", (dark) => this.editor.setDark(dark));
+    store.on("programs", () => this.list());
     store.on("look", (look) => this.stands(look));
     store.on("selection", ({ changed }) => {
       const robot = store.selectedRobot();
       if (robot && changed) this.choose(store.programOf(robot));
     });
-    store.on("building", () => this.building());
-    store.on("built", (e) => void this.built(e));
+    store.on("building", () => this.messages.replaceChildren(h("span", { className: "dim" }, "building…")));
+    store.on("built", (e) => this.built(e));
+    store.on("buffer", (b) => this.changed(b));
     store.on("sourceLine", (at) => void this.goTo(at));
   }
-  setDark(dark: boolean) {
-    this.view.dispatch({ effects: this.theme.reconfigure(dark ? oneDark : []) });
-  }
-  programs() {
+
+  // --- the list of files
+
+  private list() {
     const was = this.file.value;
+    const known = this.store.programs.flatMap((p) => p.files.map((f) => keyOf(p.name, f)));
+    // what somebody typed stays, though nothing runs it any more
+    const left = this.buffers.dirty().filter((b) => b.program && !known.includes(b.key));
     this.file.replaceChildren(
       ...this.store.programs.flatMap((p) =>
-        p.files.map((f) => h("option", { value: `${p.name}\n${f}` }, `${p.name} / ${f}`)),
+        p.files.map((f) => h("option", { value: keyOf(p.name, f) }, `${p.name} / ${f}`)),
       ),
+      ...left.map((b) => h("option", { value: b.key }, `${b.name} (not used)`)),
     );
     if ([...this.file.options].some((o) => o.value === was)) this.file.value = was;
-    else this.open();
+    this.dots();
+    if (this.file.value !== was) void this.open();
+    this.findings();
   }
-  choose(program: string) {
-    const first = [...this.file.options].find((o) => o.value.startsWith(program + "\n"));
-    if (first && !this.file.value.startsWith(program + "\n")) {
-      this.file.value = first.value;
-      this.open();
+  private dots() {
+    for (const option of this.file.options) {
+      const b = this.buffers.get(option.value);
+      const plain = option.textContent!.replace(/^• /, "");
+      option.textContent = b && isDirty(b) ? `• ${plain}` : plain;
     }
   }
-  private get place() {
-    const [program, file] = this.file.value.split("\n");
-    return { program, file };
+  private choose(program: string) {
+    const first = [...this.file.options].find((o) => o.value.startsWith(program + "\n"));
+    if (!first || this.file.value.startsWith(program + "\n")) return;
+    this.file.value = first.value;
+    void this.open();
   }
+
+  // --- the file that is shown
+
   text() {
-    return this.view.state.doc.toString();
+    return this.editor.text;
   }
   setText(text: string) {
-    put(this.view, text);
+    this.editor.put(text, true);
   }
   get markedLine() {
-    return this.marked;
+    return this.editor.markedLine;
   }
-  async open() {
-    if (!this.file.value) return;
+  private async open() {
+    const key = this.file.value;
+    if (!key) return this.editor.show("", undefined);
+    const known = this.buffers.get(key);
+    this.editor.show(key, known?.read === undefined ? undefined : known.text);
+    this.about(known);
     try {
-      const text = (await this.client.ask("source", this.place)).text;
-      this.saved = text;
-      this.marked = 0;
-      put(this.view, text);
-      this.stands(this.store.look);
+      const [program, file] = key.split("\n");
+      const b = await this.buffers.open(program, file);
+      if (this.file.value === key) this.changed(b);
     } catch (e) {
       notice((e as Error).message, true);
     }
   }
-  async save() {
-    this.saved = this.text();
-    await this.client.do("write_source", { ...this.place, text: this.saved });
+  /** The buffer is another one now: by a hand, by the disk, saved. */
+  private changed(b: Buffer) {
+    this.dots();
+    if (b.key !== this.file.value) return;
+    if (b.read !== undefined) this.editor.show(b.key, b.text);
+    this.about(b);
+    this.findings();
+    this.stands(this.store.look);
   }
+  private about(b?: Buffer) {
+    this.locked.hidden = !b || b.writable;
+    const c = b?.conflict;
+    if (!c || !b) {
+      this.editor.compare(undefined);
+      return this.told.replaceChildren();
+    }
+    const overwrite = {
+      id: "source-overwrite",
+      text: "Overwrite",
+      title: "What is typed here takes the place of what is on the disk",
+      act: () => void this.save(true),
+    };
+    if (c.text === null)
+      return this.told.replaceChildren(
+        banner(`${b.file} is gone from the disk.`, [{ ...overwrite, text: "Write it" }]),
+      );
+    this.told.replaceChildren(
+      banner(`${b.file} was changed on the disk by another program.`, [
+        {
+          id: "source-reload",
+          text: "Reload",
+          title: "What is on the disk takes the place of what is typed here (Ctrl Z brings it back)",
+          act: () => this.buffers.reload(b.key),
+        },
+        overwrite,
+        {
+          id: "source-compare",
+          text: this.editor.comparesNow ? "No comparison" : "Compare",
+          title: "Differing lines below each other",
+          act: () => {
+            this.editor.compare(this.editor.comparesNow ? undefined : c.text!);
+            this.about(b);
+          },
+        },
+      ]),
+    );
+  }
+  async save(overwrite = false) {
+    const key = this.file.value;
+    try {
+      const result = await this.buffers.save(key, overwrite);
+      const name = this.buffers.get(key)?.file;
+      if (result === "unread") notice("Nothing was saved: the file's text has not come yet.", true);
+      else if (result === "readonly") notice(`${name} may not be written (it is read-only): nothing was saved.`, true);
+      else if (result === "conflict") {
+        this.store.tell("show", "program");
+        notice(
+          `${name} was changed on the disk meanwhile: nothing was saved. Choose above the text what counts.`,
+          true,
+        );
+      }
+    } catch (e) {
+      notice((e as Error).message, true);
+    }
+  }
+
+  // --- lines of it
+
   /** Marks the line where the robot's program stands, if it is of this file. */
-  stands(look?: Look) {
-    const at = this.store.sourceOf(look),
-      here =
-        at && this.file.value === `${at.program}\n${at.file}` && at.line <= this.view.state.doc.lines ? at.line : 0;
-    if (here !== this.marked) this.view.dispatch({ effects: markLine.of(here) });
-    this.marked = here;
+  private stands(look?: Look) {
+    const at = this.store.sourceOf(look);
+    this.editor.mark(at && this.file.value === keyOf(at.program, at.file) ? at.line : 0);
   }
-  async goTo(at: SourceLine) {
-    const value = `${at.program}\n${at.file}`;
+  private async goTo(at: SourceLine) {
+    const value = keyOf(at.program, at.file);
     if (this.file.value !== value) {
       this.file.value = value;
       await this.open();
     }
     this.store.tell("show", "program");
     this.stands(this.store.look);
-    const line = this.view.state.doc.line(Math.min(at.line, this.view.state.doc.lines));
-    this.view.dispatch({ effects: EditorView.scrollIntoView(line.from, { y: "center" }) });
+    this.editor.goTo(at.line, at.column);
   }
-  building() {
-    this.messages.replaceChildren(h("span", { className: "dim" }, "building…"));
-  }
-  async built(event: { ok: boolean; problems: string[]; warnings: string[]; took_s: number }) {
-    // a change from outside shows, unless something here would be lost
-    if (this.text() === this.saved) await this.open();
-    const all = [
-      ...event.problems.map((t) => ({ t, severity: "error" as const })),
-      ...event.warnings.map((t) => ({ t, severity: "warning" as const })),
-    ];
-    const doc = this.view.state.doc;
-    const marks = all.flatMap(({ t, severity }) => {
-      const m = t.match(/([^\s:]+):(\d+)(?::(\d+))?:\s*(.*)/);
-      if (!m || !m[1].endsWith(this.place.file) || Number(m[2]) > doc.lines) return [];
-      const line = doc.line(Number(m[2]));
-      return [{ from: Math.min(line.to, line.from + Number(m[3] ?? 1) - 1), to: line.to, severity, message: m[4] }];
-    });
-    this.view.dispatch(setDiagnostics(this.view.state, marks));
+  private built(event: { ok: boolean; problems: string[]; took_s: number }) {
+    const first = event.problems[0] ?? "not built";
     this.messages.replaceChildren(
       event.ok
         ? h("span", { className: "good" }, `runs, built in ${(1000 * event.took_s).toFixed(0)} ms`)
-        : h("span", { className: "bad" }, event.problems[0] ?? "not built"),
+        : h("span", { className: "bad" }, first),
     );
     this.messages.dataset.ok = String(event.ok);
+    this.findings();
+  }
+  /** What the compiler says of this file, in its lines. */
+  private findings() {
+    const [program, file] = this.file.value.split("\n"),
+      doc = this.editor.view.state.doc;
+    const found = this.store.programs.find((p) => p.name === program)?.findings ?? [];
+    const marks = found
+      .filter((f) => f.file === file && f.line > 0 && f.line <= doc.lines)
+      .map((f) => {
+        const line = doc.line(f.line);
+        return {
+          from: Math.min(line.to, line.from + Math.max(0, f.column - 1)),
+          to: line.to,
+          severity: f.kind === "note" ? ("info" as const) : f.kind,
+          message: f.text,
+        };
+      })
+      .sort((a, b) => a.from - b.from);
+    this.editor.view.dispatch(setDiagnostics(this.editor.view.state, marks));
   }
 }

@@ -3,6 +3,7 @@
 // matrices; nothing is drawn unless something changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { ghost } from "./ghosts";
 import { frustum, lightMarks, soundingMaterial, soundingRing, soundMarks } from "./marks";
 import type { CameraView } from "./marks";
 import { kPalette } from "./colours";
@@ -72,6 +73,7 @@ export class Scene {
   private halo?: THREE.InstancedMesh;
   private sounding?: THREE.InstancedMesh;
   private turrets?: THREE.InstancedMesh;
+  private robots: (Robot | undefined)[] = []; // by body
   private turretOf: number[] = []; // bodies of robots that carry a part
   private view = new THREE.Group(); // what a camera sees
   private viewBody = -1;
@@ -87,7 +89,7 @@ export class Scene {
   private dirty = true;
   private drawing = true;
   private world?: World;
-  private selected = 0;
+  private selected: readonly number[] = [];
   private last?: Frame;
   showTrails = true;
   followed = "";
@@ -157,7 +159,12 @@ export class Scene {
     this.moving = [];
     this.addFloor(world);
     for (const thing of world.things) this.addThing(thing);
-    this.addRobots(world.robots);
+    const placed: Robot[] = []; // by body; some may be in the run and no more in the file
+    for (const robot of world.robots) {
+      if (robot.body >= 0) placed[robot.body] = robot;
+      else this.static_.add(ghost(robot, world.problems.find((p) => p.id === robot.id)?.text ?? ""));
+    }
+    this.addRobots(placed);
     if (!keepCamera) this.fit(true);
     const size = Math.max(1, this.extent().size);
     this.sun.position.set(0.4 * size, -0.6 * size, 1.5 * size);
@@ -303,12 +310,13 @@ export class Scene {
       group.rotation.z = t.heading ?? 0;
     }
     group.userData.id = t.id;
-    if (t.body !== undefined) this.moving.push({ object: group, body: t.body });
+    if (t.body !== undefined && t.body >= 0) this.moving.push({ object: group, body: t.body });
     this.things.set(t.id, group);
     this.static_.add(group);
   }
 
-  private addRobots(robots: Robot[]) {
+  private addRobots(robots: (Robot | undefined)[]) {
+    this.robots = robots;
     for (const old of [...this.instances, this.leds, this.halo, this.sounding, this.turrets])
       if (old) {
         this.scene.remove(old);
@@ -317,16 +325,16 @@ export class Scene {
       }
     this.instances = [];
     this.leds = this.halo = this.bodyMesh = this.sounding = this.turrets = undefined;
-    this.turretOf = robots.filter((r) => r.parts.length > 0).map((r) => r.body);
+    this.turretOf = robots.flatMap((r) => (r?.parts.length ? [r.body] : []));
     while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
     while (this.trails.length < robots.length) {
       const trail = new Trail(kPalette[this.trails.length % kPalette.length]);
       this.trails.push(trail);
       this.scene.add(trail.line);
     }
-    if (robots.length === 0) return;
-    const r = robots[0],
+    const r = robots.find((robot) => robot),
       n = robots.length;
+    if (!r) return;
     const add = (geometry: THREE.BufferGeometry, material: THREE.Material, shadow = true) => {
       const mesh = new THREE.InstancedMesh(geometry, material, n);
       if (this.bodyMesh) mesh.instanceMatrix = this.bodyMesh.instanceMatrix;
@@ -342,7 +350,7 @@ export class Scene {
       upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
       new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }),
     );
-    robots.forEach((robot, i) => shell.setColorAt(i, rgb(robot.colour)));
+    robots.forEach((robot, i) => robot && shell.setColorAt(i, rgb(robot.colour)));
     const dark = new THREE.MeshStandardMaterial({ color: 0x23282e, roughness: 0.6 });
     add(upright(new THREE.CylinderGeometry(r.radius, r.radius, 0.003, 40), r.height * 0.62), dark);
     add(
@@ -399,15 +407,20 @@ export class Scene {
   setFrame(frame: Frame) {
     this.last = frame;
     const world = this.world;
-    if (!world || (!this.bodyMesh && world.robots.length > 0)) return;
+    if (!world) return;
     const p = frame.poses,
-      n = Math.min(frame.robots, world.robots.length);
+      n = Math.min(frame.robots, this.robots.length);
     const matrices = this.bodyMesh?.instanceMatrix.array as Float32Array | undefined;
     let lit = 0,
       sounding = 0;
     const leds = this.leds?.instanceMatrix.array as Float32Array | undefined;
     const halo = this.halo?.instanceMatrix.array as Float32Array | undefined;
     for (let i = 0; i < n && matrices; ++i) {
+      const robot = this.robots[i];
+      if (!robot) {
+        matrices.fill(0, 16 * i, 16 * i + 16);
+        continue;
+      }
       const x = p[4 * i],
         y = p[4 * i + 1],
         z = p[4 * i + 2],
@@ -420,11 +433,11 @@ export class Scene {
           16 * sounding++,
         );
       for (let bits = frame.robotWords[2 * i], bit = 0; bits !== 0; bits >>>= 1, ++bit) {
-        const led = world.robots[i].leds[bit];
+        const led = robot.leds[bit];
         if (!(bits & 1) || !led || !leds || !halo) continue;
         const lx = x + c * led[0] - s * led[1],
           ly = y + s * led[0] + c * led[1],
-          lz = z + Math.max(led[2], world.robots[i].height * 0.62);
+          lz = z + Math.max(led[2], robot.height * 0.62);
         const m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, lx, ly, lz, 1];
         leds.set(m, 16 * lit);
         halo.set(m, 16 * lit);
@@ -459,7 +472,7 @@ export class Scene {
         object.rotation.z = p[4 * body + 3];
       }
     this.setRays(frame.rays);
-    const follow = world.robots.find((r) => r.name === this.followed);
+    const follow = this.robots.find((r) => r?.name === this.followed);
     if (follow) {
       const to = new THREE.Vector3(p[4 * follow.body], p[4 * follow.body + 1], 0),
         by = to.sub(this.controls.target);
@@ -573,12 +586,18 @@ export class Scene {
     const caster = this.ray(event);
     const floor = this.floorPoint(event) ?? new THREE.Vector3();
     const handle = caster.intersectObjects(this.handles.children)[0];
-    if (handle) return { kind: "handle", id: this.selected, point: floor, handle: handle.object.userData.handle };
+    if (handle)
+      return {
+        kind: "handle",
+        id: handle.object.userData.id ?? 0,
+        point: floor,
+        handle: handle.object.userData.handle,
+      };
     const hit = caster
       .intersectObjects([this.static_, ...this.instances], true)
       .find((h) => h.instanceId !== undefined || this.idOf(h.object) > 0);
     if (!hit) return { kind: "floor", id: 0, point: floor };
-    if (hit.instanceId !== undefined) return { kind: "robot", id: this.world!.robots[hit.instanceId].id, point: floor };
+    if (hit.instanceId !== undefined) return { kind: "robot", id: this.robots[hit.instanceId]?.id ?? 0, point: floor };
     return { kind: "thing", id: this.idOf(hit.object), point: floor };
   }
   private idOf(object: THREE.Object3D | null): number {
@@ -595,31 +614,36 @@ export class Scene {
 
   // --- selection
 
-  select(id: number, handles: Handle[] = []) {
-    this.selected = id;
+  select(ids: readonly number[], handles: Handle[] = []) {
+    this.selected = ids;
     this.empty(this.outline);
     this.empty(this.handles);
-    const colour = 0xe69f00,
-      thing = this.things.get(id),
-      robot = this.world?.robots.find((r) => r.id === id);
-    if (robot) {
-      this.outline.add(
-        new THREE.Mesh(
-          new THREE.RingGeometry(robot.radius * 1.12, robot.radius * 1.3, 48),
-          new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }),
-        ),
-      );
-    } else if (thing) {
-      thing.updateMatrixWorld();
-      thing.traverse((o) => {
-        if (!(o instanceof THREE.Mesh) || o.material.transparent) return;
-        const edges = new THREE.LineSegments(
-          new THREE.EdgesGeometry(o.geometry, 30),
-          new THREE.LineBasicMaterial({ color: colour, depthTest: false }),
+    const colour = 0xe69f00;
+    for (const id of ids) {
+      const thing = this.things.get(id),
+        robot = this.world?.robots.find((r) => r.id === id),
+        around = new THREE.Group();
+      around.userData.of = id;
+      this.outline.add(around);
+      if (robot) {
+        around.add(
+          new THREE.Mesh(
+            new THREE.RingGeometry(robot.radius * 1.12, robot.radius * 1.3, 48),
+            new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }),
+          ),
         );
-        edges.applyMatrix4(new THREE.Matrix4().copy(thing.matrixWorld).invert().multiply(o.matrixWorld));
-        this.outline.add(edges);
-      });
+      } else if (thing) {
+        thing.updateMatrixWorld();
+        thing.traverse((o) => {
+          if (!(o instanceof THREE.Mesh) || o.material.transparent) return;
+          const edges = new THREE.LineSegments(
+            new THREE.EdgesGeometry(o.geometry, 30),
+            new THREE.LineBasicMaterial({ color: colour, depthTest: false }),
+          );
+          edges.applyMatrix4(new THREE.Matrix4().copy(thing.matrixWorld).invert().multiply(o.matrixWorld));
+          around.add(edges);
+        });
+      }
     }
     for (const h of handles) {
       const ball = new THREE.Mesh(
@@ -635,16 +659,17 @@ export class Scene {
     this.draw();
   }
   private placeOutline() {
-    const robot = this.world?.robots.find((r) => r.id === this.selected),
-      thing = this.things.get(this.selected);
-    if (robot && this.last && robot.body < this.last.bodies)
-      this.outline.position.set(this.last.poses[4 * robot.body], this.last.poses[4 * robot.body + 1], 0.003);
-    else if (robot) this.outline.position.set(robot.position[0], robot.position[1], 0.003);
-    else if (thing) {
-      this.outline.position.copy(thing.position);
-      this.outline.rotation.copy(thing.rotation);
-      return;
+    for (const around of this.outline.children) {
+      const robot = this.world?.robots.find((r) => r.id === around.userData.of),
+        thing = this.things.get(around.userData.of),
+        poses = this.last?.poses;
+      if (robot && poses && robot.body >= 0 && robot.body < this.last!.bodies)
+        around.position.set(poses[4 * robot.body], poses[4 * robot.body + 1], 0.003);
+      else if (robot) around.position.set(robot.position[0], robot.position[1], 0.003);
+      else if (thing) {
+        around.position.copy(thing.position);
+        around.rotation.copy(thing.rotation);
+      }
     }
-    this.outline.rotation.set(0, 0, 0);
   }
 }

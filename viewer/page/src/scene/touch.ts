@@ -60,7 +60,7 @@ export class Touch {
       ),
     );
     this.choose("select");
-    const outline = () => scene.select(store.selected, this.handles());
+    const outline = () => scene.select(store.selection, this.handles());
     store.on("selection", outline);
     store.on("frame", ({ began }) => {
       if (began) outline();

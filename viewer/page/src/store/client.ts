@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Between the server and the store: it hears events and frames, and asks for what panes want.
 import type { Answer, Link } from "../link/connection";
-import type { Frame } from "../link/protocol";
+import type { Finding, Frame, Program } from "../link/protocol";
 import { notice, question } from "../frame/notices";
+import { findingOf, textOfDiagnosis, textOfTrap } from "./problems";
 import type { Diagnosis, Store } from "./store";
 
 const kRedrawEvery = 4; // frames, for numbers and plots: nobody reads faster
@@ -12,6 +13,7 @@ export class Client {
   /** Milliseconds of script that the last frames took: scene, inspector, plots, but not the drawing of the scene. */
   readonly work: number[] = [];
   private fresh = true;
+  private told = false; // what compilers say comes with the programs
 
   constructor(
     private store: Store,
@@ -21,23 +23,29 @@ export class Client {
       store.me = e.you;
       store.schema = e.schema;
       store.names = e.names;
+      store.noRun = e.problems ?? [];
       this.takeWorld(e);
-      store.takePrograms(e.programs);
+      this.takePrograms(e.programs);
       this.takeState(e.state);
       this.takeDiagnoses(e.diagnoses);
       if (store.world.robots.length === 1) store.select(store.world.robots[0].id);
       if (!store.recorded) document.body.dataset.ready = "yes";
     });
     link.on("world", (e) => this.takeWorld(e));
-    link.on("programs", (e) => store.takePrograms(e.programs));
+    link.on("programs", (e) => this.takePrograms(e.programs));
     link.on("state", (e) => this.takeState(e.state));
     link.on("serial", (e) => store.tell("serial", e));
     link.on("trace", (e) => store.tell("trace", e));
     link.on("look", (e) => store.takeLook(e));
     link.on("says", (e) => store.tell("says", e.text));
-    link.on("problems", (e) => notice(e.problems[0], true));
+    link.on("problems", (e) => {
+      store.noRun = e.problems;
+      store.tell("problems");
+      if (e.problems.length) notice(e.problems[0], true);
+    });
     link.on("building", (e) => store.tell("building", e));
     link.on("built", (e) => {
+      this.takeBuilt(e);
       store.tell("built", e);
       notice(e.ok ? `${e.program} runs anew` : `${e.program} does not compile: ${e.problems[0]}`, !e.ok);
     });
@@ -45,7 +53,7 @@ export class Client {
       store.traps.push(e);
       store.tell("trap", e);
       store.tell("problems");
-      notice(`${e.robot}: ${e.kind}: ${e.text}, at ${e.place}, ${e.time_s.toFixed(3)} s`, true);
+      notice(textOfTrap(e), true);
     });
     link.on("diagnoses", (e) => this.takeDiagnoses(e.diagnoses));
     link.onFrame = (frame, bytes) => {
@@ -88,6 +96,28 @@ export class Client {
     store.diagnoses = list;
     store.tell("problems");
     if (news) notice(textOfDiagnosis(news), true);
+  }
+  /** Servers before version 2 tell what a compiler says in one line each, and only once. */
+  private takeBuilt(e: { program: string; ok: boolean; problems: string[]; warnings: string[]; findings?: Finding[] }) {
+    const program = this.store.programs.find((p) => p.name === e.program);
+    if (!program || this.told) return;
+    program.built = true;
+    program.ok = e.ok;
+    program.findings = [
+      ...e.problems.map((t) => findingOf(t, "error", program.files)),
+      ...e.warnings.map((t) => findingOf(t, "warning", program.files)),
+    ];
+    this.store.takePrograms(this.store.programs);
+  }
+  private takePrograms(programs: Program[]) {
+    const { store } = this;
+    this.told = programs.some((p) => p.findings !== undefined);
+    if (!this.told)
+      for (const p of programs) {
+        const before = store.programs.find((q) => q.name === p.name);
+        Object.assign(p, { ok: before?.ok, built: before?.built, findings: before?.findings });
+      }
+    store.takePrograms(programs);
   }
   private takeFrame(frame: Frame, bytes: ArrayBuffer) {
     const { store } = this;
@@ -147,6 +177,3 @@ export class Client {
     this.do("rays", { robots: [...rays] });
   }
 }
-
-export const textOfDiagnosis = (d: Diagnosis) =>
-  `${d.robot}: ${d.cause} at ${d.place}, ${d.time_s.toFixed(3)} s: ${d.text}${d.hint ? "; " + d.hint : ""}`;

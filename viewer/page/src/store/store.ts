@@ -3,6 +3,7 @@
 // and are told of changes by topic; none of them knows another. All state that counts is the server's.
 import { readFrame } from "../link/protocol";
 import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "../link/protocol";
+import type { Buffer } from "./buffer";
 import { Past } from "./past";
 
 export interface Diagnosis {
@@ -25,6 +26,7 @@ export interface SourceLine {
   program: string;
   file: string;
   line: number;
+  column?: number;
 }
 
 /** What the page tells of, and what comes with it. */
@@ -51,6 +53,8 @@ export interface Topics {
   says: string;
   trap: Trap;
   problems: void;
+  /** What is typed in a buffer is unsaved now, or no more; or its file has changed. */
+  buffer: Buffer;
   building: any;
   built: any;
   theme: boolean;
@@ -113,6 +117,8 @@ export class Store {
   live = true;
   traps: Trap[] = [];
   diagnoses: Diagnosis[] = [];
+  /** Why there is no run. */
+  noRun: string[] = [];
   readonly rays = new Set<string>();
   dark = false;
   /** What the camera of the selected robot sees is drawn in the scene. */
