@@ -7,7 +7,9 @@ import { showBadges } from "./frame/badges";
 import { Bar, setTheme } from "./frame/bar";
 import { Dock } from "./frame/dock";
 import type { Tab } from "./frame/dock";
+import { listenToClipboard } from "./frame/clipboard";
 import { listenToKeys } from "./frame/keys";
+import { beginLayout } from "./frame/layout";
 import { notice } from "./frame/notices";
 import { PastBar } from "./frame/past_bar";
 import { Report } from "./frame/report";
@@ -20,6 +22,7 @@ import { Plots } from "./panes/plots";
 import { ProblemsPane } from "./panes/problems";
 import { ProgramPane } from "./panes/program";
 import { TimeLine } from "./panes/timeline";
+import { Tree } from "./panes/tree";
 import { WorldTextPane } from "./panes/world_text";
 import { SceneView } from "./scene/scene_view";
 import { Touch } from "./scene/touch";
@@ -41,6 +44,7 @@ const pieces = new Pieces(store, client);
 // the scene hears of a world before the hand that pulls at it
 const view = new SceneView(store, client);
 const touch = new Touch(store, client, pieces, view.scene);
+const tree = new Tree(store, pieces);
 const inspector = new Inspector(store, client, pieces);
 const past = new PastBar(store);
 const report = playback && new Report(store, client, past, playback);
@@ -65,6 +69,8 @@ const tabs: Tab[] = [
 if (report) tabs.unshift({ id: "summary", text: "Summary", pane: h("div", { className: "pane pad" }) });
 const dock = new Dock(store, tabs);
 dock.show("console");
+beginLayout();
+listenToClipboard(pieces);
 listenToKeys({ store, client, pieces, bar, file, views, touch, inspector });
 setTheme(store, store.dark);
 addEventListener("beforeunload", (e) => {
@@ -82,6 +88,7 @@ const shown = {
   pieces,
   scene: view.scene,
   touch,
+  tree,
   inspector,
   console: console_,
   plots,

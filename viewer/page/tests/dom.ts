@@ -35,7 +35,7 @@ export function freshDocument() {
   document.body.innerHTML = `<header id="bar"></header><nav id="palette"></nav>
 <main id="stage"><div id="notice"></div><div id="question"></div><div id="badges"></div></main>
 <footer id="past"><input id="scrub" type="range"><output id="clock"></output></footer>
-<aside id="inspector"></aside><section id="dock"></section>`;
+<aside id="side"><section id="tree"></section><section id="inspector"></section></aside><section id="dock"></section>`;
   localStorage.clear();
 }
 

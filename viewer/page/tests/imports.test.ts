@@ -21,7 +21,7 @@ const kMay: Record<string, string[]> = {
   link: ["link"],
   store: ["store", "link"],
   scene: ["scene", "store", "link", "panes/senses.ts"],
-  panes: ["panes", "store", "link", "scene/colours.ts"],
+  panes: ["panes", "store", "link"],
   frame: ["frame", "store", "link", "panes", "scene"],
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar above the scene: time, undo and save, views.
 import { byId, h, icon } from "../dom";
+import { foldButton } from "./layout";
 import { RobotState } from "../link/protocol";
 import type { State } from "../link/protocol";
 import type { Client } from "../store/client";
@@ -8,6 +9,7 @@ import type { Store } from "../store/store";
 import type { PastBar } from "./past_bar";
 import type { Report } from "./report";
 import type { WorldFile } from "./save";
+import { worldsMenu } from "./worlds_menu";
 
 export const kSpeeds: [string, number][] = [
   ["1/16", 1 / 16],
@@ -65,6 +67,7 @@ export class Bar {
         button("undo", "undo", "Undo (Ctrl Z)", () => client.do("undo")),
         button("redo", "redo", "Redo (Ctrl Y)", () => client.do("redo")),
         button("save", "Save", "Save the world file (Ctrl S)", () => void file.save()),
+        worldsMenu(client, file),
         button("save-as", "Save as…", "Save under another name", () => void file.saveAs()),
       ),
       group(
@@ -87,6 +90,7 @@ export class Bar {
       ),
       button("theme", "theme", "Dark or light", () => setTheme(store, !store.dark)),
       button("help", "?", "Keys", () => byId("keys").toggleAttribute("hidden")),
+      foldButton("side"),
     );
     byId("trails").classList.add("on");
     store.on("state", (state) => this.showState(state));

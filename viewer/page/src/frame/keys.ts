@@ -21,7 +21,10 @@ const kKeys: [string, string][] = [
   ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"],
   ["Q E", "turn by 15°, with Shift 1°"],
   ["Arrows", "move by 1 cm, with Shift 1 mm"],
+  ["Shift or Ctrl click", "selects several; dragged on the floor: all in a frame"],
+  ["Ctrl A", "selects all"],
   ["Ctrl D, Del", "copy, delete"],
+  ["Ctrl C X V", "to and from the clipboard"],
   ["Ctrl Z Y S", "undo, redo, save"],
   ["Shift while dragging", "without the grid of 1 cm"],
   ["Left, right drag, wheel", "move the view, turn it, zoom"],
@@ -80,6 +83,7 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch,
       z: () => client.do(e.shiftKey ? "redo" : "undo"),
       y: () => client.do("redo"),
       d: () => pieces.copy(),
+      a: () => store.selectAll([...store.world.robots, ...store.world.things].map((p) => p.id)),
       r: () => bar.restart(),
     };
     if (keys[key]) act(keys[key]);

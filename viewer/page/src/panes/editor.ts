@@ -3,6 +3,8 @@
 import { EditorView, basicSetup } from "codemirror";
 import { indentWithTab, isolateHistory } from "@codemirror/commands";
 import { diff, unifiedMergeView } from "@codemirror/merge";
+import { HighlightStyle, syntaxHighlighting } from "@codemirror/language";
+import { tags } from "@lezer/highlight";
 import { oneDark } from "@codemirror/theme-one-dark";
 import { Annotation, EditorState, Compartment, StateEffect, StateField } from "@codemirror/state";
 import type { Extension } from "@codemirror/state";
@@ -14,6 +16,15 @@ const kLook = EditorView.theme({
   "&": { height: "100%" },
   ".cm-scroller": { fontFamily: "var(--mono)", fontSize: "13px" },
 });
+// what the usual colours have below a contrast of 4.5
+const kOnDark = syntaxHighlighting(HighlightStyle.define([{ tag: [tags.comment, tags.meta], color: "#98a3b3" }]));
+const kOnLight = syntaxHighlighting(
+  HighlightStyle.define([
+    { tag: [tags.regexp, tags.escape, tags.special(tags.string)], color: "#b34700" },
+    { tag: tags.invalid, color: "#b3001b" },
+    { tag: tags.comment, color: "#7a4a00" },
+  ]),
+);
 /** A change that comes from the file, not from a hand. */
 const fromFile = Annotation.define<boolean>();
 
@@ -77,7 +88,7 @@ export class TextEditor {
       ],
     });
   }
-  private themeOf = (dark: boolean) => (dark ? oneDark : []);
+  private themeOf = (dark: boolean) => (dark ? [kOnDark, oneDark] : kOnLight);
 
   get text() {
     return this.view.state.doc.toString();

@@ -3,14 +3,11 @@
 import uPlot from "uplot";
 import { css, h } from "../dom";
 import { notice } from "../frame/notices";
-import { kPalette } from "../scene/colours";
+import { kPalette, lineColour } from "../store/colours";
 import type { Client } from "../store/client";
 import type { Store } from "../store/store";
 
 const kMostSamples = 6000;
-
-/** Of a plot: the first blue is too dark on a dark page. */
-const plotColour = (i: number, dark: boolean) => kPalette[dark && i === 0 ? 5 : dark && i === 5 ? 0 : i];
 
 export class Plots {
   readonly pane: HTMLElement;
@@ -107,7 +104,7 @@ export class Plots {
         h(
           "button",
           { className: "chip", title: "No more", onclick: () => this.toggle(n) },
-          h("i", { style: `background:${plotColour(i, this.store.dark)}` }),
+          h("i", { style: `background:${lineColour(i, this.store.dark)}` }),
           n,
         ),
       ),
@@ -132,7 +129,7 @@ export class Plots {
           { label: "s" },
           ...this.names.map((label, i) => ({
             label,
-            stroke: plotColour(i, this.store.dark),
+            stroke: lineColour(i, this.store.dark),
             width: 1.5,
             points: { show: false },
           })),

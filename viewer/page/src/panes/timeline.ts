@@ -2,7 +2,7 @@
 // What one robot's processor did and when its pins changed: rows of main program, interrupts, agendas and
 // signals over time. Wheel zooms, dragging moves, the line is the time that the scene shows.
 import { css, h } from "../dom";
-import { kPalette } from "../scene/colours";
+import { lineColour } from "../store/colours";
 import type { Client } from "../store/client";
 import type { Store } from "../store/store";
 
@@ -186,11 +186,11 @@ export class TimeLine {
       if (!rows.has(name)) rows.set(name, { name, colour, spans: [] });
       return rows.get(name)!;
     };
-    row("main", kPalette[0]);
+    row("main", lineColour(0, this.store.dark));
     for (const s of this.spans) {
-      if (s[0] <= Kind.Waiting) row("main", kPalette[0]).spans!.push(s);
-      else if (s[0] === Kind.Callback) row(`${s[3]}()`, kPalette[2]).spans!.push(s);
-      else if (s[0] === Kind.Handler) row(s[3], kPalette[1]).spans!.push(s);
+      if (s[0] <= Kind.Waiting) row("main", lineColour(0, this.store.dark)).spans!.push(s);
+      else if (s[0] === Kind.Callback) row(`${s[3]}()`, lineColour(2, this.store.dark)).spans!.push(s);
+      else if (s[0] === Kind.Handler) row(s[3], lineColour(1, this.store.dark)).spans!.push(s);
     }
     // what still goes on has no end yet
     const main = rows.get("main")!.spans!,
@@ -200,7 +200,7 @@ export class TimeLine {
     return [
       ...rows.values(),
       ...this.names
-        .map(([name, bits], i) => ({ name, bits, colour: kPalette[5], changes: this.changes[i] }))
+        .map(([name, bits], i) => ({ name, bits, colour: lineColour(5, this.store.dark), changes: this.changes[i] }))
         .filter((r) => r.changes.length > 0 || this.names.length <= 12),
     ];
   }

@@ -6,7 +6,7 @@ import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { ghost } from "./ghosts";
 import { frustum, lightMarks, soundingMaterial, soundingRing, soundMarks } from "./marks";
 import type { CameraView } from "./marks";
-import { kPalette } from "./colours";
+import { kPalette } from "../store/colours";
 import { RobotState } from "../link/protocol";
 import type { Frame, Robot, Thing, Vec, World } from "../link/protocol";
 
@@ -50,6 +50,9 @@ class Trail {
     this.points.set([x, y, 0.002], 3 * this.count++);
     this.line.geometry.setDrawRange(0, this.count);
     this.line.geometry.attributes.position.needsUpdate = true;
+  }
+  setColour(colour: THREE.Color) {
+    (this.line.material as THREE.LineBasicMaterial).color.copy(colour);
   }
   clear() {
     this.count = 0;
@@ -328,7 +331,7 @@ export class Scene {
     this.turretOf = robots.flatMap((r) => (r?.parts.length ? [r.body] : []));
     while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
     while (this.trails.length < robots.length) {
-      const trail = new Trail(kPalette[this.trails.length % kPalette.length]);
+      const trail = new Trail(kPalette[0]);
       this.trails.push(trail);
       this.scene.add(trail.line);
     }
@@ -350,7 +353,11 @@ export class Scene {
       upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
       new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }),
     );
-    robots.forEach((robot, i) => robot && shell.setColorAt(i, rgb(robot.colour)));
+    robots.forEach((robot, i) => {
+      if (!robot) return;
+      shell.setColorAt(i, rgb(robot.colour));
+      this.trails[i].setColour(rgb(robot.colour));
+    });
     const dark = new THREE.MeshStandardMaterial({ color: 0x23282e, roughness: 0.6 });
     add(upright(new THREE.CylinderGeometry(r.radius, r.radius, 0.003, 40), r.height * 0.62), dark);
     add(

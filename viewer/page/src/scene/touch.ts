@@ -11,6 +11,7 @@ import type { Handle, Scene } from "./scene";
 
 const kSnap = 0.01; // m
 const kSnapAngle = Math.PI / 36;
+const kClick = 3; // px: what moves no farther is one
 const kSendEvery = 33; // ms between two edits of one drag
 const kTools: [string, string, string, string][] = [
   ["select", "select", "Select and drag", "V"],
@@ -35,6 +36,9 @@ const kPaint: Record<string, Vec> = {
 export class Touch {
   tool = "select";
   private pull?: (event: PointerEvent) => void;
+  private clicked?: () => void;
+  private ended?: () => void;
+  private began = { x: 0, y: 0, moved: false };
   private sent = 0;
   private later = 0;
 
@@ -52,7 +56,10 @@ export class Touch {
             id: `tool-${tool}`,
             title: key ? `${title} (${key})` : title,
             "aria-label": title,
-            onclick: () => this.choose(tool),
+            onclick: (e: MouseEvent) => {
+              this.choose(tool);
+              if (e.detail === 0) this.useByKey();
+            },
             className: kPaint[tool] ? `paint ${tool}` : "",
           },
           icon(sign),
@@ -67,16 +74,30 @@ export class Touch {
     });
     const canvas = scene.renderer.domElement;
     canvas.addEventListener("pointerdown", (e) => this.down(e), { capture: true });
-    canvas.addEventListener("pointermove", (e) => {
-      if (this.pull) this.throttle(() => this.pull?.(e));
-      else this.hover(e);
-    });
+    canvas.addEventListener("pointermove", (e) => this.moved(e));
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => this.up(e as PointerEvent));
   }
 
   choose(tool: string) {
     this.tool = tool;
-    for (const b of byId("palette").children) b.classList.toggle("on", b.id === `tool-${tool}`);
+    for (const b of byId("palette").children) {
+      b.classList.toggle("on", b.id === `tool-${tool}`);
+      b.setAttribute("aria-pressed", String(b.id === `tool-${tool}`));
+    }
+  }
+
+  /** The keyboard has pressed the tool's button: a piece in the middle of the view, or paint for what is selected. */
+  private useByKey() {
+    const { tool, pieces, scene } = this;
+    if (tool === "select") return;
+    ++pieces.group;
+    if (kPaint[tool]) {
+      pieces.paint(kPaint[tool]);
+      return this.choose("select");
+    }
+    const { x, y } = scene.controls.target,
+      at = [Math.round(x / kSnap) * kSnap, Math.round(y / kSnap) * kSnap];
+    this.add(at[0], at[1], true);
   }
 
   private throttle(act: () => void) {
@@ -104,7 +125,7 @@ export class Touch {
   }
 
   private down(e: PointerEvent) {
-    const { store, client, pieces } = this;
+    const { store, pieces } = this;
     if (e.button !== 0) return;
     this.scene.beforePicking();
     const hit = this.scene.pick(e),
@@ -113,11 +134,16 @@ export class Touch {
     const take = () => {
       e.stopImmediatePropagation();
       (e.target as HTMLElement).setPointerCapture(e.pointerId);
-      ++this.pieces.group;
+      ++pieces.group;
     };
+    const more = e.shiftKey || e.ctrlKey || e.metaKey;
+    this.began = { x: e.clientX, y: e.clientY, moved: false };
     if (kPaint[this.tool]) {
       take();
-      if (hit.id) client.set(hit.id, { colour: kPaint[this.tool] });
+      if (!hit.id) return;
+      if (!store.selection.includes(hit.id)) store.select(hit.id);
+      if (store.piece(hit.id)) pieces.paint(kPaint[this.tool]);
+      else this.client.set(hit.id, { colour: kPaint[this.tool] }); // the arena's own walls
     } else if (this.tool !== "select") {
       take();
       this.add(this.snap(at.x, e), this.snap(at.y, e));
@@ -129,30 +155,79 @@ export class Touch {
         if (p) handle.drag(this.snap(p.x, m), this.snap(p.y, m));
       };
     } else if (hit.kind === "floor") {
-      store.select(0); // and the view moves
+      if (!more) return store.select(0); // and the view moves
+      take();
+      this.pullBand();
     } else {
       take();
-      store.select(hit.id);
-      const piece: Piece | undefined = store.selectedRobot() ?? store.selectedThing();
-      if (!piece) return; // the arena's own walls
-      const here = this.pieces.placeOf(piece),
-        offset = [here[0] - at.x, here[1] - at.y];
-      this.pull = (m) => {
-        const p = this.scene.floorPoint(m);
-        if (p) this.pieces.place(piece, [this.snap(p.x + offset[0], m), this.snap(p.y + offset[1], m)], undefined, at);
-      };
+      this.pullPieces(hit.id, at, more);
     }
   }
 
+  /** The piece below the pointer, with all that are selected beside it. */
+  private pullPieces(id: number, at: { x: number; y: number }, more: boolean) {
+    const { store, pieces } = this,
+      was = store.selection.includes(id);
+    if (!was) store.selectAll(more ? [...store.selection, id] : [id]);
+    else if (store.selected !== id) store.selectAll([...store.selection.filter((other) => other !== id), id]);
+    // a click alone: it leaves the others, or they leave it
+    this.clicked = () => {
+      if (was && more) store.selectAll(store.selection.filter((other) => other !== id));
+      else if (!more) store.select(id);
+    };
+    const piece = pieces.selected();
+    if (!piece) return; // the arena's own walls
+    const starts = pieces.all().map((p) => ({ piece: p, at: pieces.placeOf(p) })),
+      here = pieces.placeOf(piece);
+    this.pull = (m) => {
+      const p = this.scene.floorPoint(m);
+      if (!p) return;
+      const dx = this.snap(p.x + here[0] - at.x, m) - here[0],
+        dy = this.snap(p.y + here[1] - at.y, m) - here[1];
+      pieces.put(starts.map((s) => ({ piece: s.piece, at: [s.at[0] + dx, s.at[1] + dy] })));
+    };
+  }
+  /** A frame from where the pointer went down: what is in it is selected, too. */
+  private pullBand() {
+    const { store, scene, pieces } = this,
+      from = this.began,
+      before = store.selection;
+    const stage = byId("stage"),
+      band = h("div", { id: "band" });
+    stage.append(band);
+    this.pull = (m) => {
+      const box = stage.getBoundingClientRect();
+      const left = Math.min(from.x, m.clientX),
+        right = Math.max(from.x, m.clientX),
+        top = Math.min(from.y, m.clientY),
+        bottom = Math.max(from.y, m.clientY);
+      band.style.cssText = `left:${left - box.left}px;top:${top - box.top}px;width:${right - left}px;height:${bottom - top}px`;
+      const inside = (piece: Piece) =>
+        ("points" in piece && piece.points ? piece.points : [pieces.placeOf(piece)]).some((p) => {
+          const on = scene.project(p[0], p[1], 0);
+          return on.x >= left && on.x <= right && on.y >= top && on.y <= bottom;
+        });
+      const within = [...store.world.things, ...store.world.robots].filter(inside).map((p) => p.id);
+      store.selectAll([...before.filter((id) => !within.includes(id)), ...within]);
+    };
+    this.ended = () => band.remove();
+  }
+
+  private moved(e: PointerEvent) {
+    if (!this.pull) return this.hover(e);
+    const { began } = this;
+    began.moved ||= Math.hypot(e.clientX - began.x, e.clientY - began.y) > kClick;
+    if (began.moved) this.throttle(() => this.pull?.(e));
+  }
   private up(e: PointerEvent) {
-    if (this.pull) {
-      clearTimeout(this.later);
-      this.pull(e);
-    }
-    this.pull = undefined;
+    clearTimeout(this.later);
+    if (this.pull && this.began.moved) this.pull(e);
+    else if (e.type === "pointerup") this.clicked?.();
+    this.ended?.();
+    this.pull = this.clicked = this.ended = undefined;
   }
 
-  private async add(x: number, y: number) {
+  private async add(x: number, y: number, byKey = false) {
     const { store, client, pieces } = this;
     const name = (stem: string) =>
       store.world.things.some((t) => t.name === stem) || store.world.robots.some((r) => r.name === stem)
@@ -162,7 +237,7 @@ export class Touch {
       wall: () => ({
         points: [
           [x, y],
-          [x + 0.01, y],
+          [x + (byKey ? 0.2 : 0.01), y],
         ],
       }),
       box: () => ({ position: [x, y], size: [0.1, 0.1, 0.1] }),
@@ -173,18 +248,22 @@ export class Touch {
     };
     const path = this.tool,
       group = this.pieces.group;
-    if (path === "wall") {
-      // the other end follows the hand
-      let id = 0;
+    if (path === "wall" && !byKey) {
+      // the other end follows the hand, also while the wall is on its way
+      let id = 0,
+        to: Vec | undefined;
+      const stretch = () => {
+        if (id && to && Math.hypot(to[0] - x, to[1] - y) > 0.005) client.set(id, { points: [[x, y], to] }, group);
+      };
       this.pull = (m) => {
         const p = this.scene.floorPoint(m);
-        if (!p || !id) return;
-        const to = [this.snap(p.x, m), this.snap(p.y, m)];
-        if (Math.hypot(to[0] - x, to[1] - y) > 0.005) client.set(id, { points: [[x, y], to] }, group);
+        if (p) to = [this.snap(p.x, m), this.snap(p.y, m)];
+        stretch();
       };
       const answer = await client.edit({ op: "add", path, values: kinds.wall(), group });
       id = answer?.thing ?? 0;
       if (id) store.select(id);
+      stretch();
       return;
     }
     const answer = await client.edit({ op: "add", path, values: kinds[path](), group });
@@ -197,6 +276,7 @@ export class Touch {
   /** What the selected thing can be pulled at. */
   handles(): Handle[] {
     const { store, client, pieces } = this;
+    if (store.selection.length !== 1) return [];
     const robot = store.selectedRobot(),
       t = store.selectedThing();
     const turn = (piece: Piece, radius: number, z: number): Handle => {
@@ -207,9 +287,8 @@ export class Touch {
         z,
         title: "Turn; with Shift freely",
         drag: (x, y) =>
-          this.pieces.place(
+          this.pieces.head(
             piece,
-            piece.position,
             Math.round(Math.atan2(y - piece.position[1], x - piece.position[0]) / kSnapAngle) * kSnapAngle,
           ),
       };

@@ -163,7 +163,9 @@ export class Client {
     const { store } = this;
     const names = [...new Set(store.wanted.flatMap((want) => want()))];
     const answer = await this.link.ask("subscribe", { names });
-    store.past.names.set(answer.subscription, answer.names ?? names);
+    const known: string[] = answer.names ?? names;
+    store.past.names.set(answer.subscription, known);
+    answer.units?.forEach((unit: string, i: number) => store.units.set(known[i], unit));
     if (!store.recorded) this.link.ask("rays", { robots: [...store.rays] }).catch(() => {});
   }
   /** Rays of that robot's proximity sensors, or of all robots'. */

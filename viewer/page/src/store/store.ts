@@ -4,6 +4,7 @@
 import { readFrame } from "../link/protocol";
 import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "../link/protocol";
 import type { Buffer } from "./buffer";
+import { coloursOf } from "./colours";
 import { Past } from "./past";
 
 export interface Diagnosis {
@@ -109,6 +110,8 @@ export class Store {
   me = 0;
   /** Values of the frame that is shown, by name. */
   readonly values = new Map<string, number>();
+  /** Their units, as far as the server tells. */
+  readonly units = new Map<string, string>();
   frame?: Frame;
   /** Of the selected robot, at the time that is shown. */
   look?: Look;
@@ -181,7 +184,9 @@ export class Store {
   // --- what the server tells
 
   takeWorld(world: World, revision: number) {
-    const first = this.revision === 0;
+    const first = this.revision === 0,
+      colours = coloursOf(world);
+    for (const robot of world.robots) robot.colour = colours.get(robot.id)!;
     this.world = world;
     this.revision = revision;
     this.chosen = this.chosen.filter((id) => this.piece(id));
