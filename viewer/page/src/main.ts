@@ -17,6 +17,7 @@ import { WorldFile } from "./frame/save";
 import { Connection } from "./link/connection";
 import { Playback } from "./link/playback";
 import { Console } from "./panes/console";
+import { DebuggerPane } from "./panes/debugger";
 import { Inspector } from "./panes/inspector";
 import { Plots } from "./panes/plots";
 import { ProblemsPane } from "./panes/problems";
@@ -28,6 +29,7 @@ import { SceneView } from "./scene/scene_view";
 import { Touch } from "./scene/touch";
 import { Buffers } from "./store/buffers";
 import { Client } from "./store/client";
+import { Debugging } from "./store/debugging";
 import { Pieces } from "./store/pieces";
 import { Store } from "./store/store";
 
@@ -39,6 +41,7 @@ store.dark = localStorage.getItem("theme")
   : matchMedia("(prefers-color-scheme: dark)").matches;
 const client = new Client(store, playback ?? new Connection());
 const buffers = new Buffers(store, client);
+const debug = new Debugging(store, client);
 const pieces = new Pieces(store, client);
 
 // the scene hears of a world before the hand that pulls at it
@@ -51,7 +54,8 @@ const report = playback && new Report(store, client, past, playback);
 const views = { fit: (above: boolean) => view.scene.fit(above), toggleTrails: () => view.toggleTrails() };
 const console_ = new Console(store, client);
 const plots = new Plots(store, client);
-const program = new ProgramPane(store, buffers);
+const debugger_ = new DebuggerPane(store, debug);
+const program = new ProgramPane(store, buffers, debug, debugger_);
 const text = new WorldTextPane(store, buffers);
 const file = new WorldFile(store, client, buffers, text);
 const bar = new Bar(store, client, past, file, views, report);
@@ -84,6 +88,7 @@ const shown = {
   client,
   connection: client.link,
   buffers,
+  debug,
   file,
   pieces,
   scene: view.scene,

@@ -3,12 +3,15 @@
 import { cpp } from "@codemirror/lang-cpp";
 import { setDiagnostics, lintGutter } from "@codemirror/lint";
 import { h } from "../dom";
-import { notice } from "../frame/notices";
+import { askText, notice } from "../frame/notices";
 import type { Look } from "../link/protocol";
 import { isDirty, keyOf } from "../store/buffer";
 import type { Buffer } from "../store/buffer";
 import type { Buffers } from "../store/buffers";
+import type { Debugging } from "../store/debugging";
 import type { SourceLine, Store } from "../store/store";
+import type { DebuggerPane } from "./debugger";
+import { breakpoints, showBreakpoints } from "./breakpoints";
 import { banner, TextEditor } from "./editor";
 
 export class ProgramPane {
@@ -36,6 +39,8 @@ export class ProgramPane {
   constructor(
     private store: Store,
     private buffers: Buffers,
+    private debug: Debugging,
+    private beside?: DebuggerPane,
   ) {
     this.editor = new TextEditor({
       id: "source",
@@ -43,14 +48,22 @@ export class ProgramPane {
       dark: store.dark,
       save: () => void this.save(),
       typed: (text) => this.buffers.edit(this.file.value, text),
-      extensions: [cpp(), lintGutter()],
+      extensions: [
+        breakpoints({
+          toggle: (line) => this.debug.toggle(this.file.value, line),
+          askCondition: (line) => void this.askCondition(line),
+          moved: (lines) => this.debug.moved(this.file.value, lines),
+        }),
+        cpp(),
+        lintGutter(),
+      ],
     });
     this.pane = h(
       "div",
       { className: "pane column" },
-      h("div", { className: "toolbar" }, this.file, this.button, this.locked, this.messages),
+      h("div", { className: "toolbar wide" }, this.file, this.button, this.beside?.begin, this.locked, this.messages),
       this.told,
-      this.editor.element,
+      h("div", { className: "beside" }, this.editor.element, this.beside?.pane),
     );
     store.on("theme", (dark) => this.editor.setDark(dark));
     store.on("programs", () => this.list());
@@ -62,6 +75,10 @@ export class ProgramPane {
     store.on("building", () => this.messages.replaceChildren(h("span", { className: "dim" }, "building…")));
     store.on("built", (e) => this.built(e));
     store.on("buffer", (b) => this.changed(b));
+    store.on("debug", () => this.stands(store.look));
+    store.on("breakpoints", (key) => {
+      if (key === this.file.value) this.showBreakpoints();
+    });
     store.on("sourceLine", (at) => void this.goTo(at));
   }
 
@@ -127,6 +144,7 @@ export class ProgramPane {
     this.dots();
     if (b.key !== this.file.value) return;
     if (b.read !== undefined) this.editor.show(b.key, b.text);
+    this.showBreakpoints();
     this.about(b);
     this.findings();
     this.stands(this.store.look);
@@ -192,8 +210,18 @@ export class ProgramPane {
 
   /** Marks the line where the robot's program stands, if it is of this file. */
   private stands(look?: Look) {
-    const at = this.store.sourceOf(look);
-    this.editor.mark(at && this.file.value === keyOf(at.program, at.file) ? at.line : 0);
+    const debugged = this.debug.line(this.file.value);
+    const at = this.debug.debugged ? undefined : this.store.sourceOf(look);
+    this.editor.mark(debugged || (at && this.file.value === keyOf(at.program, at.file) ? at.line : 0));
+  }
+  private showBreakpoints() {
+    showBreakpoints(this.editor.view, this.debug.of(this.file.value));
+  }
+  private async askCondition(line: number) {
+    const key = this.file.value,
+      known = this.debug.of(key).find((b) => b.line === line);
+    const condition = await askText(`Stop in line ${line} only if`, known?.condition ?? "");
+    if (condition !== undefined) this.debug.condition(key, line, condition);
   }
   private async goTo(at: SourceLine) {
     const value = keyOf(at.program, at.file);

@@ -356,7 +356,7 @@ export class RobotSheet {
       { look } = store,
       robot = store.selectedRobot();
     if (!robot) return;
-    const at = look?.place,
+    const at = look?.place?.function === "?" ? undefined : look?.place,
       waits = robot.body >= 0 && (store.frame?.robotWords[2 * robot.body + 1] ?? 0) & RobotState.Waiting;
     const own = store.sourceOf(look);
     const line = at?.line ? `, ${own?.file ?? at.file.split("/").pop()}:${at.line}` : "";

@@ -38,6 +38,7 @@ export class Tree {
       this.list,
     );
     store.on("world", () => this.show());
+    store.on("programs", () => this.show());
     store.on("selection", () => this.mark());
   }
 

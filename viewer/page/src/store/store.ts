@@ -56,6 +56,10 @@ export interface Topics {
   problems: void;
   /** What is typed in a buffer is unsaved now, or no more; or its file has changed. */
   buffer: Buffer;
+  /** What the debugger knows is another now. */
+  debug: void;
+  /** Breakpoints of the file with that key. */
+  breakpoints: string;
   building: any;
   built: any;
   theme: boolean;
