@@ -24,6 +24,7 @@ export class Plots {
     const list = h("datalist", { id: "names" });
     const input = h("input", {
       id: "plot-name",
+      "aria-label": "Name to plot",
       list: "names",
       placeholder: "puck.ir0, puck.var:counter, puck.pin:D3",
       title: "Anything that has a name; Enter plots it",
