@@ -30,16 +30,16 @@ struct ViewArguments {
 };
 
 /// A recording's world, under a name of its own beside the world's file: saved, it shall overwrite nothing.
-viewer::Opening opening_of(const viewer::Replay& replay) {
-  viewer::Opening opening = replay.opening;
+inputs::Opening opening_of(const inputs::Replay& replay) {
+  inputs::Opening opening = replay.opening;
   replay.resume(opening.options);
   const fs::path file = fs::absolute(opening.file).lexically_normal();
   opening.file = (file.parent_path() / ("replay of " + file.filename().string())).string();
   return opening;
 }
 
-viewer::Opening opening_of(const ViewArguments& a, std::vector<std::string>& problems) {
-  viewer::Opening opening;
+inputs::Opening opening_of(const ViewArguments& a, std::vector<std::string>& problems) {
+  inputs::Opening opening;
   opening.file = find_world(a.world, problems);
   const std::string wrong =
       problems.empty() ? sim::read_input_file(opening.file, sim::kLongestWorld, opening.text) : "";
@@ -57,8 +57,8 @@ viewer::Opening opening_of(const ViewArguments& a, std::vector<std::string>& pro
 
 int view(const ViewArguments& a) {
   std::vector<std::string> problems;
-  auto replay = a.replay.empty() ? nullptr : viewer::Replay::open(a.replay, problems);
-  viewer::Opening opening;
+  auto replay = a.replay.empty() ? nullptr : inputs::Replay::open(a.replay, problems);
+  inputs::Opening opening;
   if (problems.empty()) opening = replay ? opening_of(*replay) : opening_of(a, problems);
   if (!problems.empty() || (!replay && !split_choices(a.firmware, "--fw", opening.options.firmware))) {
     complain(problems);

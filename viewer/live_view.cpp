@@ -3,9 +3,9 @@
 
 namespace viewer {
 
-std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record, int port,
+std::unique_ptr<LiveView> LiveView::open(inputs::Opening opening, const std::string& record, int port,
                                          const std::string& page_folder, std::vector<std::string>& problems,
-                                         std::unique_ptr<Replay> replay) {
+                                         std::unique_ptr<inputs::Replay> replay) {
   std::unique_ptr<LiveView> view(new LiveView);
   LiveView* v = view.get();
   // the session's thread sends through the server, and the server's threads post to the session: neither runs

@@ -15,9 +15,9 @@ class LiveView {
   /// Null, with lines in `problems`, when the port cannot be had. A world that cannot run is shown all the
   /// same, its problems are in `problems`, too. `record`: file for inputs; `replay`: inputs that each run
   /// gets, or null; `page_folder`: of the bundled page.
-  static std::unique_ptr<LiveView> open(Opening opening, const std::string& record, int port,
+  static std::unique_ptr<LiveView> open(inputs::Opening opening, const std::string& record, int port,
                                         const std::string& page_folder, std::vector<std::string>& problems,
-                                        std::unique_ptr<Replay> replay = nullptr);
+                                        std::unique_ptr<inputs::Replay> replay = nullptr);
   ~LiveView();
   const WebServer& server() const { return *server_; }
 

@@ -29,7 +29,7 @@ double seconds(std::chrono::steady_clock::duration d) { return std::chrono::dura
 
 }  // namespace
 
-Session::Session(Opening opening, std::string record, Outlet outlet)
+Session::Session(inputs::Opening opening, std::string record, Outlet outlet)
     : opening_(std::move(opening)),
       record_file_(std::move(record)),
       outlet_(std::move(outlet)),
@@ -108,8 +108,8 @@ bool Session::reopen(std::vector<std::string>& problems) {
     twin_.reset();
     return false;
   }
-  inputs_ = std::make_unique<Inputs>(*twin_);
-  if (!record_file_.empty()) recorder_ = std::make_unique<Recorder>(record_file_, opening_);
+  inputs_ = std::make_unique<inputs::Inputs>(*twin_);
+  if (!record_file_.empty()) recorder_ = std::make_unique<inputs::Recorder>(record_file_, opening_);
   live_text_ = document_.text();
   movable_ = movable_ids(twin_->world(), live_text_);
   if (replay_) replay_->rewind();

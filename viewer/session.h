@@ -17,11 +17,11 @@
 #include <thread>
 #include <vector>
 
+#include "hal_sim/inputs/recording.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 #include "viewer/document.h"
 #include "viewer/frame.h"
-#include "viewer/inputs.h"
 #include "viewer/live_edits.h"
 #include "viewer/names.h"
 #include "viewer/robot_look.h"
@@ -30,6 +30,8 @@
 #include "viewer/web_server.h"
 
 namespace viewer {
+
+using Json = nlohmann::json;
 
 /// Version of the protocol; docs/control.md says what changed.
 inline constexpr int kProtocolVersion = 1;
@@ -43,10 +45,10 @@ class Session {
   };
 
   /// `opening.text` is what `opening.file` holds. `record`: file for the inputs; empty: none.
-  Session(Opening opening, std::string record, Outlet outlet);
+  Session(inputs::Opening opening, std::string record, Outlet outlet);
   /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end.
   /// Before open().
-  void replay(std::unique_ptr<Replay> recording) { replay_ = std::move(recording); }
+  void replay(std::unique_ptr<inputs::Replay> recording) { replay_ = std::move(recording); }
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -138,19 +140,19 @@ class Session {
   void play(bool on);
   int robot_named(const std::string& name) const;
 
-  Opening opening_;
+  inputs::Opening opening_;
   std::string record_file_;
   Outlet outlet_;
   Document document_;
 
   std::unique_ptr<twin::Twin> twin_;
   std::unique_ptr<programs::Team> team_;
-  std::unique_ptr<Inputs> inputs_;
-  std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<Replay> replay_;    // null: there is none, or it did not fit
-  bool is_replayed_ = false;          // to its end
-  std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
-  sim::Clicks traced_ = 0;            // until when pages know it
+  std::unique_ptr<inputs::Inputs> inputs_;
+  std::unique_ptr<inputs::Recorder> recorder_;
+  std::unique_ptr<inputs::Replay> replay_;  // null: there is none, or it did not fit
+  bool is_replayed_ = false;                // to its end
+  std::unique_ptr<TraceFeed> trace_;        // while a page shows a time line
+  sim::Clicks traced_ = 0;                  // until when pages know it
   Wall::time_point next_trace_{};
   std::map<int, std::unique_ptr<RobotLook>> looks_;  // by robot, while a page looks at it
   Wall::time_point next_look_{};

@@ -78,7 +78,7 @@ Json Session::answer(ClientId client, const Json& request) {
   if (is_one_of(what, {"edit", "undo", "redo", "save", "save_as"})) return edit_request(what, request);
   if (what == "write_source") return program_request(what, request);
   if (is_one_of(what, {"play", "pause", "step", "speed", "restart"})) return run_request(what, request);
-  if (!Inputs::is_input(what) || what == "world")
+  if (!inputs::Inputs::is_input(what) || what == "world")
     throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/control.md", what));
   if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
   input(request);

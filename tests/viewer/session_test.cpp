@@ -6,9 +6,9 @@
 
 #include "hal_sim/twin/world_file.h"
 
+#include "hal_sim/inputs/recording.h"
 #include "tests/viewer/page_client.h"
 #include "twinpuck_paths.h"
-#include "viewer/inputs.h"
 
 namespace {
 
@@ -515,7 +515,7 @@ TEST_F(Session, a_recorded_session_repeats_bit_by_bit) {
   }
   close();
   std::vector<std::string> problems;
-  const auto replay = viewer::Replay::open(path("inputs.jsonl"), problems);
+  const auto replay = inputs::Replay::open(path("inputs.jsonl"), problems);
   ASSERT_TRUE(replay) << problems.at(0);
   sim::LoadedWorld loaded = twin::parse_world(replay->opening.text, replay->opening.file);
   loaded.world->seed = replay->opening.seed;
@@ -523,7 +523,7 @@ TEST_F(Session, a_recorded_session_repeats_bit_by_bit) {
   options.world_folder = folder_.string();
   auto twin = twin::Twin::open(*loaded.world, options, problems);
   ASSERT_TRUE(twin);
-  viewer::Inputs inputs(*twin);
+  inputs::Inputs inputs(*twin);
   auto& simulation = twin->simulation();
   ASSERT_GT(replay->end(), 0);
   while (simulation.now() < replay->end()) {
@@ -544,12 +544,12 @@ TEST_F(Session, a_recording_is_shown_again_to_its_end) {
     steps(page, 20);
   }
   close();
-  auto replay = viewer::Replay::open(path("inputs.jsonl"), problems_);
+  auto replay = inputs::Replay::open(path("inputs.jsonl"), problems_);
   ASSERT_TRUE(replay) << problems_.at(0);
   const auto end = replay->end();
   char digest[20];
   std::snprintf(digest, sizeof digest, "%016llx", static_cast<unsigned long long>(replay->digest()));
-  viewer::Opening opening = replay->opening;
+  inputs::Opening opening = replay->opening;
   view_ = viewer::LiveView::open(std::move(opening), "", 0, path("page"), problems_, std::move(replay));
   ASSERT_TRUE(view_);
   Page page(*view_);
