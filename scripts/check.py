@@ -45,7 +45,7 @@ MAY_INCLUDE = {
     "hal_sim/signals": ["hal_sim/board", "hal_sim/chip", "hal_sim/debug", "hal_sim/host", "hal_sim/trace", "hal_sim/twin", "sim_core"],
     "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base", "install"],
     "hal_sim/faults": ["hal_sim/board", "hal_sim/host", "hal_sim/signals", "hal_sim/twin", "sim_core"],
-    "hal_sim/inputs": ["hal_sim/", "sim_core/"],
+    "hal_sim/inputs": ["hal_sim/", "sim_core/", "compiler/cache"],
     "hal_dspic": ["firmware/include", "firmware/library"],
     "programs/process": ["programs/link"],
     "programs/build": ["compiler/cache/child_process.h", "compiler/cache/memory_limit.h", "sim_core/base", "install"],
@@ -57,7 +57,7 @@ MAY_INCLUDE = {
     "programs/controller": ["programs/link", "firmware/include"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
     "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language
-    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
+    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }

@@ -3,15 +3,21 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
+#include <map>
 #include <stdexcept>
 
+#include "compiler/cache/object_cache.h"
 #include "sim_core/base/input_file.h"
 
 namespace inputs {
 
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::size_t kLongestRecording = 256u << 20;  // bytes
+constexpr std::size_t kLargestImage = 64u << 20;       // bytes
 
 std::string hex(std::uint64_t n) { return fmt::format("{:016x}", n); }
 
@@ -19,6 +25,20 @@ std::string line_of(sim::Clicks at, Json input) {
   input.erase("id");
   input["at"] = at;
   return input.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+namespace {
+
+/// Images are named as in the file, which may have been moved together with them.
+std::string beside(const std::string& recording, const std::string& image) {
+  return (fs::path(recording).parent_path() / image).lexically_normal().string();
+}
+
+std::string hash_of(const std::string& file) {
+  std::string bytes;
+  return sim::read_input_file(file, kLargestImage, bytes).empty() ? cc::content_hash(bytes) : "";
 }
 
 }  // namespace
@@ -36,11 +56,50 @@ Json to_json(const Opening& o) {
           {"supervisors", o.supervisors}};
 }
 
-Recorder::Recorder(const std::string& path, const Opening& opening) : file_(path, "--record-inputs") {
-  file_.append(to_json(opening).dump() + "\n");
+namespace {
+Json with_images(Json line, const std::vector<Opening::Image>& images) {
+  for (const Opening::Image& i : images) line["images"].push_back({i.robot, i.program, i.file, i.hash});
+  return line;
+}
+}  // namespace
+
+Recorder::Recorder(const std::string& path, const Opening& opening, const twin::Twin& twin)
+    : path_(path), file_(path, "--record-inputs") {
+  std::vector<Opening::Image> images;
+  for (int r = 0; r < twin.robots(); ++r) {
+    if (twin.image_path(r).empty()) continue;
+    const sim::RobotDesc& robot = twin.world().robots[static_cast<std::size_t>(r)];
+    std::string hash;
+    const std::string kept = keep(twin.image_path(r), hash);
+    images.push_back({robot.name, robot.firmware, kept, hash});
+  }
+  file_.append(with_images(to_json(opening), images).dump() + "\n");
 }
 
-void Recorder::note(sim::Clicks at, const Json& input) { file_.append(line_of(at, input)); }
+/// A copy of an image under the name of its content; the name as it is written down.
+std::string Recorder::keep(const std::string& image, std::string& hash) {
+  const std::string folder = fs::path(path_).filename().string() + ".images";
+  std::string bytes;
+  if (const std::string wrong = sim::read_input_file(image, kLargestImage, bytes); !wrong.empty())
+    file_.fail(image + ": " + wrong);
+  hash = cc::content_hash(bytes);
+  const std::string name = folder + "/" + hash + ".elf", kept = beside(path_, name);
+  std::error_code error;
+  if (fs::exists(kept, error)) return name;
+  fs::create_directories(beside(path_, folder), error);
+  sim::OutputFile copy(kept, "--record-inputs");
+  copy.append(bytes);
+  copy.close();
+  if (!copy.error().empty()) file_.fail(copy.error());
+  return name;
+}
+
+void Recorder::note(sim::Clicks at, const Json& input) {
+  Json noted = input;
+  std::string hash;
+  if (input.at("do") == "program") noted["image"] = keep(input.at("image").get<std::string>(), hash);
+  file_.append(line_of(at, noted));
+}
 
 void Recorder::end(sim::Clicks at, std::uint64_t digest) {
   note(at, {{"do", "end"}, {"digest", hex(digest)}});
@@ -85,12 +144,17 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
         o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
         for (const Json& choice : line.at("firmware"))
           o.options.firmware.push_back({choice.at(0).get<std::string>(), choice.at(1).get<std::string>()});
+        for (const Json& image : line.value("images", Json::array()))
+          o.images.push_back({image.at(0).get<std::string>(), image.at(1).get<std::string>(),
+                              beside(path, image.at(2).get<std::string>()), image.at(3).get<std::string>()});
       } else if (line.at("do") == "end") {
         replay->end_ = line.at("at").get<sim::Clicks>();
         replay->digest_ = std::stoull(line.at("digest").get<std::string>(), nullptr, 16);
       } else {
         if (line.at("at").get<sim::Clicks>() < 0) throw std::runtime_error("at: expected 0 or more");
         replay->inputs_.push_back(line);
+        if (line.at("do") == "program")
+          replay->inputs_.back()["image"] = beside(path, line.at("image").get<std::string>());
       }
     }
     if (number == 0) throw std::runtime_error("got an empty file, expected a recording of inputs");
@@ -105,6 +169,19 @@ void Replay::resume(twin::Options& options) const {
   options.hal = opening.options.hal;
   options.optimisation = opening.options.optimisation;
   options.firmware = opening.options.firmware;
+  std::map<std::string, bool> is_same;  // by image that was kept
+  const std::string folder = fs::path(opening.file).parent_path().string();
+  for (const Opening::Image& image : opening.images) {
+    const auto known = is_same.find(image.file + image.program);
+    bool same = known != is_same.end() && known->second;
+    if (known == is_same.end()) {
+      std::vector<std::string> problems;
+      const std::string built = twin::provide_image(image.program, folder, options, problems);
+      same = !built.empty() && hash_of(built) == image.hash;
+      is_same[image.file + image.program] = same;
+    }
+    if (!same) options.firmware.push_back({image.robot, image.file});
+  }
 }
 
 void Replay::finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems) {
