@@ -45,6 +45,7 @@ MAY_INCLUDE = {
     "hal_sim/signals": ["hal_sim/board", "hal_sim/chip", "hal_sim/debug", "hal_sim/host", "hal_sim/trace", "hal_sim/twin", "sim_core"],
     "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base", "install"],
     "hal_sim/faults": ["hal_sim/board", "hal_sim/host", "hal_sim/signals", "hal_sim/twin", "sim_core"],
+    "hal_sim/inputs": ["hal_sim/", "sim_core/", "compiler/cache"],
     "hal_dspic": ["firmware/include", "firmware/library"],
     "programs/process": ["programs/link"],
     "programs/build": ["compiler/cache/child_process.h", "compiler/cache/memory_limit.h", "sim_core/base", "install"],
@@ -55,15 +56,15 @@ MAY_INCLUDE = {
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
-    "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "viewer/inputs.h", "install"],  # as viewer, for a language
-    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
+    "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language
+    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "inputs": "hal_sim/inputs", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],

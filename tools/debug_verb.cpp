@@ -154,7 +154,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->callback([a, world, &exit_code] {
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
-      exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
+      exit_code = debug::DapLine(0, 1).serve(launched) ? kPass : kBadInput;
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");

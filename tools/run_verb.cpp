@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "hal_sim/faults/injector.h"
+#include "hal_sim/inputs/recording.h"
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 #include "programs/team/team.h"
@@ -26,7 +27,6 @@
 #include "tools/summary.h"
 #include "tools/terminal_view.h"
 #include "tools/verbs.h"
-#include "viewer/inputs.h"
 
 namespace tools {
 
@@ -119,9 +119,9 @@ int run(const RunArguments& arguments) {
     return kBadInput;
   }
   std::vector<std::string> problems;
-  std::unique_ptr<viewer::Replay> replay;
+  std::unique_ptr<inputs::Replay> replay;
   if (!arguments.replay.empty()) {
-    replay = viewer::Replay::open(arguments.replay, problems);
+    replay = inputs::Replay::open(arguments.replay, problems);
     if (replay) replay->resume(options);
   }
   const std::string file = replay || !problems.empty() ? "" : find_world(arguments.world, problems);
@@ -159,7 +159,7 @@ int run(const RunArguments& arguments) {
     complain(problems);
     return kBadInput;
   }
-  viewer::Inputs inputs(*twin);
+  inputs::Inputs inputs(*twin);
   if (!add_faults(arguments, inputs.faults(), problems)) {
     complain(problems);
     return kBadInput;

@@ -172,6 +172,7 @@ class ChipRunner final : public host::Runner,
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
+  bool runs_ = false;                // run_until() has begun and not ended
   std::set<std::uint32_t> agendas_;  // functions, and where they return to; of an observer's, with hal_dspic
   unsigned agenda_returns_to_ = 0;   // of the one that runs
   int open_handlers_ = 0, agenda_depth_ = 0;      // how many when it was called

@@ -330,8 +330,8 @@ std::string why_of(Handle& handle, int robot) { return machine_of(handle, robot)
 /// A line of commands from Python as an input's object.
 void apply(Handle& handle, const std::string& json) {
   try {
-    handle.world().apply(viewer::Json::parse(json));
-  } catch (const viewer::Json::exception& e) {
+    handle.world().apply(inputs::Json::parse(json));
+  } catch (const inputs::Json::exception& e) {
     throw std::invalid_argument(e.what());
   }
 }

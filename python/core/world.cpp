@@ -49,7 +49,7 @@ bool World::begin(std::vector<std::string>& problems) {
       problems.push_back("measured: got '" + name + "', expected a robot of the world, or *");
       return false;
     }
-  inputs_ = std::make_unique<viewer::Inputs>(*twin_);
+  inputs_ = std::make_unique<inputs::Inputs>(*twin_);
   ways_ = std::make_unique<sim::Trajectories>(twin_->robots());
   listen();
   team_->before_first_tick();
@@ -163,9 +163,9 @@ void World::sample() {
 
 // --- touching
 
-void World::apply(const viewer::Json& input) {
+void World::apply(const inputs::Json& input) {
   inputs_->apply(input);
-  viewer::Json line = input;
+  inputs::Json line = input;
   line["at"] = twin_->simulation().now();
   touches_.push_back(std::move(line));
   // whatever changed the place of something breaks its way
@@ -174,9 +174,9 @@ void World::apply(const viewer::Json& input) {
 }
 
 std::string World::recording() const {
-  viewer::Opening opening{opening_.file, opening_.text, *opening_.seed, opening_.options,
+  inputs::Opening opening{opening_.file, opening_.text, *opening_.seed, opening_.options,
                           opening_.supervisors};
-  return viewer::recording_text(opening, touches_, twin_->simulation().now(), twin_->simulation().digest());
+  return inputs::recording_text(opening, touches_, twin_->simulation().now(), twin_->simulation().digest());
 }
 
 // --- asking

@@ -3,7 +3,7 @@
 // between ticks, with a recording of every touch, so that a run can be shown again.
 //
 //   module.cpp (Python's types) --> World --> twin::Twin, programs::Team
-//                                   touches --> viewer::Inputs, and into the recording
+//                                   touches --> inputs::Inputs, and into the recording
 //
 // Knows nothing of Python. Threads: one at a time; run() may be left to another one while nobody else asks.
 #pragma once
@@ -19,11 +19,11 @@
 #include "hal_sim/board/camera.h"
 #include "hal_sim/chip/call_cost.h"
 #include "hal_sim/debug/machine.h"
+#include "hal_sim/inputs/recording.h"
 #include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
 #include "sim_core/record/trajectories.h"
-#include "viewer/inputs.h"
 
 namespace python {
 
@@ -92,8 +92,8 @@ class World {
   void finish(std::vector<std::string>& problems);
 
   // --- touching
-  /// An input of docs/control.md; throws as viewer::Inputs does.
-  void apply(const viewer::Json& input);
+  /// An input of docs/control.md; throws as inputs::Inputs does.
+  void apply(const inputs::Json& input);
   /// The run so far, for `twinpuck run --replay`.
   std::string recording() const;
 
@@ -136,10 +136,10 @@ class World {
   std::unique_ptr<twin::Twin> twin_;
   std::unique_ptr<programs::Team> team_;
   std::unique_ptr<twin::CoverageRun> coverage_;
-  std::unique_ptr<viewer::Inputs> inputs_;
+  std::unique_ptr<inputs::Inputs> inputs_;
   std::map<int, std::unique_ptr<debug::Machine>> machines_;
   std::map<int, std::unique_ptr<chip::Profile>> profiles_;
-  std::vector<viewer::Json> touches_;
+  std::vector<inputs::Json> touches_;
   std::unique_ptr<sim::Trajectories> ways_;
   sim::Clicks sampled_ = -1;
   std::vector<std::shared_ptr<Record>> records_;

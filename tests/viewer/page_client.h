@@ -21,7 +21,7 @@ struct mg_connection;
 namespace viewer_test {
 
 using viewer::Json;
-constexpr double kPatience_s = 20;  // of the machine's time, before a test gives up
+constexpr double kPatience_s = 120;  // of the machine's time, before a test gives up
 
 /// What a frame says (viewer/frame.h), read back.
 struct Frame {

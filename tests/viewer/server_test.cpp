@@ -106,7 +106,7 @@ TEST_F(Server, waits_for_no_slow_page) {
 
 TEST_F(Server, a_port_that_is_taken_is_told) {
   std::vector<std::string> problems;
-  viewer::Opening opening;
+  inputs::Opening opening;
   opening.file = path("world.toml");
   opening.text = read("world.toml");
   EXPECT_FALSE(viewer::LiveView::open(opening, "", port(), path("page"), problems));

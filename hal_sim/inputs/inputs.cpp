@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/inputs.h"
+#include "hal_sim/inputs/inputs.h"
 
 #include <fmt/format.h>
 
@@ -11,14 +11,11 @@
 #include "hal_sim/host/variables.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
-#include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 
-namespace viewer {
+namespace inputs {
 
 namespace {
-
-constexpr std::size_t kLongestRecording = 256u << 20;  // bytes
 
 [[noreturn]] void refuse_input(const std::string& what) { throw std::runtime_error(what); }
 
@@ -42,8 +39,6 @@ Json bare(Json input) {
   return input;
 }
 
-std::string hex(std::uint64_t n) { return fmt::format("{:016x}", n); }
-
 /// Bytes of a text in which each character stands for one.
 std::string bytes_of(const std::string& text) {
   std::string bytes;
@@ -58,12 +53,6 @@ std::string bytes_of(const std::string& text) {
     }
   }
   return bytes;
-}
-
-std::string line_of(sim::Clicks at, const Json& input) {
-  Json line = bare(input);
-  line["at"] = at;
-  return line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace
@@ -234,101 +223,4 @@ void Inputs::step() {
   faults_.look();
 }
 
-// --- recordings
-
-Json to_json(const Opening& o) {
-  Json firmware = Json::array();
-  for (const auto& choice : o.options.firmware) firmware.push_back({choice.robot, choice.value});
-  return {{"twinpuck_inputs", 1},
-          {"file", o.file},
-          {"text", o.text},
-          {"seed", o.seed},
-          {"firmware", firmware},
-          {"hal", o.options.hal},
-          {"opt", o.options.optimisation},
-          {"supervisors", o.supervisors}};
-}
-
-Recorder::Recorder(const std::string& path, const Opening& opening) : file_(path, "--record-inputs") {
-  file_.append(to_json(opening).dump() + "\n");
-}
-
-void Recorder::note(sim::Clicks at, const Json& input) { file_.append(line_of(at, input)); }
-
-void Recorder::end(sim::Clicks at, std::uint64_t digest) {
-  note(at, {{"do", "end"}, {"digest", hex(digest)}});
-  file_.close();
-}
-
-std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
-                           std::uint64_t digest) {
-  std::string text = to_json(opening).dump() + "\n";
-  for (const Json& input : inputs) text += line_of(input.at("at").get<sim::Clicks>(), input);
-  return text + line_of(end, {{"do", "end"}, {"digest", hex(digest)}});
-}
-
-std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::string>& problems) {
-  std::string text;
-  const std::string wrong = sim::read_input_file(path, kLongestRecording, text);
-  if (!wrong.empty()) {
-    problems.push_back(path + ": " + wrong);
-    return nullptr;
-  }
-  auto replay = std::make_unique<Replay>();
-  int number = 0;
-  try {
-    for (std::size_t begin = 0; begin < text.size();) {
-      const std::size_t end = text.find('\n', begin);
-      if (end == std::string::npos) break;  // cut off: the last line is not whole
-      const Json line = Json::parse(text.substr(begin, end - begin));
-      begin = end + 1;
-      if (number++ == 0) {
-        if (line.at("twinpuck_inputs").get<int>() != 1) refuse_input("version: expected 1");
-        Opening& o = replay->opening;
-        o.file = line.at("file").get<std::string>();
-        o.text = line.at("text").get<std::string>();
-        o.seed = line.at("seed").get<std::uint64_t>();
-        o.options.hal = line.value("hal", "");
-        // what recordings of before have beside it
-        const std::string way = line.value("way", "");
-        if (way == "native") refuse_input("way: got native, which is gone; record the inputs anew");
-        if (way == "chip" && o.options.hal.empty()) o.options.hal = "dspic";
-        o.options.optimisation = line.at("opt").get<std::string>();
-        o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
-        for (const Json& choice : line.at("firmware"))
-          o.options.firmware.push_back({choice.at(0).get<std::string>(), choice.at(1).get<std::string>()});
-      } else if (line.at("do") == "end") {
-        replay->end_ = line.at("at").get<sim::Clicks>();
-        replay->digest_ = std::stoull(line.at("digest").get<std::string>(), nullptr, 16);
-      } else {
-        if (line.at("at").get<sim::Clicks>() < 0) refuse_input("at: expected 0 or more");
-        replay->inputs_.push_back(line);
-      }
-    }
-    if (number == 0) refuse_input("got an empty file, expected a recording of inputs");
-  } catch (const std::exception& e) {
-    problems.push_back(fmt::format("{}:{}: {}", path, number, e.what()));
-    return nullptr;
-  }
-  return replay;
-}
-
-void Replay::resume(twin::Options& options) const {
-  options.hal = opening.options.hal;
-  options.optimisation = opening.options.optimisation;
-  options.firmware = opening.options.firmware;
-}
-
-void Replay::finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems) {
-  apply_due(inputs, simulation.now());
-  if (end_ < 0 || simulation.now() < end_ || simulation.digest() == digest_) return;
-  problems.push_back(
-      fmt::format("replay: got digest {}, expected {} as recorded: world, program or Twinpuck are others",
-                  hex(simulation.digest()), hex(digest_)));
-}
-
-void Replay::apply_due(Inputs& inputs, sim::Clicks now) {
-  for (; next() <= now; ++at_) inputs.apply(inputs_[at_]);
-}
-
-}  // namespace viewer
+}  // namespace inputs

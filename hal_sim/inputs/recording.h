@@ -1,56 +1,22 @@
 // SPDX-License-Identifier: MIT
-// What somebody outside does to a running world: moves things, types, turns selectors, changes the furniture.
-// An input is a JSON object with the key "do"; docs/control.md lists them. Applied between ticks, each
-// becomes part of the history that the digest sees. Written down with their ticks they repeat a session bit
-// by bit:
+// Inputs with their ticks, written down: they repeat a run bit by bit.
 //
 //   {"twinpuck_inputs": 1, "file": "maze.toml", "text": "...", "seed": 1, "firmware": [["*", "obstacle"]]}
 //   {"at": 7372800, "do": "selector", "robot": "puck", "position": 3}
 //   {"at": 29491200, "do": "end", "digest": "165a659790c166b6"}
+//
+// The programs that ran are kept beside the file, FILE.images/HASH.elf: sources may be others by then.
 #pragma once
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "hal_sim/faults/injector.h"
+#include "hal_sim/inputs/inputs.h"
 #include "hal_sim/twin/twin.h"
 #include "sim_core/base/output_file.h"
 
-namespace viewer {
-
-using Json = nlohmann::json;
-
-/// To which a battery can be charged, V.
-inline constexpr double kLeastBatteryV = 3.0, kMostBatteryV = 4.2;
-
-class TypedLine;
-
-class Inputs {
- public:
-  explicit Inputs(twin::Twin& twin) : twin_(twin), faults_(twin) {}
-  ~Inputs();
-  /// Does it; throws std::runtime_error that says what is wrong, "got ..., expected ...", when nothing was
-  /// done. Json's own exceptions pass: a member is missing or of another type.
-  void apply(const Json& input);
-  /// Is it one of these? Other requests do not change the world.
-  static bool is_input(const std::string& what);
-  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its advance(), or by
-  /// step().
-  faults::Injector& faults() { return faults_; }
-  /// One tick, with the faults that are due before and behind it.
-  void step();
-
- private:
-  int robot_of(const Json& input) const;
-  host::Runner& program_of(const Json& input, int robot);
-  TypedLine& line(int robot, int port);
-
-  twin::Twin& twin_;
-  faults::Injector faults_;
-  std::map<int, std::shared_ptr<TypedLine>> lines_;  // [robot * 2 + port - 1]
-};
+namespace inputs {
 
 /// How a world was opened: what a recording begins with.
 struct Opening {
@@ -58,6 +24,11 @@ struct Opening {
   std::uint64_t seed = 1;
   twin::Options options;
   std::vector<std::string> supervisors;
+  /// What robots ran when the run began, of a recording; empty: it does not say.
+  struct Image {
+    std::string robot, program, file, hash;  ///< its name, what it was built from, where it is kept, content
+  };
+  std::vector<Image> images;
 };
 Json to_json(const Opening& opening);
 
@@ -68,13 +39,17 @@ std::string recording_text(const Opening& opening, const std::vector<Json>& inpu
 /// Writes inputs down as they happen.
 class Recorder {
  public:
-  Recorder(const std::string& path, const Opening& opening);
+  /// `twin`: as it was opened; the images that its robots run are kept.
+  Recorder(const std::string& path, const Opening& opening, const twin::Twin& twin);
   void note(sim::Clicks at, const Json& input);
   /// The run is over.
   void end(sim::Clicks at, std::uint64_t digest);
   const std::string& error() const { return file_.error(); }
 
  private:
+  std::string keep(const std::string& image, std::string& hash);
+
+  std::string path_;
   sim::OutputFile file_;
 };
 
@@ -89,7 +64,8 @@ class Replay {
   sim::Clicks next() const {
     return at_ < inputs_.size() ? inputs_[at_].at("at").get<sim::Clicks>() : sim::kEver;
   }
-  /// The options with which it was opened, over those of the command.
+  /// The options with which it was opened, over those of the command; programs that cannot be built as they
+  /// were, from where they lay, run as they were kept.
   void resume(twin::Options& options) const;
   /// What was done at the end, then: is it the same run? Otherwise a line in `problems`.
   void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
@@ -97,6 +73,8 @@ class Replay {
   void apply_due(Inputs& inputs, sim::Clicks now);
   /// From the first input on.
   void rewind() { at_ = 0; }
+  /// All of it, in the order of their ticks.
+  const std::vector<Json>& inputs() const { return inputs_; }
   /// Where the recording ends, and with which digest; negative: it was cut off.
   sim::Clicks end() const { return end_; }
   std::uint64_t digest() const { return digest_; }
@@ -108,4 +86,4 @@ class Replay {
   std::uint64_t digest_ = 0;
 };
 
-}  // namespace viewer
+}  // namespace inputs
