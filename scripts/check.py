@@ -2,12 +2,12 @@
 # SPDX-License-Identifier: MIT
 """Rules of the code that a compiler does not know. Prints one line a problem; exit 1 when there is one.
 
-    scripts/check.py
+    scripts/check.py [--sizes]
 
 Rules: who may include whom (docs/architecture.md), and no rooms in a circle · no word of what is gone · sim_core knows no robot by name · every number of a
 *_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
 somebody's machine, an SPDX line in every source · dspic30 uses the standard
-library only · C++ formatted by .clang-format.
+library only · C++ formatted by .clang-format. --sizes prints what is too large to be read at once instead.
 """
 import collections
 import pathlib
@@ -15,6 +15,8 @@ import re
 import shutil
 import subprocess
 import sys
+
+import check_sizes
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LONGEST_FILE = 700      # lines
@@ -222,11 +224,24 @@ def check_format(paths):
             problem(match.group(1), int(match.group(2)), "not formatted as .clang-format says; run make format")
 
 
+def print_sizes(files):
+    count = 0
+    for path in files:
+        if path.endswith((".c", ".h", ".cpp", ".py", ".ts", ".mjs")) and path not in GENERATED | VERBATIM:
+            for line in check_sizes.offenders(path, (ROOT / path).read_text()):
+                print(line)
+                count += 1
+    print("check: %d too large" % count)
+    return 0
+
+
 def main():
-    if sys.argv[1:]:
+    if sys.argv[1:] not in ([], ["--sizes"]):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     files = committed_files()
+    if sys.argv[1:]:
+        return print_sizes(files)
     cpp = []
     for path in files:
         whole = ROOT / path
