@@ -263,7 +263,7 @@ std::vector<SectionSpec> make_schema() {
            })},
           {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic|planar", "\"dynamic\"",
            "dynamic: traction, slip, pushing, falling; kinematic: no forces, robots stop at contacts; "
-           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights (engines.md)",
+           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights",
            into<W>([](W& w, const Value& v) {
              w.engine = v.text == "dynamic"     ? Engine::Dynamic
                         : v.text == "kinematic" ? Engine::Kinematic
@@ -476,7 +476,7 @@ std::vector<SectionSpec> make_schema() {
            "in quotes; firmware has none",
            into<R>([](R& r, const Value& v) { r.args = v.text; })},
           {"supervisor", ValueType::Flag, "", 0, 0, "", "false",
-           "its controller, which runs on the PC, may do what supervisors may (docs/supervisor.md)",
+           "its controller, which runs on the PC, may do what supervisors may (docs/connecting.md)",
            into<R>([](R& r, const Value& v) { r.supervisor = v.flag; })},
           custom_data_key<R>(),
           {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",
