@@ -105,7 +105,7 @@ product: tool page
 	@$(NINJA) manual embed python_core
 
 PREFIX  ?= /usr/local
-## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/install.md
+## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/start.md
 install: product
 	@DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)' --strip >$(BUILD)/install.log || { cat $(BUILD)/install.log; exit 1; }
 	@echo "installed in $(DESTDIR)$(PREFIX)"

@@ -4,8 +4,8 @@
 
     scripts/check.py [--sizes]
 
-Rules: who may include whom (docs/architecture.md), and no rooms in a circle · no word of what is gone · sim_core knows no robot by name · every number of a
-*_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
+Rules: who may include whom (docs/dev/inside.md), and no rooms in a circle · no word of what is gone · sim_core knows no robot by name · every number of a
+*_params.h names its one source (docs/dev/sources.md) · no file above 700 lines, no file above 1 MB, no path of
 somebody's machine, an SPDX line in every source · dspic30 uses the standard
 library only · C++ formatted by .clang-format. --sizes prints what is too large to be read at once instead.
 """

@@ -23,7 +23,7 @@ class Document {
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
 
-  /// One edit (docs/control.md, "edit"). Returns the id of what is new, otherwise 0. Throws
+  /// One edit (docs/connecting.md, "edit"). Returns the id of what is new, otherwise 0. Throws
   /// std::runtime_error when it cannot be done. Edits of one `group` other than 0 are undone together.
   int edit(const nlohmann::json& request);
   /// As it was before the last edit(), as if that had not been.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A world that runs while pages look at it and touch it. One thread has it all: it takes requests between
 // ticks, steps the simulation at the pace that was asked for, and hands out answers, events and frames. It
-// waits for nobody: who sends must not block. docs/control.md is the protocol.
+// waits for nobody: who sends must not block. docs/connecting.md is the protocol.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -33,7 +33,7 @@ namespace viewer {
 
 using Json = nlohmann::json;
 
-/// Version of the protocol; docs/control.md says what changed.
+/// Version of the protocol; docs/connecting.md says what changed.
 inline constexpr int kProtocolVersion = 1;
 
 class Session {

@@ -79,7 +79,7 @@ Json Session::answer(ClientId client, const Json& request) {
   if (what == "write_source") return program_request(what, request);
   if (is_one_of(what, {"play", "pause", "step", "speed", "restart"})) return run_request(what, request);
   if (!inputs::Inputs::is_input(what) || what == "world")
-    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/control.md", what));
+    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/connecting.md", what));
   if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
   input(request);
   return {{"ok", true}};

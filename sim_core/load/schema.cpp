@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table itself, section by section in the order of docs/world-format.md. Degrees and such become SI here.
+// The table itself, section by section in the order of docs/worlds.md. Degrees and such become SI here.
 // Longer than 300 lines because it is one table: every key, its limits and its meaning on neighbouring lines.
 // Sections of a room with much to say stand in a file of their own, schema_<room>.cpp.
 #include "sim_core/load/schema.h"

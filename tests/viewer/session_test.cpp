@@ -203,7 +203,7 @@ TEST_F(Session, only_one_page_steers) {
   second.good({{"do", "step"}});
 }
 
-// docs/control.md's example, 40 lines of another language
+// docs/connecting.md's example, 40 lines of another language
 TEST_F(Session, the_example_client_drives_it) {
   open("world.toml");
   const std::string command =
@@ -585,7 +585,7 @@ TEST_F(Session, a_saved_program_is_rebuilt_and_started_where_the_robot_stands) {
   const Json built = page.event("built");
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   EXPECT_TRUE(built.at("ok")) << built;
-  EXPECT_LT(took_s, 10) << "1 s on an idle machine (docs/performance.md)";
+  EXPECT_LT(took_s, 10) << "1 s on an idle machine (docs/dev/performance.md)";
   RecordProperty("seconds_to_new_program", std::to_string(took_s));
   page.good({{"do", "step"}});
   const Frame after = page.frame([&](const Frame& f) { return f.time_s > before.time_s; });
