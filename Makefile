@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels students clean \
+.PHONY: help setup tool build run test page view test-view dspic check chip-tables format bench asan tsan fuzz second routines levels students clean \
   product install deb
 
 ## help: this list
@@ -128,6 +128,13 @@ check: tool
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
 	@$(BUILD)/twinpuck timings --check
+
+## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt
+chip-tables: tool
+	@$(NINJA) chip_timing_doc
+	@$(BUILD)/tests/chip_timing_doc $(BUILD)/chip-timing.md
+	@scripts/instruction_coverage.py >$(BUILD)/instructions.txt
+	@echo $(BUILD)/chip-timing.md $(BUILD)/instructions.txt
 
 ## format: format C++ sources in place
 format:
