@@ -3,6 +3,4 @@
 #include "tools/doc_part.h"
 #include "tools/link_doc.h"
 
-int main(int argc, char** argv) {
-  return tools::write_doc_part(argc, argv, "records", tools::link_table());
-}
+int main(int argc, char** argv) { return tools::write_doc_part(argc, argv, "records", tools::link_table()); }

@@ -263,7 +263,7 @@ std::vector<SectionSpec> make_schema() {
            })},
           {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic|planar", "\"dynamic\"",
            "dynamic: traction, slip, pushing, falling; kinematic: no forces, robots stop at contacts; "
-           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights",
+           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights (worlds.md)",
            into<W>([](W& w, const Value& v) {
              w.engine = v.text == "dynamic"     ? Engine::Dynamic
                         : v.text == "kinematic" ? Engine::Kinematic

@@ -124,7 +124,8 @@ std::string world_format_page(const std::vector<RobotModel>& models,
     if (path == "robot.part") out += part_pages(part_kinds);
   }
   out +=
-      "\n### Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | "
+      "\n### Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule "
+      "| "
       "noise |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const ProximityProfile& p : proximity_profiles()) {

@@ -260,7 +260,8 @@ std::string document() {
       "manual DS70046,\n"
       "which were not read again for this page; nothing here has been measured on a chip. Rows without a "
       "doubt are\n"
-      "those that the notes give without one. `make chip-tables` writes this file; `dspic30_test` compares every "
+      "those that the notes give without one. `make chip-tables` writes this file; `dspic30_test` compares "
+      "every "
       "row.\n";
   std::string part;
   for (const Case& c : cases()) {
