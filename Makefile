@@ -117,9 +117,11 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of the code: includes, sources of numbers, formatting, contract, timings
+## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings
 check: tool
 	@scripts/setup.sh check
+	@scripts/check_pages.py --test
+	@scripts/check_sizes.py --test
 	@scripts/check.py
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
