@@ -27,7 +27,7 @@ HOLDS = {
     "programs/build": "what a program of the PC is, how it is compiled and started",
     "programs/puck": "the e-puck as a program commands it",
     "programs/world": "nodes and fields of a running world, for supervisors",
-    "programs/team": "gives programs their turns and tells how they ended",
+    "programs/team": "gives programs their turns and reports how they ended",
     "programs/controller": "the libraries that programs link with or import: C, C++, Python, Java",
     "programs/supervisors": "supervisors of ours",
     "viewer": "the live view: server, session, the file that is edited; `page/` in TypeScript",
