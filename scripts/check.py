@@ -284,16 +284,20 @@ def main():
     if sys.argv[1:]:
         return print_sizes(files)
     cpp = []
-    pages = check_pages.Pages(files, lambda name: (ROOT / name).read_text())
+    texts = {}
     for path in files:
         whole = ROOT / path
         if whole.stat().st_size > LARGEST_FILE:
             problem(path, 0, "%d bytes, expected at most %d" % (whole.stat().st_size, LARGEST_FILE))
             continue
         try:
-            text = whole.read_text()
+            texts[path] = whole.read_text()
         except UnicodeDecodeError:
             continue  # a picture
+    pages = check_pages.Pages(files, texts.__getitem__)
+    for path, text in texts.items():
+        pages.learn(path, text)
+    for path, text in texts.items():
         check_text(path, text)
         if not path.startswith("scripts/check_pages"):
             for line, what in pages.problems(path, text):

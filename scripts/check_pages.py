@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Pages and comments name what is there: links with their anchors, paths of the tree, names of headers and sources.
+"""Pages and comments name what is there: links with their anchors, paths of the tree, names of headers and sources; in
+pages functions and options too.
 
 Part of scripts/check.py. `scripts/check_pages.py --test` tries the rules themselves.
 """
@@ -22,6 +23,7 @@ OTHERS = {
 # what users make, and where the lab's files lie in Webots
 USERS = {"worlds/mymaze.toml", "firmware/obstacle", "firmware/x", "worlds/*.wbt"}
 MADE_UP = re.compile(r"NAME|PAGE|FILE|KIND|SET\b|_N\b|CMakeFiles|[<>{}$@%]|\.\.\.|\bmine\b|\b[a-z]\.\w+$")
+OTHERS_OPTIONS = {"--user", "--branch-coverage"}  # of Docker, genhtml
 WORDS, README_LINES = 22000, 100  # of all pages that are written by hand; of the front page
 
 
@@ -82,9 +84,17 @@ class Pages:
         self._tops = sorted({name.split("/")[0] for name in names if "/" in name and not name.startswith(".")}, key=len, reverse=True)
         self._bare = {name.rpartition("/")[2] for name in names}
         self._anchors = {}
+        self._words, self._options = set(), set()
         # a path: a folder at the top or a room's own name before a slash, to the end of the word
         self._path = re.compile(r"(?<![\w./<$~-])((?:%s)/[\w./*\[\]-]*[\w*])" % "|".join(map(re.escape, self._tops)))
         self._name = re.compile(r"(?<![\w./*<>$~%%-])(\w[\w-]*\.(?:%s))\b(?![\w/]|\.\w)" % NAMED)
+
+    def learn(self, path, text):
+        """What pages may name: words and options of sources. All sources come before the first page is looked at."""
+        if not path.endswith(".md") and not path.startswith("docs/"):
+            self._words.update(re.findall(r"\w+", text))
+            if not path.startswith("tests/"):
+                self._options.update(re.findall(r"(?<![\w-])--[a-z][\w-]+", text))
 
     def has(self, path):
         path = path.rstrip("/")
@@ -115,6 +125,8 @@ class Pages:
                     yield line, "dead link: " + target
                 elif anchor and whole.endswith(".md") and not self._has_anchor(whole, anchor):
                     yield line, "dead anchor: " + target
+            for line, name in self._strangers(text):
+                yield line, "no such function or option: " + name
         seen = set()
         for line, comment in comments(path, text):
             yield from self._names_in(path, here, line, comment, seen)
@@ -124,6 +136,16 @@ class Pages:
             line = text.count("\n", 0, match.start()) + 1
             if file not in self._names and (line, file) not in seen and not MADE_UP.search(file):
                 yield line, "no such file: " + file
+
+    def _strangers(self, text):
+        """Functions in backquotes and options that no source knows."""
+        for number, line in enumerate(text.split("\n"), 1):
+            for name in re.findall(r"`[\w:>.-]*?(\w+)\(", line):
+                if name not in self._words and not MADE_UP.search(name):
+                    yield number, name + "()"
+            for option in re.findall(r"(?<![\w-])--[a-z][\w-]+", line):
+                if option not in self._options | OTHERS_OPTIONS:
+                    yield number, option
 
     def _names_in(self, path, here, line, comment, seen):
         comment = re.sub(r"https?://\S+|\[[^\]]*\]\([^)\s]+\)", "", comment)  # links are looked at as such
@@ -170,6 +192,10 @@ def test():
     assert wrong("room/x.h", "const char* a = \"z.h\";\n") == []
     assert wrong("room/x.cpp", "say(\"docs/gone.md\");\n") == [(1, "no such file: docs/gone.md")]
     assert wrong("room/x.py", "a = 1  # see zz.cpp\n") == [(1, "no such file: zz.cpp")]
+    pages.learn("room/x.h", "int known(); // --knob")
+    assert wrong("docs/b.md", "`known()`, `a.known(1)`, --knob\n") == []
+    assert wrong("docs/b.md", "\n`strange()`, `a.strange`, --lever\n") == [
+        (2, "no such function or option: strange()"), (2, "no such function or option: --lever")]
     assert words(by_hand("a b\n<!-- rooms: who -->\nc d\n<!-- end -->\n| e |\n")) == 3
     print("check_pages: the rules hold")
 
