@@ -23,7 +23,7 @@ OTHERS = {
 # what users make, and where the lab's files lie in Webots
 USERS = {"worlds/mymaze.toml", "firmware/obstacle", "firmware/x", "worlds/*.wbt"}
 MADE_UP = re.compile(r"NAME|PAGE|FILE|KIND|SET\b|_N\b|CMakeFiles|[<>{}$@%]|\.\.\.|\bmine\b|\b[a-z]\.\w+$")
-OTHERS_OPTIONS = {"--user", "--branch-coverage"}  # of Docker, genhtml
+OTHERS_OPTIONS = {"--user", "--branch-coverage", "--twinpuck-seeds"}  # of Docker, genhtml; put together by the plug-in
 WORDS, README_LINES = 22000, 100  # of all pages that are written by hand; of the front page
 
 
