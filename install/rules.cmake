@@ -62,7 +62,7 @@ endforeach()
 # what verbs read
 install(FILES docs/lab.toml docs/lab-answers.md DESTINATION ${share}/docs OPTIONAL)  # the students' edition has no answers
 install(FILES hal_sim/api/call_cycles.inc DESTINATION ${share}/hal_sim/api)
-install(DIRECTORY docs/ DESTINATION share/doc/twinpuck FILES_MATCHING PATTERN *.md PATTERN *.png)
+install(DIRECTORY docs/ DESTINATION share/doc/twinpuck FILES_MATCHING PATTERN *.md PATTERN *.png PATTERN *.gif)
 install(FILES README.md DESTINATION share/doc/twinpuck)
 install(FILES LICENSE DESTINATION share/doc/twinpuck RENAME copyright)
 

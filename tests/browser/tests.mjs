@@ -174,7 +174,7 @@ export const tests = {
     assert.ok(JSON.parse(v.read("s.json")).robots[0].distance_m > 0.05);
   },
 
-  // docs/lab.md, "In the page": I1, S2, S4 and S5
+  // docs/start.md, "In the page": I1, S2, S4 and S5
   async the_labs_items_are_done_wholly_in_the_page(browser, live) {
     const [v, page] = await start(browser, live, fs.readFileSync(path.join(root, "worlds/epuck.toml"), "utf8"), {}, ["--fw", "obstacle"]);
     const things = () => ask(page, "(app) => app.world.things.length");
@@ -675,7 +675,7 @@ int main(void) {
     assert.ok(middle > 0.3);  // a busy machine has no processor left for the page
   },
 
-  // figures of docs/performance.md; bars are loose, since the machine may be busy
+  // figures of docs/dev/performance.md; bars are loose, since the machine may be busy
   async frames_and_the_work_for_them(browser, live) {
     for (const [n, perSecond, bar] of [[10, 60, 4], [1000, 20, 15]]) {
       const [, page] = await start(browser, live, swarm(n), { drive: program(100) });

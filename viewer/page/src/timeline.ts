@@ -18,7 +18,7 @@ export class TimeLine {
   shown = false;
   private canvas = h("canvas", { id: "timeline", title: "Wheel: zoom. Drag: move. Double click: follow the end." });
   private said = h("output", { className: "dim number" });
-  private signals = h("input", { id: "signals", placeholder: "LED0, RA6, left_coils, TX1, T2, a variable; empty: the usual", title: "Signals to show; names of docs/traces.md. Enter takes them",
+  private signals = h("input", { id: "signals", placeholder: "LED0, RA6, left_coils, TX1, T2, a variable; empty: the usual", title: "Signals to show; names of docs/looking.md. Enter takes them",
     onchange: () => this.ask() }) as HTMLInputElement;
   private robot = "";
   private names: [string, number][] = [];
