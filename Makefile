@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check chip-tables format bench asan tsan fuzz second routines levels students clean \
+.PHONY: help setup tool build run test page check-page view test-view dspic check chip-tables format bench asan tsan fuzz second routines levels students clean \
   product install deb
 
 ## help: this list
@@ -71,13 +71,20 @@ $(PAGE)/node_modules/.package-lock.json: $(PAGE)/package-lock.json
 	@scripts/setup.sh view
 	@echo "fetching the page's packages"; cd $(PAGE) && npm ci --no-audit --no-fund --loglevel=error >/dev/null && touch node_modules/.package-lock.json
 
-$(BUILD)/page/page.js: $(PAGE)/node_modules/.package-lock.json $(wildcard $(PAGE)/src/*) $(PAGE)/index.html
+$(BUILD)/page/page.js: $(PAGE)/node_modules/.package-lock.json $(wildcard $(PAGE)/src/*.* $(PAGE)/src/*/*.*) $(PAGE)/index.html
 	@scripts/setup.sh view
 	@mkdir -p $(BUILD)/page && cp $(PAGE)/index.html $(BUILD)/page
 	@esbuild page=$(PAGE)/src/main.ts start=$(PAGE)/src/start.ts --bundle --minify --target=es2020 --outdir=$(BUILD)/page --log-level=warning
 
 ## page: bundle the page of the live view and of reports (--report)
 page: $(BUILD)/page/page.js
+
+## check-page: the page's format, types and unit tests
+check-page: $(PAGE)/node_modules/.package-lock.json
+	@scripts/setup.sh view
+	@cd $(PAGE) && npx prettier --check --log-level warn . && npx tsc -p .
+	@esbuild $(PAGE)/tests/*.test.ts --bundle --platform=node --external:happy-dom --outdir=$(BUILD)/page-tests --log-level=warning
+	@cd $(PAGE) && NODE_PATH=node_modules node --test --test-reporter=dot $(abspath $(BUILD))/page-tests/*.test.js
 
 ## view: FW in WORLD in the browser: see, touch and change it while it runs
 view: tool $(BUILD)/page/page.js
@@ -130,6 +137,7 @@ check: tool
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
 	@$(BUILD)/twinpuck timings --check
+	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
 
 ## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt
 chip-tables: tool

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Programs for Webots' interfaces in the page.
 import { ask, until } from "./harness.mjs";
-import { kWorld, start, x } from "./tests.mjs";
+import { kWorld, start, x } from "./worlds.mjs";
 
-export const webots = {
+export const tests = {
   async a_program_for_webots_is_driven_and_rewritten(browser, live) {
     const drive = (speed) => `#include <stdio.h>
 #include <math.h>

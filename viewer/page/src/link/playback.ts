@@ -1,9 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The other end of a page that is a report: what the run would have told, from the file itself.
-import { Link, readFrame } from "./protocol";
+import { Link } from "./connection";
+import { readFrame } from "./protocol";
 
-interface Piece { hello: any; events: any[]; summary: any; names: string[]; units: string[]; frame_bytes: number;
-  sources: Record<string, string>; floor: Record<string, any> | null }
+interface Piece {
+  hello: any;
+  events: any[];
+  summary: any;
+  names: string[];
+  units: string[];
+  frame_bytes: number;
+  sources: Record<string, string>;
+  floor: Record<string, any> | null;
+}
 
 /** Frames, taken apart byte by byte and deflated (viewer/report.h), as they were. */
 async function unpack(text: string, size: number): Promise<ArrayBuffer[]> {
@@ -19,7 +28,9 @@ async function unpack(text: string, size: number): Promise<ArrayBuffer[]> {
 export class Playback extends Link {
   private piece: Piece = JSON.parse(document.getElementById("report")!.textContent!);
   onPast: (frames: { time: number; bytes: ArrayBuffer }[]) => void = () => {};
-  get summary() { return this.piece.summary; }
+  get summary() {
+    return this.piece.summary;
+  }
 
   /** Tells everything at once; the listeners are there. */
   async play() {
@@ -29,8 +40,10 @@ export class Playback extends Link {
     this.piece.events.forEach((event) => this.tell(event));
   }
   ask(what: string, more: Record<string, any> = {}): Promise<Record<string, any>> {
-    const { program, file } = more, { floor } = this.piece;
-    if (what === "source" && `${program}/${file}` in this.piece.sources) return Promise.resolve({ text: this.piece.sources[`${program}/${file}`] });
+    const { program, file } = more,
+      { floor } = this.piece;
+    if (what === "source" && `${program}/${file}` in this.piece.sources)
+      return Promise.resolve({ text: this.piece.sources[`${program}/${file}`] });
     if (what === "floor" && floor) return Promise.resolve(floor);
     if (what !== "subscribe") return Promise.reject(new Error("a report shows what was; it cannot be changed"));
     const unknown = (more.names as string[]).find((n) => !this.piece.names.includes(n) && !n.includes(".var:"));

@@ -3,18 +3,29 @@
 // matrices; nothing is drawn unless something changed.
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { ghost } from "./ghosts";
 import { frustum, lightMarks, soundingMaterial, soundingRing, soundMarks } from "./marks";
 import type { CameraView } from "./marks";
-import { RobotState } from "./protocol";
-import type { Frame, Robot, Thing, Vec, World } from "./protocol";
+import { kPalette } from "../store/colours";
+import { RobotState } from "../link/protocol";
+import type { Frame, Robot, Thing, Vec, World } from "../link/protocol";
 
-export interface Picked { kind: "robot" | "thing" | "handle" | "floor"; id: number; point: THREE.Vector3; handle?: Handle }
+export interface Picked {
+  kind: "robot" | "thing" | "handle" | "floor";
+  id: number;
+  point: THREE.Vector3;
+  handle?: Handle;
+}
 /** Something to pull: `drag` gets the place on the floor. */
-export interface Handle { x: number; y: number; z: number; title: string; drag: (x: number, y: number) => void }
+export interface Handle {
+  x: number;
+  y: number;
+  z: number;
+  title: string;
+  drag: (x: number, y: number) => void;
+}
 
 const kTrailPoints = 3000;
-// Okabe and Ito: told apart by the colour-blind, too
-export const kPalette = ["#0072b2", "#e69f00", "#009e73", "#d55e00", "#cc79a7", "#56b4e9", "#f0e442", "#7f7f7f"];
 
 const rgb = (c: Vec) => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace);
 
@@ -40,6 +51,9 @@ class Trail {
     this.line.geometry.setDrawRange(0, this.count);
     this.line.geometry.attributes.position.needsUpdate = true;
   }
+  setColour(colour: THREE.Color) {
+    (this.line.material as THREE.LineBasicMaterial).color.copy(colour);
+  }
   clear() {
     this.count = 0;
     this.line.geometry.setDrawRange(0, 0);
@@ -62,27 +76,30 @@ export class Scene {
   private halo?: THREE.InstancedMesh;
   private sounding?: THREE.InstancedMesh;
   private turrets?: THREE.InstancedMesh;
-  private turretOf: number[] = [];  // bodies of robots that carry a part
-  private view = new THREE.Group();  // what a camera sees
+  private robots: (Robot | undefined)[] = []; // by body
+  private turretOf: number[] = []; // bodies of robots that carry a part
+  private view = new THREE.Group(); // what a camera sees
   private viewBody = -1;
   private viewOf = "";
   private floor?: THREE.Texture;
   private trails: Trail[] = [];
-  private rays = new THREE.LineSegments(new THREE.BufferGeometry(),
-    new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }));
+  private rays = new THREE.LineSegments(
+    new THREE.BufferGeometry(),
+    new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }),
+  );
   private sun = new THREE.DirectionalLight(0xffffff, 1.1);
-  private compiling = true;  // the first world's shaders, beside the script
+  private compiling = true; // the first world's shaders, beside the script
   private dirty = true;
   private drawing = true;
   private world?: World;
-  private selected = 0;
+  private selected: readonly number[] = [];
   private last?: Frame;
   showTrails = true;
   followed = "";
 
   constructor(private stage: HTMLElement) {
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.debug.checkShaderErrors = false;  // asking waits for the compiler, and ours compile
+    this.renderer.debug.checkShaderErrors = false; // asking waits for the compiler, and ours compile
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     stage.prepend(this.renderer.domElement);
@@ -92,8 +109,15 @@ export class Scene {
     this.controls.maxPolarAngle = Math.PI * 0.49;
     this.controls.screenSpacePanning = false;
     this.controls.addEventListener("change", () => this.draw());
-    this.scene.add(new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 2.3), this.sun, this.static_, this.handles,
-      this.outline, this.rays, this.view);
+    this.scene.add(
+      new THREE.HemisphereLight(0xffffff, 0xb8bcc4, 2.3),
+      this.sun,
+      this.static_,
+      this.handles,
+      this.outline,
+      this.rays,
+      this.view,
+    );
     this.rays.frustumCulled = false;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
@@ -109,9 +133,13 @@ export class Scene {
     loop();
   }
 
-  draw() { this.dirty = true; }
+  draw() {
+    this.dirty = true;
+  }
   /** Off: everything but the drawing itself, for measurements. */
-  setDrawing(on: boolean) { this.drawing = on; }
+  setDrawing(on: boolean) {
+    this.drawing = on;
+  }
   setBackground(colour: string) {
     this.scene.background = new THREE.Color(colour);
     this.draw();
@@ -134,7 +162,12 @@ export class Scene {
     this.moving = [];
     this.addFloor(world);
     for (const thing of world.things) this.addThing(thing);
-    this.addRobots(world.robots);
+    const placed: Robot[] = []; // by body; some may be in the run and no more in the file
+    for (const robot of world.robots) {
+      if (robot.body >= 0) placed[robot.body] = robot;
+      else this.static_.add(ghost(robot, world.problems.find((p) => p.id === robot.id)?.text ?? ""));
+    }
+    this.addRobots(placed);
     if (!keepCamera) this.fit(true);
     const size = Math.max(1, this.extent().size);
     this.sun.position.set(0.4 * size, -0.6 * size, 1.5 * size);
@@ -159,10 +192,12 @@ export class Scene {
     const w = this.world;
     if (w?.arena) return { x: w.arena.centre[0], y: w.arena.centre[1], size: Math.max(...w.arena.size) };
     const box = new THREE.Box3();
-    for (const t of w?.things ?? []) for (const p of t.points ?? [t.position]) box.expandByPoint(new THREE.Vector3(p[0], p[1], 0));
+    for (const t of w?.things ?? [])
+      for (const p of t.points ?? [t.position]) box.expandByPoint(new THREE.Vector3(p[0], p[1], 0));
     for (const r of w?.robots ?? []) box.expandByPoint(new THREE.Vector3(r.position[0], r.position[1], 0));
     if (box.isEmpty()) box.setFromCenterAndSize(new THREE.Vector3(), new THREE.Vector3(1, 1, 0));
-    const c = box.getCenter(new THREE.Vector3()), s = box.getSize(new THREE.Vector3());
+    const c = box.getCenter(new THREE.Vector3()),
+      s = box.getSize(new THREE.Vector3());
     return { x: c.x, y: c.y, size: Math.max(s.x, s.y, 0.6) + 0.4 };
   }
 
@@ -188,12 +223,19 @@ export class Scene {
     for (let y = Math.ceil((e.y - h / 2) * 10 + 1e-6); y < (e.y + h / 2) * 10; ++y)
       lines.push(e.x - w / 2, y / 10, 0.0006, e.x + w / 2, y / 10, 0.0006);
     const grid = new THREE.BufferGeometry().setAttribute("position", new THREE.Float32BufferAttribute(lines, 3));
-    this.static_.add(new THREE.LineSegments(grid, new THREE.LineBasicMaterial({ color: 0x808890, transparent: true, opacity: 0.28 })));
+    this.static_.add(
+      new THREE.LineSegments(grid, new THREE.LineBasicMaterial({ color: 0x808890, transparent: true, opacity: 0.28 })),
+    );
     const a = world.arena;
     if (!a || a.wall_height <= 0) return;
-    const t = a.wall_thickness, [sx, sy] = a.size;
-    for (const [x, y, lx, ly] of [[0, (sy + t) / 2, sx + 2 * t, t], [0, -(sy + t) / 2, sx + 2 * t, t],
-      [(sx + t) / 2, 0, t, sy], [-(sx + t) / 2, 0, t, sy]]) {
+    const t = a.wall_thickness,
+      [sx, sy] = a.size;
+    for (const [x, y, lx, ly] of [
+      [0, (sy + t) / 2, sx + 2 * t, t],
+      [0, -(sy + t) / 2, sx + 2 * t, t],
+      [(sx + t) / 2, 0, t, sy],
+      [-(sx + t) / 2, 0, t, sy],
+    ]) {
       const wall = this.mesh(new THREE.BoxGeometry(lx, ly, a.wall_height), a.colour);
       wall.position.set(e.x + x, e.y + y, a.wall_height / 2);
       wall.userData.id = a.id;
@@ -210,11 +252,19 @@ export class Scene {
       group.add(mesh);
     };
     if (t.kind === "wall") {
-      const p = t.points!, count = t.closed ? p.length : p.length - 1;
+      const p = t.points!,
+        count = t.closed ? p.length : p.length - 1;
       for (let i = 0; i < count; ++i) {
-        const a = p[i], b = p[(i + 1) % p.length], l = Math.hypot(b[0] - a[0], b[1] - a[1]);
-        put(this.mesh(new THREE.BoxGeometry(l + t.thickness!, t.thickness!, t.height!), t.colour),
-          (a[0] + b[0]) / 2, (a[1] + b[1]) / 2, z + t.height! / 2, Math.atan2(b[1] - a[1], b[0] - a[0]));
+        const a = p[i],
+          b = p[(i + 1) % p.length],
+          l = Math.hypot(b[0] - a[0], b[1] - a[1]);
+        put(
+          this.mesh(new THREE.BoxGeometry(l + t.thickness!, t.thickness!, t.height!), t.colour),
+          (a[0] + b[0]) / 2,
+          (a[1] + b[1]) / 2,
+          z + t.height! / 2,
+          Math.atan2(b[1] - a[1], b[0] - a[0]),
+        );
       }
     } else if (t.kind === "lamp") {
       const bulb = this.mesh(new THREE.SphereGeometry(0.02, 24, 16), t.colour);
@@ -228,14 +278,30 @@ export class Scene {
       put(this.mesh(new THREE.BoxGeometry(0.03, 0.03, 0.03), t.colour), 0, 0, Math.max(0.015, t.position[2]));
       for (const mark of soundMarks(t, 2 * this.extent().size)) group.add(mark);
     } else if (t.kind === "ramp") {
-      const [lx, ly] = t.size!, low = t.low!, high = Math.max(t.high!, 0.001);
-      const shape = new THREE.Shape([[-lx / 2, 0], [lx / 2, 0], [lx / 2, high], [-lx / 2, Math.max(low, 0.0005)]].map((p) => new THREE.Vector2(p[0], p[1])));
-      const g = new THREE.ExtrudeGeometry(shape, { depth: ly, bevelEnabled: false }).translate(0, 0, -ly / 2).rotateX(Math.PI / 2);
+      const [lx, ly] = t.size!,
+        low = t.low!,
+        high = Math.max(t.high!, 0.001);
+      const shape = new THREE.Shape(
+        [
+          [-lx / 2, 0],
+          [lx / 2, 0],
+          [lx / 2, high],
+          [-lx / 2, Math.max(low, 0.0005)],
+        ].map((p) => new THREE.Vector2(p[0], p[1])),
+      );
+      const g = new THREE.ExtrudeGeometry(shape, { depth: ly, bevelEnabled: false })
+        .translate(0, 0, -ly / 2)
+        .rotateX(Math.PI / 2);
       put(this.mesh(g, t.colour), 0, 0, 0);
     } else if (t.kind === "box") {
       put(this.mesh(new THREE.BoxGeometry(t.size![0], t.size![1], t.size![2]), t.colour), 0, 0, t.size![2] / 2);
     } else if (t.kind === "cylinder") {
-      put(this.mesh(new THREE.CylinderGeometry(t.radius, t.radius, t.size![2], 48).rotateX(Math.PI / 2), t.colour), 0, 0, t.size![2] / 2);
+      put(
+        this.mesh(new THREE.CylinderGeometry(t.radius, t.radius, t.size![2], 48).rotateX(Math.PI / 2), t.colour),
+        0,
+        0,
+        t.size![2] / 2,
+      );
     } else if (t.kind === "ball") {
       put(this.mesh(new THREE.SphereGeometry(t.radius, 32, 24), t.colour, 0.35), 0, 0, t.radius!);
     } else {
@@ -247,28 +313,31 @@ export class Scene {
       group.rotation.z = t.heading ?? 0;
     }
     group.userData.id = t.id;
-    if (t.body !== undefined) this.moving.push({ object: group, body: t.body });
+    if (t.body !== undefined && t.body >= 0) this.moving.push({ object: group, body: t.body });
     this.things.set(t.id, group);
     this.static_.add(group);
   }
 
-  private addRobots(robots: Robot[]) {
-    for (const old of [...this.instances, this.leds, this.halo, this.sounding, this.turrets]) if (old) {
-      this.scene.remove(old);
-      old.geometry.dispose();
-      (old.material as THREE.Material).dispose();
-    }
+  private addRobots(robots: (Robot | undefined)[]) {
+    this.robots = robots;
+    for (const old of [...this.instances, this.leds, this.halo, this.sounding, this.turrets])
+      if (old) {
+        this.scene.remove(old);
+        old.geometry.dispose();
+        (old.material as THREE.Material).dispose();
+      }
     this.instances = [];
     this.leds = this.halo = this.bodyMesh = this.sounding = this.turrets = undefined;
-    this.turretOf = robots.filter((r) => r.parts.length > 0).map((r) => r.body);
+    this.turretOf = robots.flatMap((r) => (r?.parts.length ? [r.body] : []));
     while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
     while (this.trails.length < robots.length) {
-      const trail = new Trail(kPalette[this.trails.length % kPalette.length]);
+      const trail = new Trail(kPalette[0]);
       this.trails.push(trail);
       this.scene.add(trail.line);
     }
-    if (robots.length === 0) return;
-    const r = robots[0], n = robots.length;
+    const r = robots.find((robot) => robot),
+      n = robots.length;
+    if (!r) return;
     const add = (geometry: THREE.BufferGeometry, material: THREE.Material, shadow = true) => {
       const mesh = new THREE.InstancedMesh(geometry, material, n);
       if (this.bodyMesh) mesh.instanceMatrix = this.bodyMesh.instanceMatrix;
@@ -280,19 +349,42 @@ export class Scene {
       return mesh;
     };
     const upright = (g: THREE.BufferGeometry, z: number) => g.rotateX(Math.PI / 2).translate(0, 0, z);
-    const shell = add(upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
-      new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }));
-    robots.forEach((robot, i) => shell.setColorAt(i, rgb(robot.colour)));
+    const shell = add(
+      upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
+      new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }),
+    );
+    robots.forEach((robot, i) => {
+      if (!robot) return;
+      shell.setColorAt(i, rgb(robot.colour));
+      this.trails[i].setColour(rgb(robot.colour));
+    });
     const dark = new THREE.MeshStandardMaterial({ color: 0x23282e, roughness: 0.6 });
     add(upright(new THREE.CylinderGeometry(r.radius, r.radius, 0.003, 40), r.height * 0.62), dark);
-    add(upright(new THREE.CylinderGeometry(r.radius * 0.8, r.radius * 0.86, r.height * 0.3, 32), r.height * 0.82),
-      new THREE.MeshStandardMaterial({ color: 0x3b424b, roughness: 0.5 }));
+    add(
+      upright(new THREE.CylinderGeometry(r.radius * 0.8, r.radius * 0.86, r.height * 0.3, 32), r.height * 0.82),
+      new THREE.MeshStandardMaterial({ color: 0x3b424b, roughness: 0.5 }),
+    );
     for (const side of [1, -1])
-      add(new THREE.CylinderGeometry(r.wheel_radius, r.wheel_radius, 0.004, 32).translate(0, side * r.axle / 2, 0)
-        .applyMatrix4(new THREE.Matrix4().makeTranslation(0, 0, r.wheel_radius)), new THREE.MeshStandardMaterial({ color: 0x111417, roughness: 0.9 }));
+      add(
+        new THREE.CylinderGeometry(r.wheel_radius, r.wheel_radius, 0.004, 32)
+          .translate(0, (side * r.axle) / 2, 0)
+          .applyMatrix4(new THREE.Matrix4().makeTranslation(0, 0, r.wheel_radius)),
+        new THREE.MeshStandardMaterial({ color: 0x111417, roughness: 0.9 }),
+      );
     // where it looks
-    const nose = new THREE.Shape([[r.radius * 0.72, 0], [r.radius * 0.1, r.radius * 0.34], [r.radius * 0.26, 0], [r.radius * 0.1, -r.radius * 0.34]].map((p) => new THREE.Vector2(p[0], p[1])));
-    add(new THREE.ShapeGeometry(nose).translate(0, 0, r.height * 0.975), new THREE.MeshBasicMaterial({ color: 0xffffff }), false);
+    const nose = new THREE.Shape(
+      [
+        [r.radius * 0.72, 0],
+        [r.radius * 0.1, r.radius * 0.34],
+        [r.radius * 0.26, 0],
+        [r.radius * 0.1, -r.radius * 0.34],
+      ].map((p) => new THREE.Vector2(p[0], p[1])),
+    );
+    add(
+      new THREE.ShapeGeometry(nose).translate(0, 0, r.height * 0.975),
+      new THREE.MeshBasicMaterial({ color: 0xffffff }),
+      false,
+    );
     const some = (geometry: THREE.BufferGeometry, material: THREE.Material, most: number) => {
       const mesh = new THREE.InstancedMesh(geometry, material, most);
       mesh.count = 0;
@@ -300,13 +392,21 @@ export class Scene {
       this.scene.add(mesh);
       return mesh;
     };
-    const lamps = (radius: number, opacity: number) => some(new THREE.SphereGeometry(radius, 12, 8),
-      new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }), n * Math.max(1, r.leds.length));
+    const lamps = (radius: number, opacity: number) =>
+      some(
+        new THREE.SphereGeometry(radius, 12, 8),
+        new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }),
+        n * Math.max(1, r.leds.length),
+      );
     this.leds = lamps(0.0045, 1);
     this.halo = lamps(0.011, 0.35);
     this.sounding = some(soundingRing(), soundingMaterial(), n);
     // on top, and not wider than the robot
-    this.turrets = some(upright(new THREE.CylinderGeometry(r.radius * 0.86, r.radius * 0.86, 0.012, 32, 1, true), r.height + 0.004), new THREE.MeshStandardMaterial({ color: 0x0b6b4f, roughness: 0.5, side: THREE.DoubleSide }), Math.max(1, this.turretOf.length));
+    this.turrets = some(
+      upright(new THREE.CylinderGeometry(r.radius * 0.86, r.radius * 0.86, 0.012, 32, 1, true), r.height + 0.004),
+      new THREE.MeshStandardMaterial({ color: 0x0b6b4f, roughness: 0.5, side: THREE.DoubleSide }),
+      Math.max(1, this.turretOf.length),
+    );
   }
 
   // --- frames
@@ -314,20 +414,37 @@ export class Scene {
   setFrame(frame: Frame) {
     this.last = frame;
     const world = this.world;
-    if (!world || !this.bodyMesh && world.robots.length > 0) return;
-    const p = frame.poses, n = Math.min(frame.robots, world.robots.length);
+    if (!world) return;
+    const p = frame.poses,
+      n = Math.min(frame.robots, this.robots.length);
     const matrices = this.bodyMesh?.instanceMatrix.array as Float32Array | undefined;
-    let lit = 0, sounding = 0;
+    let lit = 0,
+      sounding = 0;
     const leds = this.leds?.instanceMatrix.array as Float32Array | undefined;
     const halo = this.halo?.instanceMatrix.array as Float32Array | undefined;
     for (let i = 0; i < n && matrices; ++i) {
-      const x = p[4 * i], y = p[4 * i + 1], z = p[4 * i + 2], c = Math.cos(p[4 * i + 3]), s = Math.sin(p[4 * i + 3]);
+      const robot = this.robots[i];
+      if (!robot) {
+        matrices.fill(0, 16 * i, 16 * i + 16);
+        continue;
+      }
+      const x = p[4 * i],
+        y = p[4 * i + 1],
+        z = p[4 * i + 2],
+        c = Math.cos(p[4 * i + 3]),
+        s = Math.sin(p[4 * i + 3]);
       matrices.set([c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, x, y, z, 1], 16 * i);
-      if (frame.robotWords[2 * i + 1] & RobotState.Sounding) (this.sounding!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * i, 16 * i + 16), 16 * sounding++);
+      if (frame.robotWords[2 * i + 1] & RobotState.Sounding)
+        (this.sounding!.instanceMatrix.array as Float32Array).set(
+          matrices.subarray(16 * i, 16 * i + 16),
+          16 * sounding++,
+        );
       for (let bits = frame.robotWords[2 * i], bit = 0; bits !== 0; bits >>>= 1, ++bit) {
-        const led = world.robots[i].leds[bit];
+        const led = robot.leds[bit];
         if (!(bits & 1) || !led || !leds || !halo) continue;
-        const lx = x + c * led[0] - s * led[1], ly = y + s * led[0] + c * led[1], lz = z + Math.max(led[2], world.robots[i].height * 0.62);
+        const lx = x + c * led[0] - s * led[1],
+          ly = y + s * led[0] + c * led[1],
+          lz = z + Math.max(led[2], robot.height * 0.62);
         const m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, lx, ly, lz, 1];
         leds.set(m, 16 * lit);
         halo.set(m, 16 * lit);
@@ -338,29 +455,34 @@ export class Scene {
       this.trails[i].add(x, y);
     }
     if (this.bodyMesh) this.bodyMesh.instanceMatrix.needsUpdate = true;
-    for (const mesh of [this.leds, this.halo]) if (mesh) {
-      mesh.count = lit;
-      mesh.instanceMatrix.needsUpdate = true;
-      if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
-    }
+    for (const mesh of [this.leds, this.halo])
+      if (mesh) {
+        mesh.count = lit;
+        mesh.instanceMatrix.needsUpdate = true;
+        if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
+      }
     if (this.sounding) {
       this.sounding.count = sounding;
       if (sounding) this.sounding.instanceMatrix.needsUpdate = true;
     }
     if (this.turrets && matrices) {
       this.turrets.count = this.turretOf.length;
-      this.turretOf.forEach((body, i) => (this.turrets!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * body, 16 * body + 16), 16 * i));
+      this.turretOf.forEach((body, i) =>
+        (this.turrets!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * body, 16 * body + 16), 16 * i),
+      );
       this.turrets.instanceMatrix.needsUpdate = true;
     }
     this.placeView();
-    for (const { object, body } of this.moving) if (body < frame.bodies) {
-      object.position.set(p[4 * body], p[4 * body + 1], p[4 * body + 2]);
-      object.rotation.z = p[4 * body + 3];
-    }
+    for (const { object, body } of this.moving)
+      if (body < frame.bodies) {
+        object.position.set(p[4 * body], p[4 * body + 1], p[4 * body + 2]);
+        object.rotation.z = p[4 * body + 3];
+      }
     this.setRays(frame.rays);
-    const follow = world.robots.find((r) => r.name === this.followed);
+    const follow = this.robots.find((r) => r?.name === this.followed);
     if (follow) {
-      const to = new THREE.Vector3(p[4 * follow.body], p[4 * follow.body + 1], 0), by = to.sub(this.controls.target);
+      const to = new THREE.Vector3(p[4 * follow.body], p[4 * follow.body + 1], 0),
+        by = to.sub(this.controls.target);
       this.controls.target.add(by);
       this.camera.position.add(by);
       this.controls.update();
@@ -382,7 +504,8 @@ export class Scene {
     this.draw();
   }
   private placeView() {
-    const p = this.last?.poses, b = this.viewBody;
+    const p = this.last?.poses,
+      b = this.viewBody;
     this.view.visible = b >= 0 && !!p && 4 * b < p.length;
     if (!this.view.visible) return;
     this.view.position.set(p![4 * b], p![4 * b + 1], p![4 * b + 2]);
@@ -405,11 +528,14 @@ export class Scene {
   }
 
   private setRays(rays: Float32Array) {
-    const n = rays.length / 7, at = new Float32Array(6 * n), colours = new Float32Array(6 * n);
+    const n = rays.length / 7,
+      at = new Float32Array(6 * n),
+      colours = new Float32Array(6 * n);
     for (let i = 0; i < n; ++i) {
       at.set(rays.subarray(7 * i, 7 * i + 6), 6 * i);
       // free rays blue, those that meet something orange, darker the less comes back
-      const f = rays[7 * i + 6], c = f < 0 ? [0.0, 0.32, 0.6] : [0.84 * (0.3 + 0.7 * f), 0.37 * (0.3 + 0.7 * f), 0];
+      const f = rays[7 * i + 6],
+        c = f < 0 ? [0.0, 0.32, 0.6] : [0.84 * (0.3 + 0.7 * f), 0.37 * (0.3 + 0.7 * f), 0];
       colours.set([...c, ...c], 6 * i);
     }
     const g = this.rays.geometry;
@@ -420,7 +546,8 @@ export class Scene {
 
   /** Where the robots were, without showing them there. */
   addToTrails(frame: Frame) {
-    for (let i = 0; i < Math.min(frame.robots, this.trails.length); ++i) this.trails[i].add(frame.poses[4 * i], frame.poses[4 * i + 1]);
+    for (let i = 0; i < Math.min(frame.robots, this.trails.length); ++i)
+      this.trails[i].add(frame.poses[4 * i], frame.poses[4 * i + 1]);
   }
   clearTrails() {
     this.trails.forEach((t) => t.clear());
@@ -440,7 +567,8 @@ export class Scene {
   }
   /** Where a place of the world is on the stage, px. */
   project(x: number, y: number, z = 0) {
-    const v = new THREE.Vector3(x, y, z).project(this.camera), box = this.renderer.domElement.getBoundingClientRect();
+    const v = new THREE.Vector3(x, y, z).project(this.camera),
+      box = this.renderer.domElement.getBoundingClientRect();
     return { x: box.left + ((v.x + 1) / 2) * box.width, y: box.top + ((1 - v.y) / 2) * box.height };
   }
 
@@ -449,7 +577,13 @@ export class Scene {
   private ray(event: { clientX: number; clientY: number }) {
     const box = this.renderer.domElement.getBoundingClientRect();
     const caster = new THREE.Raycaster();
-    caster.setFromCamera(new THREE.Vector2(((event.clientX - box.left) / box.width) * 2 - 1, 1 - ((event.clientY - box.top) / box.height) * 2), this.camera);
+    caster.setFromCamera(
+      new THREE.Vector2(
+        ((event.clientX - box.left) / box.width) * 2 - 1,
+        1 - ((event.clientY - box.top) / box.height) * 2,
+      ),
+      this.camera,
+    );
     return caster;
   }
   floorPoint(event: { clientX: number; clientY: number }) {
@@ -459,11 +593,18 @@ export class Scene {
     const caster = this.ray(event);
     const floor = this.floorPoint(event) ?? new THREE.Vector3();
     const handle = caster.intersectObjects(this.handles.children)[0];
-    if (handle) return { kind: "handle", id: this.selected, point: floor, handle: handle.object.userData.handle };
-    const hit = caster.intersectObjects([this.static_, ...this.instances], true)
+    if (handle)
+      return {
+        kind: "handle",
+        id: handle.object.userData.id ?? 0,
+        point: floor,
+        handle: handle.object.userData.handle,
+      };
+    const hit = caster
+      .intersectObjects([this.static_, ...this.instances], true)
       .find((h) => h.instanceId !== undefined || this.idOf(h.object) > 0);
     if (!hit) return { kind: "floor", id: 0, point: floor };
-    if (hit.instanceId !== undefined) return { kind: "robot", id: this.world!.robots[hit.instanceId].id, point: floor };
+    if (hit.instanceId !== undefined) return { kind: "robot", id: this.robots[hit.instanceId]?.id ?? 0, point: floor };
     return { kind: "thing", id: this.idOf(hit.object), point: floor };
   }
   private idOf(object: THREE.Object3D | null): number {
@@ -472,28 +613,50 @@ export class Scene {
   }
 
   /** Instances' bounds are for picking, and change with every frame. */
-  beforePicking() { this.instances.forEach((mesh) => { mesh.boundingSphere = null; }); }
+  beforePicking() {
+    this.instances.forEach((mesh) => {
+      mesh.boundingSphere = null;
+    });
+  }
 
   // --- selection
 
-  select(id: number, handles: Handle[] = []) {
-    this.selected = id;
+  select(ids: readonly number[], handles: Handle[] = []) {
+    this.selected = ids;
     this.empty(this.outline);
     this.empty(this.handles);
-    const colour = 0xe69f00, thing = this.things.get(id), robot = this.world?.robots.find((r) => r.id === id);
-    if (robot) {
-      this.outline.add(new THREE.Mesh(new THREE.RingGeometry(robot.radius * 1.12, robot.radius * 1.3, 48), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true })));
-    } else if (thing) {
-      thing.updateMatrixWorld();
-      thing.traverse((o) => {
-        if (!(o instanceof THREE.Mesh) || o.material.transparent) return;
-        const edges = new THREE.LineSegments(new THREE.EdgesGeometry(o.geometry, 30), new THREE.LineBasicMaterial({ color: colour, depthTest: false }));
-        edges.applyMatrix4(new THREE.Matrix4().copy(thing.matrixWorld).invert().multiply(o.matrixWorld));
-        this.outline.add(edges);
-      });
+    const colour = 0xe69f00;
+    for (const id of ids) {
+      const thing = this.things.get(id),
+        robot = this.world?.robots.find((r) => r.id === id),
+        around = new THREE.Group();
+      around.userData.of = id;
+      this.outline.add(around);
+      if (robot) {
+        around.add(
+          new THREE.Mesh(
+            new THREE.RingGeometry(robot.radius * 1.12, robot.radius * 1.3, 48),
+            new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }),
+          ),
+        );
+      } else if (thing) {
+        thing.updateMatrixWorld();
+        thing.traverse((o) => {
+          if (!(o instanceof THREE.Mesh) || o.material.transparent) return;
+          const edges = new THREE.LineSegments(
+            new THREE.EdgesGeometry(o.geometry, 30),
+            new THREE.LineBasicMaterial({ color: colour, depthTest: false }),
+          );
+          edges.applyMatrix4(new THREE.Matrix4().copy(thing.matrixWorld).invert().multiply(o.matrixWorld));
+          around.add(edges);
+        });
+      }
     }
     for (const h of handles) {
-      const ball = new THREE.Mesh(new THREE.SphereGeometry(0.011, 16, 12), new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }));
+      const ball = new THREE.Mesh(
+        new THREE.SphereGeometry(0.011, 16, 12),
+        new THREE.MeshBasicMaterial({ color: colour, depthTest: false, transparent: true }),
+      );
       ball.position.set(h.x, h.y, h.z);
       ball.renderOrder = 5;
       ball.userData.handle = h;
@@ -503,14 +666,17 @@ export class Scene {
     this.draw();
   }
   private placeOutline() {
-    const robot = this.world?.robots.find((r) => r.id === this.selected), thing = this.things.get(this.selected);
-    if (robot && this.last && robot.body < this.last.bodies) this.outline.position.set(this.last.poses[4 * robot.body], this.last.poses[4 * robot.body + 1], 0.003);
-    else if (robot) this.outline.position.set(robot.position[0], robot.position[1], 0.003);
-    else if (thing) {
-      this.outline.position.copy(thing.position);
-      this.outline.rotation.copy(thing.rotation);
-      return;
+    for (const around of this.outline.children) {
+      const robot = this.world?.robots.find((r) => r.id === around.userData.of),
+        thing = this.things.get(around.userData.of),
+        poses = this.last?.poses;
+      if (robot && poses && robot.body >= 0 && robot.body < this.last!.bodies)
+        around.position.set(poses[4 * robot.body], poses[4 * robot.body + 1], 0.003);
+      else if (robot) around.position.set(robot.position[0], robot.position[1], 0.003);
+      else if (thing) {
+        around.position.copy(thing.position);
+        around.rotation.copy(thing.rotation);
+      }
     }
-    this.outline.rotation.set(0, 0, 0);
   }
 }
