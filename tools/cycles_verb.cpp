@@ -259,7 +259,7 @@ void add_cycles(CLI::App& app, int& exit_code) {
       "NAME=CYCLES: what a call of a function may take at most; exit code 1 when one takes more");
   verb->add_option(
       "--budgets", a->budgets,
-      "TOML file of what functions and interrupts may take (docs/profile.md); exit code 1 when one takes "
+      "TOML file of what functions and interrupts may take (docs/time.md); exit code 1 when one takes "
       "more");
   verb->add_option("--period", a->period_ms, "the load column assumes one call every so many ms")
       ->check(between(1e-6, 1e9))

@@ -146,7 +146,7 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(between(0, 1e7));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);
-  verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
+  verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/looking.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
   verb->add_option("--opt", a->optimisation,
                    "level for a program that is built, as run --opt; at -O0 every variable keeps its place")

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// twinpuck lab: the exercises of docs/lab.md, headless: one line each with what was measured and what is
+// twinpuck lab: the exercises of docs/start.md, headless: one line each with what was measured and what is
 // asked, for our solutions or somebody's programs; a table for a class; one run again, to be looked at.
 #include <fmt/format.h>
 
@@ -270,7 +270,7 @@ int lab(const LabArguments& given) {
 }  // namespace
 
 void add_lab(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("lab", "Run the exercises of docs/lab.md, one line each");
+  auto* verb = app.add_subcommand("lab", "Run the exercises of docs/start.md, one line each");
   auto a = std::make_shared<LabArguments>();
   LabSetting& setting = a->setting;
   verb->add_option("EXERCISE", a->ids, "such as I1 or S14; all without one");
@@ -284,7 +284,7 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->add_option("--first-seed", setting.first_seed, "their seeds are this one and the next ones")
       ->check(CLI::Range(0, 1000000000))
       ->capture_default_str();
-  verb->add_flag("--full", setting.full, "as many runs as the figures in docs/lab.md rest on");
+  verb->add_flag("--full", setting.full, "as many runs as the figures in docs/start.md rest on");
   verb->add_option("--jobs", setting.jobs, "processes that share the runs; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The table of the link's records (programs/link/messages.def) as docs/control.md has it.
+// The table of the link's records (programs/link/messages.def) as docs/connecting.md has it.
 #pragma once
 #include <string>
 
 #include "programs/link/packet.h"
 
 namespace tools {
-
-inline const char* const kTableBegins = "<!-- records: build/link_doc docs/control.md -->\n";
-inline const char* const kTableEnds = "<!-- end of the records -->\n";
 
 inline std::string link_table() {
   std::string table = "| number | record | from | members | says |\n|---|---|---|---|---|\n";
@@ -24,14 +21,6 @@ inline std::string link_table() {
              row.text + " |\n";
   }
   return table;
-}
-
-/// The page with this table between its marks; empty: it has none.
-inline std::string with_link_table(const std::string& page, const std::string& table) {
-  const std::size_t begin = page.find(kTableBegins), end = page.find(kTableEnds);
-  if (begin == std::string::npos || end == std::string::npos || end < begin) return "";
-  const std::size_t from = begin + std::string(kTableBegins).size();
-  return page.substr(0, from) + table + page.substr(end);
 }
 
 }  // namespace tools

@@ -59,7 +59,7 @@ int list(const std::string& what) {
   // tables that are the same wherever one stands
   if (what == "faults") {
     std::cout
-        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/faults.md)\n"
+        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/testing.md)\n"
         << faults::text_table();
     return kPass;
   }

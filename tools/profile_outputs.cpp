@@ -16,7 +16,7 @@ void add_profile_options(CLI::App& verb, ProfileArguments& a) {
                 "stack");
   verb.add_option("--profile-json", a.file, "the same as a JSON file");
   verb.add_option("--budgets", a.budgets,
-                  "TOML file of what functions and interrupts may take (docs/profile.md); exit code 1 when "
+                  "TOML file of what functions and interrupts may take (docs/time.md); exit code 1 when "
                   "one takes more");
 }
 

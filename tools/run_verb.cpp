@@ -345,7 +345,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("Faults");
   one_each(
       verb->add_option("--faults", a->fault_files,
-                       "a file of faults and stimuli (docs/faults.md); the run is invalid, exit 7, when one "
+                       "a file of faults and stimuli (docs/testing.md); the run is invalid, exit 7, when one "
                        "never takes effect"));
   one_each(verb->add_option("--fault", a->faults,
                             "one of them: \"KIND [PARAMETER=VALUE]... [robot=NAME] [at=TIME] [for=TIME] "
@@ -353,7 +353,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("Checks");
   verb->add_flag(
       "--strict", a->strict,
-      "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md), or "
+      "exit code 1 when board or chip have anything to say about a program (docs/controllers.md), or "
       "its data and stack do not fit the chip");
   verb->add_flag("--sanitize", a->sanitize,
                  "check every access of memory and 16-bit overflow in controllers built from source");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a run comes to: for people, and as JSON for programs (the keys are a contract, docs/design.md).
+// What a run comes to: for people, and as JSON for programs (the keys are a contract).
 #pragma once
 #include <optional>
 #include <string>
@@ -22,7 +22,7 @@ struct RobotSummary {
   double battery_v = 0, battery_used_wh = 0;
   double battery_minutes = -1;  ///< until empty at the run's mean current; negative: nothing was drawn
   std::vector<host::TrapReport> traps;
-  std::vector<board::Diagnosis> diagnoses;  ///< docs/diagnoses.md
+  std::vector<board::Diagnosis> diagnoses;  ///< docs/controllers.md
 };
 
 struct Summary {

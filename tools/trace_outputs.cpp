@@ -24,7 +24,7 @@ bool is_same(const trace::Signal& a, const trace::Signal& b) {
 void add_trace_options(CLI::App& verb, TraceArguments& a) {
   verb.option_defaults()->group("Traces");
   verb.add_option("--vcd", a.vcd,
-                  "value change dump of pins, motors, interrupts, variables (docs/traces.md)");
+                  "value change dump of pins, motors, interrupts, variables (docs/looking.md)");
   verb.add_option(
           "--vcd-signals", a.signals,
           "ROBOT:SIGNAL, several separated by commas: LED0, RA6, LATD, left_coils, T1, TX1, a variable; "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/design.md.
+// The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/start.md.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>

@@ -448,62 +448,77 @@ void check_request(const Request& request, const Json& got) {
       throw std::runtime_error(fmt::format("{}: got none, expected {}", field.name, expected(field)));
 }
 
+namespace {
+
+std::string members_said(const std::vector<Member>& members) {
+  std::string out;
+  for (const Member& m : members)
+    out += fmt::format("{}`{}`{}{}{}", out.empty() ? "" : "; ", m.name, *m.says ? " (" : "", m.says,
+                       *m.says ? ")" : "");
+  return out;
+}
+
+std::string types_said(const std::vector<Member>& members) {
+  std::string out;
+  for (const Member& m : members) out += (out.empty() ? "" : "; ") + type_of_member(m);
+  return out;
+}
+
+/// "`count` (1 to 10000, how many)", in italics if it may be left out.
+std::string field_said(const Field& field) {
+  std::string more = field.unit;
+  if (field.type == FieldType::Choice)
+    more = expected(field);
+  else if (field.least < field.most && field.most < 1e6)
+    more = fmt::format("{:g} to {:g}{}{}", field.least, field.most, *field.unit ? " " : "", field.unit);
+  if (*field.does) more += (more.empty() ? "" : ", ") + std::string(field.does);
+  const char* mark = field.needed ? "" : "*";
+  return fmt::format("{}`{}`{}{}", mark, field.name, mark, more.empty() ? "" : " (" + more + ")");
+}
+
+}  // namespace
+
 std::string protocol_tables() {
   std::string out = "| `do` | further members | the answer's | does |\n|---|---|---|---|\n";
   for (const Request& request : requests()) {
     std::string members;
-    for (const Field& field : request.fields) {
-      if (!members.empty()) members += "; ";
-      members += fmt::format("{}`{}`{}", field.needed ? "" : "*", field.name, field.needed ? "" : "*");
-      std::string more;
-      if (field.type == FieldType::Choice)
-        more = expected(field);
-      else if (field.least < field.most && field.most < 1e6)
-        more = fmt::format("{:g} to {:g}{}{}", field.least, field.most, *field.unit ? " " : "", field.unit);
-      else
-        more = field.unit;
-      if (*field.does) more += (more.empty() ? "" : ", ") + std::string(field.does);
-      if (!more.empty()) members += " (" + more + ")";
-    }
-    const char* mark = request.right == Right::Touch ? " †" : "";
-    out += fmt::format("| `{}`{} | {} | {} | {} |\n", request.name, mark, members, request.answers,
-                       request.does);
+    for (const Field& field : request.fields) members += (members.empty() ? "" : "; ") + field_said(field);
+    out += fmt::format("| `{}`{} | {} | {} | {} |\n", request.name, request.right == Right::Touch ? " †" : "",
+                       members, request.answers, request.does);
   }
   out +=
       "\nMembers in *italics* may be left out. What is marked † changes the run, is written to recordings "
-      "with its "
-      "tick, and needs a world that runs.\n\n| event | members | |\n|---|---|---|\n";
-  for (const Event& event : events()) {
-    std::string members;
-    for (const Member& m : event.members) {
-      if (!members.empty()) members += "; ";
-      members += fmt::format("`{}`{}{}{}", m.name, *m.says ? " (" : "", m.says, *m.says ? ")" : "");
-    }
-    out += fmt::format("| `{}` | {} | {} |\n", event.name, members, event.when);
-  }
+      "with "
+      "its tick, and needs a world that runs.\n\n| event | members | |\n|---|---|---|\n";
+  for (const Event& event : events())
+    out += fmt::format("| `{}` | {} | {} |\n", event.name, members_said(event.members), event.when);
+  out += "\n| object | members | |\n|---|---|---|\n";
+  for (const Shape& shape : shapes())
+    out += fmt::format("| {} | {} | {} |\n", shape.name, members_said(shape.members), shape.says);
   return out;
 }
 
 std::string protocol_types() {
   std::string out =
-      "// SPDX-License-Identifier: MIT\n// Made from the table in viewer/requests.cpp; do not edit.\n"
-      "import type { Camera, Diagnosis, PartLook, Picture, Place, Program, Schema, State, World } from "
-      "\"./shapes\";\n\n"
-      "export interface Requests {\n";
+      "// SPDX-License-Identifier: MIT\n// The protocol's types, made from the tables in viewer/requests.cpp "
+      "and "
+      "shapes.cpp by build/protocol_doc --types.\n\n";
+  for (const Shape& shape : shapes()) {
+    out += fmt::format("export interface {} {{\n", shape.name);
+    for (const Member& m : shape.members) out += "  " + type_of_member(m) + ";\n";
+    out += "}\n";
+  }
+  out += "export type Schema = Record<string, Section>;\n\nexport interface Requests {\n";
   for (const Request& request : requests()) {
     std::string members;
     for (const Field& field : request.fields)
-      members += fmt::format("{}{}{}: {}", members.empty() ? "" : "; ", field.name, field.needed ? "" : "?",
+      members += fmt::format("{}{}{}: {}", members.empty() ? " " : "; ", field.name, field.needed ? "" : "?",
                              script_type(field));
-    out += fmt::format("  {}: {{{}{}{}}};\n", request.name, members.empty() ? "" : " ", members,
-                       members.empty() ? "" : " ");
+    out += fmt::format("  {}: {{{}{}}};\n", request.name, members, members.empty() ? "" : " ");
   }
   out += "}\n\nexport interface Events {\n";
-  for (const Event& event : events()) {
-    std::string members;
-    for (const Member& m : event.members) members += (members.empty() ? "" : "; ") + type_of_member(m);
-    out += fmt::format("  {}: {{ event: \"{}\"; {} }};\n", event.name, event.name, members);
-  }
+  for (const Event& event : events())
+    out += fmt::format("  {}: {{ event: \"{}\"; {} }};\n", event.name, event.name, types_said(event.members));
   return out + "}\n";
 }
 

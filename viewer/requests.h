@@ -49,6 +49,14 @@ struct Event {
 };
 const std::vector<Event>& events();
 
+/// An object that events and answers hold.
+struct Shape {
+  const char* name;
+  const char* says;
+  std::vector<Member> members;
+};
+const std::vector<Shape>& shapes();
+
 /// Tables for docs, in Markdown.
 std::string protocol_tables();
 /// The same as types of TypeScript.

@@ -101,8 +101,8 @@ Json Session::answer(ClientId client, const Json& request) {
     std::vector<std::string> names;
     for (const Request& r : requests()) names.emplace_back(r.name);
     const std::string like = sim::did_you_mean(what, names);
-    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/control.md{}", shown(what),
-                                         like.empty() ? "" : "; did you mean " + like + "?"));
+    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/connecting.md{}",
+                                         shown(what), like.empty() ? "" : "; did you mean " + like + "?"));
   }
   check_request(*known, request);
   if (known->right != Right::Look && client != steering_)

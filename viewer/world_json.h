@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A world as the page draws it and edits it: everything that stands in it, with the number of its piece of
-// the world file. docs/control.md, "world".
+// the world file. docs/connecting.md, "world".
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

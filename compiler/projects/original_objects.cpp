@@ -26,7 +26,7 @@ struct OriginalObject {
   "e_start_agendas_processing e_end_agendas_processing e_activate_agenda e_destroy_agenda" \
   " e_set_agenda_cycle e_reset_agenda e_pause_agenda e_restart_agenda _T2Interrupt"
 
-// gctronic/e-puck-library 4cb85cb; what is later, by the copies that the survey of epuck-api.md counted
+// gctronic/e-puck-library 4cb85cb; what is later, by the copies that a survey counted
 constexpr OriginalObject kOriginals[] = {
     {"motor_led/e_init_port.c", "e_init_port", "isEpuckVersion1_3"},
     {"motor_led/e_led.c", TP_BASIC_LEDS},

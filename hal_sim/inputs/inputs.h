@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What somebody outside does to a running world: moves things, types, turns selectors, changes the furniture.
-// An input is a JSON object with the key "do"; docs/control.md lists them. Applied between ticks, each
+// An input is a JSON object with the key "do"; docs/connecting.md lists them. Applied between ticks, each
 // becomes part of the history that the digest sees. recording.h writes them down.
 #pragma once
 #include <map>

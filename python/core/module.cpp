@@ -493,6 +493,7 @@ PYBIND11_MODULE(_core, module) {
     return text;
   });
   module.def("project_root", [] { return places::share_root().string(); });
+  module.def("command_file", [] { return places::command_file().string(); });
   bind_arrays(module);
   module.def("signals", &signal_table);
   module.def("fault_kinds", [] { return faults::kind_names(); });

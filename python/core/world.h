@@ -92,7 +92,7 @@ class World {
   void finish(std::vector<std::string>& problems);
 
   // --- touching
-  /// An input of docs/control.md; throws as inputs::Inputs does.
+  /// An input of docs/connecting.md; throws as inputs::Inputs does.
   void apply(const inputs::Json& input);
   /// The run so far, for `twinpuck run --replay`.
   std::string recording() const;

@@ -302,7 +302,7 @@ class World:
         return self._add_faults("[[fault]]\n" + text)[0]
 
     def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
-        """Faults and stimuli of a file (docs/faults.md). Raises OSError, or ValueError with all that is wrong."""
+        """Faults and stimuli of a file (docs/testing.md). Raises OSError, or ValueError with all that is wrong."""
         return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"))
 
     def _add_faults(self, text: str) -> list[Fault]:

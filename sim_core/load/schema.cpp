@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table itself, section by section in the order of docs/world-format.md. Degrees and such become SI here.
+// The table itself, section by section in the order of docs/worlds.md. Degrees and such become SI here.
 // Longer than 300 lines because it is one table: every key, its limits and its meaning on neighbouring lines.
 // Sections of a room with much to say stand in a file of their own, schema_<room>.cpp.
 #include "sim_core/load/schema.h"
@@ -263,7 +263,7 @@ std::vector<SectionSpec> make_schema() {
            })},
           {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic|planar", "\"dynamic\"",
            "dynamic: traction, slip, pushing, falling; kinematic: no forces, robots stop at contacts; "
-           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights (engines.md)",
+           "planar: two dimensions, wheels never slip, movable objects are pushed, no heights (worlds.md)",
            into<W>([](W& w, const Value& v) {
              w.engine = v.text == "dynamic"     ? Engine::Dynamic
                         : v.text == "kinematic" ? Engine::Kinematic
@@ -476,7 +476,7 @@ std::vector<SectionSpec> make_schema() {
            "in quotes; firmware has none",
            into<R>([](R& r, const Value& v) { r.args = v.text; })},
           {"supervisor", ValueType::Flag, "", 0, 0, "", "false",
-           "its controller, which runs on the PC, may do what supervisors may (docs/supervisor.md)",
+           "its controller, which runs on the PC, may do what supervisors may (docs/connecting.md)",
            into<R>([](R& r, const Value& v) { r.supervisor = v.flag; })},
           custom_data_key<R>(),
           {"position", ValueType::Pair, "m", -kFar, kFar, "", "[0, 0]",

@@ -8,7 +8,7 @@ SectionSpec supervisor_section() {
   using S = SupervisorDesc;
   return {"supervisor",
           true,
-          "A program of the PC that watches and changes the world between ticks (docs/supervisor.md). "
+          "A program of the PC that watches and changes the world between ticks (docs/connecting.md). "
           "Several run "
           "in the order of the file.",
           {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The lab, docs/lab.md, done wholly in the page.
+// The lab, docs/start.md, done wholly in the page.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import fs from "node:fs";
@@ -16,7 +16,7 @@ async function saveAsIn(page, name) {
 }
 
 export const tests = {
-  // docs/lab.md, "In the page": I1, S2, S4 and S5
+  // docs/start.md, "In the page": I1, S2, S4 and S5
   async the_labs_items_are_done_wholly_in_the_page(browser, live) {
     const [v, page] = await start(browser, live, fs.readFileSync(path.join(root, "worlds/epuck.toml"), "utf8"), {}, ["--fw", "obstacle"]);
     const things = () => ask(page, "(app) => app.world.things.length");

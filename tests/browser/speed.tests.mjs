@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Figures of docs/performance.md.
+// Figures of docs/dev/performance.md.
 import assert from "node:assert/strict";
 import { ask, until } from "./harness.mjs";
 import { program, swarm, start } from "./worlds.mjs";
@@ -37,7 +37,7 @@ export const tests = {
     assert.ok(middle > 0.3);  // a busy machine has no processor left for the page
   },
 
-  // figures of docs/performance.md; bars are loose, since the machine may be busy
+  // figures of docs/dev/performance.md; bars are loose, since the machine may be busy
   async frames_and_the_work_for_them(browser, live) {
     for (const [n, perSecond, bar] of [[10, 60, 4], [1000, 20, 15]]) {
       const [, page] = await start(browser, live, swarm(n), { drive: program(100) });

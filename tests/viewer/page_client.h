@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page without a browser: speaks HTTP and the protocol of docs/control.md to a live view in this process.
+// A page without a browser: speaks HTTP and the protocol of docs/connecting.md to a live view of this PC.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -139,7 +139,7 @@ TEST_F(Session, only_one_page_steers) {
   second.good({{"do", "step"}});
 }
 
-// docs/control.md's example, 40 lines of another language
+// docs/connecting.md's example, 40 lines of another language
 TEST_F(Session, the_example_client_drives_it) {
   open("world.toml");
   const std::string command =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's end of docs/control.md: one WebSocket, requests with answers, events.
+// The page's end of docs/connecting.md: one WebSocket, requests with answers, events.
 import { readFrame } from "./protocol";
 import type { Frame } from "./protocol";
 

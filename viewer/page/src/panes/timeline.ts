@@ -45,7 +45,7 @@ export class TimeLine {
     id: "signals",
     "aria-label": "Signals to show",
     placeholder: "LED0, RA6, left_coils, TX1, T2, a variable; empty: the usual",
-    title: "Signals to show; names of docs/traces.md. Enter takes them",
+    title: "Signals to show; names of docs/looking.md. Enter takes them",
     onchange: () => this.ask(),
   }) as HTMLInputElement;
   private robot = "";
