@@ -13,8 +13,8 @@ namespace tools {
 /// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
 CLI::Validator between(double least, double most);
 
-/// The world file that a name means: a path, or as `make run` has it, maze for worlds/maze.toml. Empty, with
-/// a line in `problems`, when there is none.
+/// The world file that a name means (twin/world_file.h), told when it could mean another one. Empty, with a
+/// line in `problems`, when there is none.
 std::string find_world(const std::string& name, std::vector<std::string>& problems);
 
 /// That world, read and checked; none, with lines in `problems`, when there is no such file or it has

@@ -31,9 +31,9 @@ class ReplayLooker final : public TrialOnlooker {
     outputs_wanted_.report = a.report;
     outputs_wanted_.pictures.picture = a.picture;
   }
-  bool open(twin::Twin& twin, programs::Team& team, std::vector<std::string>& problems) override {
-    twin_ = &twin;
-    outputs_ = std::make_unique<RunOutputs>(outputs_wanted_, twin, &team);
+  bool open(runs::Run& run, std::vector<std::string>& problems) override {
+    twin_ = &run.twin();
+    outputs_ = std::make_unique<RunOutputs>(outputs_wanted_, run);
     was_opened = outputs_->open(problems);
     if (!was_opened) outputs_.reset();  // they look at the twin, which goes
     return was_opened;

@@ -6,10 +6,8 @@
 #include <ctime>
 #include <filesystem>
 
-#include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 #include "install/places.h"
-#include "programs/team/team.h"
 #include "sim_core/light/proximity.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/random/counter_random.h"
@@ -276,25 +274,24 @@ TrialEnd run_trial(const Trial& trial, TrialOnlooker* onlooker) {
     return result;
   }
   twin::Options options;
-  options.world_folder = std::filesystem::path(file).parent_path().string();
   options.hal = trial.hal;
   if (!trial.image.empty()) options.firmware = {{"*", trial.image}};
-  auto twin = twin::Twin::open(std::move(world), options, problems);
-  if (!twin) return result;
   std::vector<std::string> supervisors;
   if (!step.supervisor.empty()) supervisors.push_back(step.supervisor);
-  const auto team = programs::Team::open(*twin, options, supervisors, problems);
-  if (!team || (onlooker && !onlooker->open(*twin, *team, problems))) return result;
+  const auto opened = runs::Run::open(std::move(world), options, supervisors, problems);
+  if (!opened || (onlooker && !onlooker->open(*opened, problems))) return result;
+  twin::Twin& twin = opened->twin();
+  programs::Team& team = opened->team();
   // "NAME TIME s: TEXT"
-  team->say = [&result](const std::string& line) {
+  team.say = [&result](const std::string& line) {
     const auto colon = line.find(": ");
     result.said = line.substr(colon == std::string::npos ? 0 : colon + 2);
   };
-  run(*twin, *team, trial, result.measures, onlooker);
-  result.digest = twin->simulation().digest();
-  result.ran = twin->traps().empty() && team->outcome().code == 0;
-  if (team->outcome().code != 0) problems.push_back(file + ": supervisor: " + team->outcome().text);
-  for (const auto& trap : twin->traps()) problems.push_back(to_text(trap));
+  run(twin, team, trial, result.measures, onlooker);
+  result.digest = twin.simulation().digest();
+  result.ran = twin.traps().empty() && team.outcome().code == 0;
+  if (team.outcome().code != 0) problems.push_back(file + ": supervisor: " + team.outcome().text);
+  for (const auto& trap : twin.traps()) problems.push_back(to_text(trap));
   if (onlooker) onlooker->finish(problems);
   return result;
 }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hal_sim/runs/run.h"
 #include "tools/lab_table.h"
 
 namespace twin {
@@ -43,7 +44,7 @@ class TrialOnlooker {
  public:
   virtual ~TrialOnlooker() = default;
   /// False, with lines in `problems`: the trial does not run.
-  virtual bool open(twin::Twin& twin, programs::Team& team, std::vector<std::string>& problems) = 0;
+  virtual bool open(runs::Run& run, std::vector<std::string>& problems) = 0;
   virtual void before_run() = 0;
   virtual void after_tick() = 0;
   virtual void finish(std::vector<std::string>& problems) = 0;

@@ -55,12 +55,12 @@ void add_output_options(CLI::App& verb, OutputArguments& a) {
   add_trace_options(verb, a.traces);
 }
 
-RunOutputs::RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const programs::Team* team)
+RunOutputs::RunOutputs(const OutputArguments& arguments, runs::Run& run)
     : arguments_(arguments),
-      twin_(twin),
-      team_(team),
-      pictures_(arguments.pictures, twin),
-      traces_(arguments.traces, twin) {}
+      run_(run),
+      twin_(run.twin()),
+      pictures_(arguments.pictures, twin_),
+      traces_(arguments.traces, twin_) {}
 RunOutputs::~RunOutputs() = default;
 
 bool RunOutputs::open(std::vector<std::string>& problems) {
@@ -80,11 +80,8 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
   if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
   // counts are added to those of earlier runs
-  if (!a.coverage.empty()) coverage_ = twin::CoverageRun::open(twin_, a.coverage, problems);
-  if (coverage_) {
-    std::ofstream out(a.coverage, std::ios::app);
-    if (!out) problems.push_back(a.coverage + ": --coverage: cannot be written: " + std::strerror(errno));
-  }
+  if (run_.coverage() && !std::ofstream(a.coverage, std::ios::app))
+    problems.push_back(a.coverage + ": --coverage: cannot be written: " + std::strerror(errno));
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);
@@ -108,18 +105,17 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
 }
 
 void RunOutputs::before_run() {
-  if (team_) pictures_.set_labels([this] { return team_->labels(); });
+  pictures_.set_labels([this] { return run_.team().labels(); });
   sample();
   pictures_.before_run();
 }
 
 void RunOutputs::after_tick() {
-  if (team_)
-    for (int robot : team_->moved_robots()) pictures_.lift_pen(robot);
+  for (int robot : run_.team().moved_robots()) pictures_.lift_pen(robot);
   sample();
   pictures_.after_tick();
   traces_.after_tick();
-  if (coverage_) coverage_->look();
+  if (auto* coverage = run_.coverage()) coverage->look();
 }
 
 bool RunOutputs::wants_ticks() const {
@@ -160,7 +156,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
     problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
-  if (coverage_) coverage_->finish(problems);
+  if (auto* coverage = run_.coverage()) coverage->finish(problems);
   for (int r = 0; r < twin_.robots(); ++r)
     for (int port = 1; port <= 2; ++port)
       if (const auto* end = twin_.mind(r).board().uart(port).end(); end && !end->error().empty())

@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/twin/coverage_run.h"
-#include "hal_sim/twin/twin.h"
-#include "programs/team/team.h"
+#include "hal_sim/runs/run.h"
 #include "tools/picture_outputs.h"
 #include "tools/saved_images.h"
 #include "tools/sound_output.h"
@@ -36,8 +34,8 @@ void add_output_options(CLI::App& verb, OutputArguments& arguments);
 
 class RunOutputs {
  public:
-  /// `team` may be null; its labels are shown in the picture.
-  RunOutputs(const OutputArguments& arguments, twin::Twin& twin, const programs::Team* team = nullptr);
+  /// Of a run that outlives it, and that was opened with `arguments.coverage`.
+  RunOutputs(const OutputArguments& arguments, runs::Run& run);
   ~RunOutputs();
   /// Opens what can be opened; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
@@ -57,12 +55,11 @@ class RunOutputs {
   void sample();
 
   const OutputArguments arguments_;
-  twin::Twin& twin_;
-  const programs::Team* team_;
+  runs::Run& run_;
+  twin::Twin& twin_;  // the run's
   std::unique_ptr<sim::CsvRecorder> recorder_;
   std::unique_ptr<SavedImages> images_;
   std::unique_ptr<SoundOutput> sound_;
-  std::unique_ptr<twin::CoverageRun> coverage_;
   PictureOutputs pictures_;
   TraceOutputs traces_;
   std::unique_ptr<viewer::Report> report_;
