@@ -127,7 +127,8 @@ check: tool
 	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
-	@$(BUILD)/twinpuck timings --check
+	@$(NINJA) twinpuck-dev
+	@$(BUILD)/twinpuck-dev timings --check
 
 ## format: format C++ sources in place
 format:

@@ -56,6 +56,9 @@ MAY_INCLUDE = {
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
     "hal_sim/runs": ["hal_sim/", "sim_core/", "programs/team/team.h"],
+    "outputs": ["hal_sim/", "sim_core/", "dspic30/periph/vectors.h", "viewer/report.h", "install"],
+    "lab": ["hal_sim/", "sim_core/", "outputs", "compiler/cache/child_process.h", "programs/build/build.h", "install"],
+    "flash": ["dspic30"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
     "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language
     "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside

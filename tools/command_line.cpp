@@ -17,10 +17,6 @@ namespace tools {
 
 namespace fs = std::filesystem;
 
-void complain(const std::vector<std::string>& problems) {
-  for (const auto& p : problems) std::cerr << p << '\n';
-}
-
 CLI::Validator between(double least, double most) {
   return CLI::Validator(
       [least, most](std::string& text) {

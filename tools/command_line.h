@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal_sim/twin/twin.h"
+#include "outputs/complain.h"
 
 namespace tools {
 
@@ -37,7 +38,6 @@ void add_hal(CLI::App& verb, std::string& hal);
 bool split_choices(const std::vector<std::string>& words, const char* option,
                    std::vector<twin::Choice>& choices);
 
-/// Writes each problem on a line of its own to stderr.
-void complain(const std::vector<std::string>& problems);
+using outputs::complain;
 
 }  // namespace tools

@@ -15,17 +15,16 @@
 #include "hal_sim/inputs/recording.h"
 #include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
+#include "outputs/progress.h"
+#include "outputs/serial_text.h"
+#include "outputs/summary.h"
+#include "outputs/terminal_view.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
-#include "tools/profile_outputs.h"
-#include "tools/progress.h"
+#include "tools/output_options.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
-#include "tools/run_outputs.h"
-#include "tools/serial_text.h"
-#include "tools/summary.h"
-#include "tools/terminal_view.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -47,8 +46,8 @@ struct RunArguments {
   double host_limit_s = 0;
   std::string optimisation, hal;
   bool sanitize = false, quiet = false, strict = false, live = false;
-  OutputArguments outputs;
-  ProfileArguments profile;
+  outputs::OutputArguments outputs;
+  outputs::ProfileArguments profile;
 };
 
 bool parse_speed(const std::string& text, double& factor) {
@@ -126,12 +125,12 @@ class CommandRun {
   bool fits_the_chip_ = true;
   std::unique_ptr<inputs::Replay> replay_;
   std::unique_ptr<runs::Run> run_;
-  std::unique_ptr<RunOutputs> outputs_;
-  std::unique_ptr<ProfileOutputs> profile_;
-  std::unique_ptr<Progress> progress_;
-  std::unique_ptr<TerminalView> terminal_;
-  std::unique_ptr<TerminalScreen> screen_;
-  std::unique_ptr<SerialText> serial_;
+  std::unique_ptr<outputs::RunOutputs> outputs_;
+  std::unique_ptr<outputs::ProfileOutputs> profile_;
+  std::unique_ptr<outputs::Progress> progress_;
+  std::unique_ptr<outputs::TerminalView> terminal_;
+  std::unique_ptr<outputs::TerminalScreen> screen_;
+  std::unique_ptr<outputs::SerialText> serial_;
   sim::Clicks end_ = 0;
   double next_picture_s_ = 0, took_s_ = 0;
   // while programs run, the outputs are whole up to the last tick
@@ -198,9 +197,9 @@ bool CommandRun::open() {
                            replay_ ? replay_->opening.supervisors : a_.supervisors, problems_);
     if (!run_ || !add_faults(a_, run_->inputs().faults(), problems_)) return false;
     run_->team().should_give_up = [] { return end_asked() != 0; };
-    if (!a_.quiet) std::cout << programs_text(run_->twin()) << std::flush;
-    outputs_ = std::make_unique<RunOutputs>(a_.outputs, *run_);
-    profile_ = std::make_unique<ProfileOutputs>(a_.profile, run_->twin());
+    if (!a_.quiet) std::cout << outputs::programs_text(run_->twin()) << std::flush;
+    outputs_ = std::make_unique<outputs::RunOutputs>(a_.outputs, *run_);
+    profile_ = std::make_unique<outputs::ProfileOutputs>(a_.profile, run_->twin());
     return outputs_->open(problems_) && profile_->open(problems_);
   };
   if (!opens()) {
@@ -233,14 +232,14 @@ void CommandRun::say(const std::string& line) {
 void CommandRun::begin() {
   twin::Twin& twin = run_->twin();
   guard_ = std::make_unique<GracefulEnd>([this] {
-    if (a_.live) TerminalScreen::give_back();
+    if (a_.live) outputs::TerminalScreen::give_back();
     if (is_stepping_) outputs_->rescue();
   });
   end_ = replay_ && replay_->end() >= 0 ? replay_->end() : sim::from_seconds(a_.seconds);
-  progress_ = std::make_unique<Progress>(a_.seconds, a_.quiet || a_.live);
+  progress_ = std::make_unique<outputs::Progress>(a_.seconds, a_.quiet || a_.live);
   if (a_.live) {
-    terminal_ = std::make_unique<TerminalView>(twin);
-    screen_ = std::make_unique<TerminalScreen>();
+    terminal_ = std::make_unique<outputs::TerminalView>(twin);
+    screen_ = std::make_unique<outputs::TerminalScreen>();
   }
   start_ = Wall::now();
   for (int i = 0; i < twin.robots() && !a_.quiet; ++i) {
@@ -255,7 +254,7 @@ void CommandRun::begin() {
   run_->team().before_first_tick();
   is_stepping_ = false;
   outputs_->before_run();
-  serial_ = std::make_unique<SerialText>([this](const std::string& line) { say(line); });
+  serial_ = std::make_unique<outputs::SerialText>([this](const std::string& line) { say(line); });
   for (int i = 0; i < twin.robots(); ++i)
     for (int port = 1; port <= 2; ++port) {
       // a quiet run shows only what was asked for by name
@@ -324,7 +323,7 @@ int CommandRun::close() {
 
   // what the run came to, for people and in files
   serial_->finish();
-  Summary summary = summarise(twin, took_s_);
+  outputs::Summary summary = outputs::summarise(twin, took_s_);
   summary.faults = run_->inputs().faults().statuses();
   outputs_->finish(summary, problems_);
   complain(problems_);
@@ -340,12 +339,12 @@ int CommandRun::close() {
       complain({line});
     }
   const bool kept_budgets = profile_->finish(problems_);
-  for (const auto& t : summary.traps) std::cerr << to_text(t);
+  for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)
     for (const auto& d : r.diagnoses) {
       is_clean = false;
-      if (!a_.quiet || a_.strict) std::cerr << to_text(r.name, d) << '\n';
+      if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
     }
   if (end_code == kHostTime)
     complain(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table for people: twinpuck list faults, and docs/faults.md (tools/faults_doc_main.cpp writes it).
+// The table for people: twinpuck list faults, and docs/faults.md (tools/dev/pages.cpp writes it).
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -77,7 +77,7 @@ std::string text_table() {
 std::string page() {
   std::string text = R"(# Faults and stimuli
 
-<!-- Made by build/faults_doc from hal_sim/faults/kinds.cpp; do not edit. -->
+<!-- Made by `twinpuck-dev page faults` from hal_sim/faults/kinds.cpp; do not edit. -->
 
 What a bench can do to a robot, and a robot must bear: a blocked sensor, a wheel that sticks, bytes that get
 lost, a battery that sags, a shove. Each has one physical or electrical meaning in the models of board and

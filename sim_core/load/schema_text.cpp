@@ -111,7 +111,7 @@ std::string world_format_page(const std::vector<RobotModel>& models,
                               const std::vector<PartKind>& part_kinds) {
   std::string out =
       "# World files\n\n"
-      "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
+      "<!-- Made by `twinpuck-dev page world-format` from sim_core/load/schema.cpp; do not edit. -->\n\n"
       "A world is a TOML file. Lengths are metres, angles degrees, times seconds, everything else SI. x "
       "points east,\n"
       "y north, z up; headings turn counter-clockwise from x. File names are relative to the world file. A "

@@ -138,7 +138,7 @@ TEST(FaultPage, the_page_in_docs_is_the_one_the_table_makes) {
   std::ifstream in(TWINPUCK_SOURCE_DIR "/docs/faults.md", std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  EXPECT_EQ(text.str(), faults::page()) << "run build/faults_doc docs/faults.md";
+  EXPECT_EQ(text.str(), faults::page()) << "run build/twinpuck-dev page faults docs/faults.md";
 }
 
 TEST(FaultPage, every_kind_says_what_it_means) {

@@ -23,7 +23,7 @@ std::string text_of(const std::string& path) {
 TEST(Parts, the_page_in_docs_is_the_one_the_schema_makes) {
   EXPECT_EQ(text_of("docs/world-format.md"),
             sim::world_format_page(twin::robot_models(), board::part_kinds()))
-      << "run build/world_format_doc docs/world-format.md";
+      << "run build/twinpuck-dev page world-format docs/world-format.md";
 }
 
 TEST(Parts, every_kind_has_a_name_of_its_own_and_sensible_defaults) {

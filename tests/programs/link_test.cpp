@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/link_doc.h"
+#include "tools/dev/link_doc.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -117,8 +117,8 @@ TEST(Link, the_page_has_the_table) {
   std::ifstream in(std::string(TWINPUCK_SOURCE_DIR) + "/docs/control.md");
   std::ostringstream page;
   page << in.rdbuf();
-  EXPECT_EQ(tools::with_link_table(page.str(), tools::link_table()), page.str())
-      << "run build/link_doc docs/control.md";
+  EXPECT_EQ(dev::with_link_table(page.str(), dev::link_table()), page.str())
+      << "run build/twinpuck-dev page control docs/control.md";
 }
 
 }  // namespace
