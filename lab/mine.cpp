@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "hal_sim/twin/twin.h"
 #include "outputs/complain.h"
 #include "programs/build/build.h"
 

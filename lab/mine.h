@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "lab/table.h"
 
 namespace lab {

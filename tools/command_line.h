@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "outputs/complain.h"
 
 namespace tools {

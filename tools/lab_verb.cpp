@@ -9,7 +9,7 @@
 #include <iostream>
 #include <memory>
 
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
 #include "lab/class.h"
 #include "lab/class_table.h"

@@ -10,7 +10,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/faults/kinds.h"
 #include "hal_sim/signals/signals.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
