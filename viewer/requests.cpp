@@ -522,7 +522,7 @@ std::string protocol_types() {
   std::string out =
       "// SPDX-License-Identifier: MIT\n// The protocol's types, made from the tables in viewer/requests.cpp "
       "and "
-      "shapes.cpp by build/protocol_doc --types.\n\n";
+      "shapes.cpp by build/twinpuck-dev page.\n\n";
   for (const Shape& shape : shapes()) {
     out += fmt::format("export interface {} {{\n", shape.name);
     for (const Member& m : shape.members) out += "  " + type_of_member(m) + ";\n";
