@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The console: bytes to the robot and from it (issue 38, 5).
 import assert from "node:assert/strict";
-import { ask, picture, until } from "./harness.mjs";
+import { ask, blind, picture, until } from "./harness.mjs";
 import { kWorld, start } from "./worlds.mjs";
 
 // says what it gets, as two hexadecimal digits a byte
@@ -20,6 +20,7 @@ int main(void) {
     out[1] = digits[c & 15];
     out[2] = '.';
     e_send_uart1_char(out, 3);
+    while (e_uart1_sending()) ;
   }
 }
 `;
@@ -28,6 +29,7 @@ const said = (page, text) => until(page, "(app, text) => document.querySelector(
 export const tests = {
   async the_console_reads_utf_8_and_shows_other_bytes(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: echo });
+    await blind(page);
     await page.click("#play");
     await said(page, "café \\x80\\x1b");
     await picture(page, "console_bytes");
@@ -35,6 +37,7 @@ export const tests = {
 
   async bytes_are_typed(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: echo });
+    await blind(page);
     await page.click("#play");
     await said(page, "café");
     const send = async (text) => {

@@ -53,7 +53,7 @@ export const tests = {
     await page.click("#debug-reverseContinue");
     await until(page, "(app, first) => app.debug.stands && Number(app.debug.watches[0].value.split(' ')[0]) === first", first);
     await page.click("#debug-next");
-    await stands(page, lineOf("if (k > 2000)"));
+    await until(page, "(app, line) => app.debug.stands && app.debug.reason === 'step' && app.program.markedLine !== line", lineOf("rounds = rounds + 1"));
     await page.click("#debug-stepBack");
     await stands(page, lineOf("rounds = rounds + 1"));
     // a condition, by a right click

@@ -81,9 +81,15 @@ export async function drag(page, from, to, steps = 12) {
   await page.mouse.up();
 }
 
+/** The scene is not drawn: what a test looks at is elsewhere, and the processor is needed there. */
+export const blind = (page) => ask(page, "(app) => app.scene.setDrawing(false)");
 /** A picture of the page, for people: build/browser/NAME.png. */
 export async function picture(page, name) {
   fs.mkdirSync(path.join(root, "build/browser"), { recursive: true });
+  // a busy machine that draws by its processor has no time for a picture while a run goes on
+  await ask(page, "(app) => { app.scene.setDrawing(true); if (app.state.playing) app.do('pause'); }");
+  await until(page, "(app) => !app.state.playing");
+  await page.waitForTimeout(300);
   await page.screenshot({ path: path.join(root, "build/browser", `${name}.png`) });
 }
 /** Puts something between page and server: `change` gets each message of the page's and either answers it itself

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Numbers have units, and settings that the file does not have are reachable (issue 38, 6).
 import assert from "node:assert/strict";
-import { ask, picture, until } from "./harness.mjs";
+import { ask, blind, picture, until } from "./harness.mjs";
 import { kWorld, program, start } from "./worlds.mjs";
 
 export const tests = {
   async every_number_has_its_unit(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: program(400) });
+    await blind(page);
     await page.click("#play");
     await until(page, "(app) => app.frame.time > 0.5 && app.values.get('puck.speed') > 0");
     const rows = await page.$$eval(".gauge", (all) => all.map((g) => [g.querySelector(".name").textContent, g.querySelector(".number").textContent, g.querySelector(".unit").textContent]));
@@ -22,6 +23,7 @@ export const tests = {
   // I13: four rays; S14: no noise; S15: more noise. The file has no [proximity]
   async a_section_that_the_file_does_not_have_is_added_by_what_is_typed_in_it(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: program(0) });
+    await blind(page);
     await page.keyboard.press("Escape");
     const section = page.locator("details.section", { hasText: "[proximity]" });
     await section.locator("summary").first().click();

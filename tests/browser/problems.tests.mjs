@@ -81,20 +81,20 @@ int main(void) {
 
   async a_robot_that_does_not_fit_is_hatched_where_the_file_says(browser, live) {
     // in the wall, from the beginning: there is no run at all
-    const [, page] = await start(browser, live, kWorld.replace("[-0.4, 0]", "[0.30, 0.30]"), { drive: program(100) }, [], undefined, true);
+    const [, page] = await start(browser, live, kWorld.replace("[-0.4, 0]", "[0.27, 0.30]"), { drive: program(100) }, [], undefined, true);
     await page.waitForFunction(() => document.querySelectorAll("#badges button").length > 0);
     const robot = await ask(page, "(app) => { const r = app.world.robots[0]; return [r.position[0], r.position[1], r.body]; }");
-    assert.deepEqual(robot.slice(0, 2), [0.3, 0.3]);
+    assert.deepEqual(robot.slice(0, 2), [0.27, 0.3]);
     if (robot[2] !== -1) return console.log("     the server says no bodies of -1 yet");
     await page.click("#tab-problems");
     assert.doesNotMatch(await page.textContent("#pane-problems"), /Nothing is wrong/);
     await page.waitForTimeout(500);
     await picture(page, "problems_hatched");
     // it can be picked and dragged to where it fits
-    const p = await at(page, 0.3, 0.3, 0.05);
+    const p = await at(page, 0.25, 0.3, 0.05);
     await page.mouse.click(p.x, p.y);
     assert.equal(await ask(page, "(app) => app.selectedRobot()?.name ?? ''"), "puck");
-    await drag(page, [0.3, 0.3, 0.05], [-0.2, -0.2, 0.05]);
+    await drag(page, [0.25, 0.3, 0.05], [-0.2, -0.2, 0.05]);
     await until(page, "(app) => app.world.robots[0].position[0] < 0 && app.world.robots[0].body === 0");
     assert.deepEqual(page.errors, []);
   },

@@ -162,7 +162,7 @@ export const tests = {
     await page.press("#question-text", "Enter");
     await page.waitForFunction(() => document.querySelector("#file").textContent === "fresh.toml");
     assert.ok(v.read("fresh.toml").includes("[arena]"));
-    assert.match(await page.textContent("#pieces"), /choose a tool on the left/);
+    await until(page, "(app) => app.world.things.length === 0");
     assert.deepEqual(page.errors, []);
   },
 };

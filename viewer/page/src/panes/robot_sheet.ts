@@ -446,7 +446,7 @@ export class RobotSheet {
     for (const [name, g] of this.gauges) {
       const v = this.store.values.get(name);
       if (v === undefined) continue;
-      const unit = this.store.units.get(name) ?? unitOf(name);
+      const unit = this.store.units.get(name) || unitOf(name);
       g.text.textContent = format(v, unit);
       if (g.unit.textContent !== unit) g.unit.textContent = unit;
       const share = g.most > g.least ? Math.min(1, Math.max(0, (v - g.least) / (g.most - g.least))) : 0;
