@@ -136,7 +136,8 @@ check: tool
 	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
-	@$(BUILD)/twinpuck timings --check
+	@$(NINJA) twinpuck-dev
+	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
 
 ## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt

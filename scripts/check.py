@@ -63,6 +63,10 @@ MAY_INCLUDE = {
     "programs/team": ["hal_sim/", "sim_core/", "programs/", "firmware/include/webots/nodes.h"],
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
+    "hal_sim/runs": ["hal_sim/", "sim_core/", "programs/team/team.h"],
+    "outputs": ["hal_sim/", "sim_core/", "dspic30/periph/vectors.h", "viewer/report.h", "install"],
+    "lab": ["hal_sim/", "sim_core/", "outputs", "compiler/cache/child_process.h", "programs/build/build.h", "install"],
+    "flash": ["dspic30"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
     "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language
     "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, seen and touched from outside
@@ -72,7 +76,7 @@ MAY_INCLUDE = {
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "inputs": "hal_sim/inputs", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "inputs": "hal_sim/inputs", "runs": "hal_sim/runs", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],

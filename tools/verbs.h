@@ -39,7 +39,6 @@ void add_paths(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
-void add_timings(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);

@@ -21,6 +21,8 @@ struct FrameHead {
   double pace = 0;
 };
 
+/// The table above for docs, in Markdown.
+std::string frame_table();
 /// The part that all clients share: what comes behind the values.
 std::string frame_bodies(twin::Twin& twin);
 /// Rays of the proximity sensors of these robots: from, to, and 0 to 1 how much of its light comes back; -1:

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "sim_core/base/did_you_mean.h"
+#include "viewer/frame.h"
+#include "viewer/names.h"
 
 namespace viewer {
 
@@ -450,6 +452,20 @@ void check_request(const Request& request, const Json& got) {
 
 namespace {
 
+struct Op {
+  const char *name, *members, *does;
+};
+constexpr Op kOps[] = {
+    {"set", "`thing`, `values`", "keys of a piece; comments, order and the style of numbers stay"},
+    {"add", "`path`, `values`", "a piece; a section that the file has not"},
+    {"copy", "`thing`, *`values`*", "with the comment above it"},
+    {"remove", "`thing`", ""},
+    {"paste", "`text`, *`dx`*, *`dy`*", "pieces as `text_of` gives them; names that are taken become others"},
+    {"add_inner", "`thing`, `path` robot.part, `values`", "plugs in a part"},
+    {"remove_inner", "`thing`, `path`, `index`", "unplugs it"},
+    {"text", "`text`, *`base`*", "the whole file; `base` of the text that was changed"},
+};
+
 std::string members_said(const std::vector<Member>& members) {
   std::string out;
   for (const Member& m : members)
@@ -492,17 +508,21 @@ std::string protocol_tables() {
       "its tick, and needs a world that runs.\n\n| event | members | |\n|---|---|---|\n";
   for (const Event& event : events())
     out += fmt::format("| `{}` | {} | {} |\n", event.name, members_said(event.members), event.when);
-  out += "\n| object | members | |\n|---|---|---|\n";
+  out += "\n| `op` of an edit | further members | does |\n|---|---|---|\n";
+  for (const Op& op : kOps) out += fmt::format("| `{}` | {} | {} |\n", op.name, op.members, op.does);
+  out += "\nNames for `subscribe`, each behind a robot's name and a dot: ";
+  for (const std::string& name : names_of_robots()) out += "`" + name + "` ";
+  out += "`pin:D3` `reg:T2CON` `var:EXPRESSION`.\n\n| object | members | |\n|---|---|---|\n";
   for (const Shape& shape : shapes())
     out += fmt::format("| {} | {} | {} |\n", shape.name, members_said(shape.members), shape.says);
-  return out;
+  return out + "\n" + frame_table();
 }
 
 std::string protocol_types() {
   std::string out =
       "// SPDX-License-Identifier: MIT\n// The protocol's types, made from the tables in viewer/requests.cpp "
       "and "
-      "shapes.cpp by build/protocol_doc --types.\n\n";
+      "shapes.cpp by build/twinpuck-dev page.\n\n";
   for (const Shape& shape : shapes()) {
     out += fmt::format("export interface {} {{\n", shape.name);
     for (const Member& m : shape.members) out += "  " + type_of_member(m) + ";\n";

@@ -92,7 +92,7 @@ void Run::step() {
   inputs_->step();
 }
 
-void Run::apply(const Json& request) {
+void Run::apply(const Json& request, const sim::WorldDesc* world) {
   // a program that goes is looked at no more, and the one that comes is
   std::unique_ptr<TraceFeed> before;
   if (request.at("do") == "program") before = std::move(trace_);
@@ -100,12 +100,12 @@ void Run::apply(const Json& request) {
   const int robot = traced ? before->robot() : 0;
   const auto signals = traced ? before->asked() : std::vector<std::string>();
   before.reset();
-  inputs_->apply(request);
+  inputs_->apply(request, world);
   if (traced) trace(robot, signals);
 }
 
-void Run::input(const Json& request) {
-  apply(request);
+void Run::input(const Json& request, const sim::WorldDesc* world) {
+  apply(request, world);
   Json noted = request;
   noted["at"] = now();
   script_.insert(script_.begin() + static_cast<std::ptrdiff_t>(next_++), noted);

@@ -59,7 +59,8 @@ class Run {
   void step();
 
   /// Does it, and writes it down. Throws std::runtime_error where it cannot be done; nothing is done then.
-  void input(const Json& request);
+  /// `world`: what the text of a "world" says; null: it is read.
+  void input(const Json& request, const sim::WorldDesc* world = nullptr);
   /// The same at the next tick; what was done later than now, in a time that the debugger went back from, has
   /// not been.
   void input_later(const Json& request);
@@ -80,7 +81,7 @@ class Run {
 
  private:
   void listen();
-  void apply(const Json& request);
+  void apply(const Json& request, const sim::WorldDesc* world = nullptr);
 
   std::vector<Json> script_;
   std::size_t next_ = 0;  // of the script, to be done

@@ -258,11 +258,11 @@ void Session::after_ticks() {
   }
 }
 
-void Session::input(const Json& request) {
+void Session::input(const Json& request, const sim::WorldDesc* world) {
   if (debugging_)
     run_->input_later(request);
   else
-    run_->input(request);
+    run_->input(request, world);
 }
 
 // --- debugging
@@ -378,7 +378,7 @@ void Session::document_changed(const LiveEdit& edit) {
       before.push_back(
           was == movable_.end() ? -1 : run_->twin().robots() + static_cast<int>(was - movable_.begin()));
     }
-    input({{"do", "world"}, {"text", text.text()}, {"before", before}});
+    input({{"do", "world"}, {"text", text.text()}, {"before", before}}, &*document_.loaded().world);
     for (const Json& request : edit.inputs) input(request);
     for (const auto& [robot, name] : edit.firmware) choose_program(robot, name);
     movable_ = ids;

@@ -112,7 +112,7 @@ class Session {
   bool step_interrupt(int robot);
   void after_ticks();
   void repeat_until(sim::Clicks end);
-  void input(const Json& request);
+  void input(const Json& request, const sim::WorldDesc* world = nullptr);
   void debug_robot(int robot);
   void debug_no_more();
   void debugger_ticked();

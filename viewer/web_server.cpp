@@ -27,7 +27,7 @@ constexpr std::size_t kMostClients = 32;
 constexpr std::size_t kMostStrangers = 24;
 constexpr auto kLongestStrange = std::chrono::seconds(1);
 constexpr const char* kThreads = "80";  // one a connection: clients, strangers, and what browsers open beside
-constexpr int kMostFiles = 4096;        // open ones, among which a connection's is looked for
+constexpr int kMostOpen = 4096;         // open files, among which a connection's is looked for
 
 /// Hangs up on the connection from this port of this machine to that one, if it is still there.
 void hang_up(int their_port, int our_port) {
@@ -37,7 +37,7 @@ void hang_up(int their_port, int our_port) {
     const bool is_there = name(file, reinterpret_cast<sockaddr*>(&address), &size) == 0;
     return is_there && address.sin_family == AF_INET ? ntohs(address.sin_port) : -1;
   };
-  for (int file = 3; file < kMostFiles; ++file)
+  for (int file = 3; file < kMostOpen; ++file)
     if (port_of(::getpeername, file) == their_port && port_of(::getsockname, file) == our_port)
       ::shutdown(file, SHUT_RDWR);
 }

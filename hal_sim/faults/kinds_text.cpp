@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The table for people: twinpuck list faults, and the tables in docs/testing.md (tools/faults_doc_main.cpp).
+// The table for people: twinpuck list faults, and the tables in docs/testing.md (tools/dev/pages.cpp).
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -116,11 +116,15 @@ TypedLine& Inputs::line(int robot, int port) {
   return *line;
 }
 
-void Inputs::apply(const Json& input) {
+void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
   const auto what = input.at("do").get<std::string>();
   sim::Simulation& simulation = twin_.simulation();
   if (what == "world") {
-    sim::LoadedWorld loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
+    sim::LoadedWorld loaded;
+    if (parsed)
+      loaded.world = *parsed;
+    else
+      loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
     if (!loaded.world) refuse_input(loaded.report("world"));
     if (loaded.world->robots.size() != twin_.world().robots.size() ||
         loaded.world->physics_hz != twin_.world().physics_hz)

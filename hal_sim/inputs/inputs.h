@@ -27,7 +27,8 @@ class Inputs {
   ~Inputs();
   /// Does it; throws std::runtime_error that says what is wrong, "got ..., expected ...", when nothing was
   /// done. Json's own exceptions pass: a member is missing or of another type.
-  void apply(const Json& input);
+  /// `parsed`: what the text of a "world" says, for who knows it already; null: it is read.
+  void apply(const Json& input, const sim::WorldDesc* parsed = nullptr);
   /// Is it one of these? Other requests do not change the world.
   static bool is_input(const std::string& what);
   /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its advance(), or by

@@ -492,6 +492,12 @@ PYBIND11_MODULE(_core, module) {
     if (!wrong.empty()) throw std::invalid_argument(path + ": " + wrong);
     return text;
   });
+  module.def("find_world", [](const std::string& name) {
+    std::vector<std::string> problems;
+    const twin::FoundWorld found = twin::find_world(name, problems);
+    if (!problems.empty()) throw std::invalid_argument(joined(problems));
+    return found.file;
+  });
   module.def("project_root", [] { return places::share_root().string(); });
   module.def("command_file", [] { return places::command_file().string(); });
   bind_arrays(module);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // [[supervisor]]: programs attached to the world.
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
 

@@ -7,7 +7,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
 #include "tests/support/firmware_test.h"
-#include "tools/doc_part.h"
+#include "tools/dev/doc_part.h"
 #include "twinpuck_paths.h"
 
 using namespace firmware_test;
@@ -23,9 +23,9 @@ std::string text_of(const std::string& path) {
 
 TEST(Parts, the_page_in_docs_is_the_one_the_schema_makes) {
   const std::string page = text_of("docs/worlds.md");
-  EXPECT_EQ(page, tools::with_doc_part(page, "world keys",
-                                       sim::world_format_page(twin::robot_models(), board::part_kinds())))
-      << "run build/world_format_doc docs/worlds.md";
+  EXPECT_EQ(page, dev::with_doc_part(page, "world keys",
+                                     sim::world_format_page(twin::robot_models(), board::part_kinds())))
+      << "run build/twinpuck-dev page docs/worlds.md";
 }
 
 TEST(Parts, every_kind_has_a_name_of_its_own_and_sensible_defaults) {

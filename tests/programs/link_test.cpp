@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/doc_part.h"
-#include "tools/link_doc.h"
+#include "tools/dev/doc_part.h"
+#include "tools/dev/link_doc.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -118,8 +118,8 @@ TEST(Link, the_page_has_the_table) {
   std::ifstream in(std::string(TWINPUCK_SOURCE_DIR) + "/docs/connecting.md");
   std::ostringstream page;
   page << in.rdbuf();
-  EXPECT_EQ(tools::with_doc_part(page.str(), "records", tools::link_table()), page.str())
-      << "run build/link_doc docs/connecting.md";
+  EXPECT_EQ(dev::with_doc_part(page.str(), "records", dev::link_table()), page.str())
+      << "run build/twinpuck-dev page docs/connecting.md";
 }
 
 }  // namespace

@@ -49,7 +49,7 @@ def test_file_text_and_dict_are_one_world(tmp_path, programs):
 
 
 @pytest.mark.parametrize("source, options, said", [
-    ("mase", {}, "mase: world: got no such file, expected a .toml file or the name of one in worlds/; did you mean 'maze'?"),
+    ("mase", {}, "mase: world: got a name that is neither a file, with or without .toml, nor one of worlds/; did you mean 'maze'?"),
     ({**ARENA, "robots": []}, {}, "did you mean 'robot'?"),
     ({"arena": {"size": [1, -1]}}, {}, "arena.size"),
     ({**ARENA, "robot": [{"name": "puck", "firmware": "obstcle", "position": [0, 0]}]}, {}, "did you mean 'obstacle'?"),

@@ -19,13 +19,7 @@
 #include <vector>
 
 #include "hal_sim/chip/call_cost.h"
-#include "hal_sim/twin/coverage_run.h"
-#include "hal_sim/twin/twin.h"
-#include "programs/team/team.h"
-
-namespace faults {
-class Injector;
-}
+#include "hal_sim/runs/run.h"
 
 namespace firmware_test {
 
@@ -182,10 +176,8 @@ class FirmwareTest : public ::testing::Test {
   void step();
 
   std::vector<std::unique_ptr<Robot>> robots_;
-  std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<programs::Team> team_;
-  std::unique_ptr<faults::Injector> faults_;
-  std::unique_ptr<twin::CoverageRun> coverage_;
+  std::unique_ptr<runs::Run> run_;
+  twin::Twin* twin_ = nullptr;  // the run's
 };
 
 }  // namespace firmware_test

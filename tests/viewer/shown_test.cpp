@@ -2,7 +2,7 @@
 // What pages are told is so: times of steps, problems of worlds and programs, robots that do not fit,
 // requests that are wrong.
 #include "tests/viewer/driven_world.h"
-#include "tools/doc_part.h"
+#include "tools/dev/doc_part.h"
 #include "twinpuck_paths.h"
 #include "viewer/programs.h"
 #include "viewer/requests.h"
@@ -100,10 +100,10 @@ std::string text_of(const std::string& file) {
 
 TEST(Requests, are_in_docs_and_in_the_page_as_they_are) {
   const std::string page = text_of("/docs/connecting.md");
-  EXPECT_EQ(tools::with_doc_part(page, "requests", viewer::protocol_tables()), page)
-      << "build/protocol_doc docs/connecting.md";
+  EXPECT_EQ(dev::with_doc_part(page, "requests", viewer::protocol_tables()), page)
+      << "run build/twinpuck-dev page docs/connecting.md";
   EXPECT_EQ(text_of("/viewer/page/src/protocol_types.ts"), viewer::protocol_types())
-      << "build/protocol_doc --types >viewer/page/src/protocol_types.ts";
+      << "run build/twinpuck-dev page viewer/page/src/protocol_types.ts";
 }
 
 struct Wrong {
