@@ -37,6 +37,24 @@ class Inputs {
   void step();
 
  private:
+  struct Kind;
+  static const std::vector<Kind>& kinds();
+  // to the world
+  void refurnish(const Json& input);
+  void flash(const Json& input);
+  void move(const Json& input);
+  void add_faults(const Json& input);
+  void end_fault(const Json& input);
+  void set_lamp(const Json& input);
+  // to a robot
+  void set_sensor(const Json& input, int robot);
+  void turn_selector(const Json& input, int robot);
+  void set_battery(const Json& input, int robot);
+  void type(const Json& input, int robot);
+  void press_key(const Json& input, int robot);
+  void restart(const Json& input, int robot);
+  void set_variable(const Json& input, int robot);
+  void write_memory(const Json& input, int robot);
   int robot_of(const Json& input) const;
   host::Runner& program_of(const Json& input, int robot);
   TypedLine& line(int robot, int port);
