@@ -193,17 +193,11 @@ void Inputs::set_lamp(const Json& input) {
 }
 
 void Inputs::set_variable(const Json& input, int robot) {
-  host::Runner& program = program_of(input, robot);
-  const auto expression = input.at("variable").get<std::string>();
+  host::ProgramData& data = program_of(input, robot).data();
   std::string error;
-  const host::Variable* v = program.find_variable(expression, error);
+  const host::Variable* v = data.find_number(input.at("variable").get<std::string>(), error);
   if (!v) refuse_input(error);
-  if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
-    refuse_input(fmt::format("variable: got '{}', expected a number; name a member or element", expression));
-  char bytes[8] = {};
-  program.read_memory(v->address, bytes, v->bytes);
-  host::set_variable_value(*v, bytes, input.at("value").get<double>());
-  program.write_memory(v->address, bytes, v->bytes);
+  data.set_number(*v, input.at("value").get<double>());
 }
 
 void Inputs::write_memory(const Json& input, int robot) {
@@ -211,6 +205,7 @@ void Inputs::write_memory(const Json& input, int robot) {
   const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
   const auto value = input.at("value").get<std::uint64_t>();
   program_of(input, robot)
+      .data()
       .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
 }
 

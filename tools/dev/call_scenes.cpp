@@ -377,7 +377,7 @@ std::vector<Taken> run_scenes(const std::string& level, int selector, std::vecto
   chip::ChipRunner& runner = *outputs::chip_runner(*twin, 0);
   Watch watch(runner);
   runner.watch_steps(&watch, true);
-  while (runner.read_variable("done", 2)[0] == 0) {
+  while (runner.data().read_variable("done", 2)[0] == 0) {
     if (sim::to_seconds(twin->simulation().now()) > kMostS) {
       problems.push_back(fmt::format("timings: the program of calls did not end in {} s", kMostS));
       return {};

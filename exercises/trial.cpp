@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/trial.h"
+#include "exercises/trial.h"
 
 #include <algorithm>
 #include <cmath>
