@@ -15,8 +15,8 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page view test-view dspic check format bench asan tsan fuzz second routines levels students clean \
-  product install deb
+.PHONY: help setup tool build dev run test page view test-view dspic check alone format bench asan tsan fuzz second routines levels turn students \
+  clean product install deb
 
 ## help: this list
 help:
@@ -44,6 +44,14 @@ tool: setup
 build: setup
 	$(call configure,$(BUILD),)
 	@$(NINJA)
+
+# for work on it: each file by itself, so a touched one is all that is compiled; debug information
+DEV := -DCMAKE_UNITY_BUILD=OFF -DTWINPUCK_OPTIMISE="-Og -g"
+
+## dev: the command with debug information, built file by file, in build-dev/; T=test_program builds that as well
+dev: setup
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@python3 scripts/progress.py $(BUILD)-dev $(JOBS) twinpuck $(T)
 
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
 run: tool $(if $(findstring --report,$(ARGS)),page)
@@ -117,7 +125,7 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of the code: includes, sources of numbers, formatting, contract, timings
+## check: rules of the code: includes, sources of numbers, formatting, contract, timings; clang-tidy on what changed
 check: tool
 	@scripts/setup.sh check
 	@scripts/check.py
@@ -129,6 +137,13 @@ check: tool
 	@scripts/instruction_coverage.py --check
 	@$(NINJA) twinpuck-dev
 	@$(BUILD)/twinpuck-dev timings --check
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@scripts/each_file.py $(BUILD)-dev tidy
+
+## alone: every source compiled by itself, without a result: each includes what it uses
+alone: setup
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@scripts/each_file.py $(BUILD)-dev alone
 
 ## format: format C++ sources in place
 format:
@@ -154,19 +169,23 @@ asan: setup
 ## tsan: the simulator's tests under the thread sanitizer
 tsan: setup
 	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
-	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(SANITIZED)
+	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(or $(TSAN),$(SANITIZED))
 
 ## fuzz: ten minutes of broken input of each kind (FUZZ_SECONDS=600, FUZZ_KINDS="world wbt ...")
 fuzz: setup
 	@scripts/setup.sh fuzz
 	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON \
 	  -DTWINPUCK_OPTIMISE="-O1 -g1" >/dev/null
-	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzzers
+	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) $(or $(addprefix fuzz_,$(FUZZ_KINDS)),fuzzers)
 	@scripts/fuzz.sh $(BUILD)-fuzz $(ARGS)
 
 ## levels: digests with the simulator at -O0 and -O2 must agree
 levels: tool
 	@scripts/digest_levels.sh $(BUILD)
+
+## turn: one of the long checks (tsan, levels, a minute of three fuzz targets), by the number of commits
+turn: tool
+	@scripts/in_turn.sh
 
 ## students: the students' edition, without the lab's solutions: build/twinpuck-students.tar.gz
 students:
@@ -174,4 +193,4 @@ students:
 
 ## clean: remove everything that was built
 clean:
-	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0
+	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0 $(BUILD)-dev
