@@ -155,7 +155,7 @@ void Walk::visit(const Node& n, const Affine& frame, int depth) {
     b.untouched = true;
     gather(n, frame, depth, b.pieces, nullptr, false);
     add_body(std::move(b));
-  } else if (known_proto(n, frame, depth)) {
+  } else if (known_proto(n, frame)) {
   } else if (const NodePtr body = unfolded(n)) {
     kept_.push_back(body);
     visit(*body, frame, depth + 1);

@@ -46,7 +46,7 @@ void Walk::known_fields(const Node& n, const std::set<std::string>& carried) {
   }
 }
 
-bool Walk::known_proto(const Node& n, const Affine& frame, int depth) {
+bool Walk::known_proto(const Node& n, const Affine& frame) {
   const std::string& t = n.type;
   if (t == "RectangleArena") return arena(n, inside(n, frame)), true;
   if (t == "CircleArena") return circle_arena(n, inside(n, frame)), true;

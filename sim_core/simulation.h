@@ -46,8 +46,6 @@ class Simulation {
   const SoundField& sound() const { return *sound_; }
   int robots() const { return scene_->robots(); }
   const Minds& minds() const { return minds_; }
-  RobotMind& mind(int robot) { return *minds_[static_cast<std::size_t>(robot)]; }
-  const RobotMind& mind(int robot) const { return *minds_[static_cast<std::size_t>(robot)]; }
 
   /// Where a robot or a movable object is (robots come first).
   Pose2 pose(int body) const { return scene_->pose(body, now()); }

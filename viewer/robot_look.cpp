@@ -30,7 +30,7 @@ Json RobotLook::take() {
   const host::FirmwareMind& mind = std::as_const(twin_).mind(robot_);
   Json look{{"event", "look"}, {"robot", twin_.world().robots[static_cast<std::size_t>(robot_)].name}};
   if (const host::Runner* program = mind.runner()) {
-    const host::Place place = program->place_now();
+    const host::Place place = program->data().place_now();
     look["place"] = {{"function", place.function}, {"file", place.file}, {"line", place.line}};
     look["hal"] = twin_.hal(robot_);
   }

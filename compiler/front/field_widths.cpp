@@ -342,7 +342,6 @@ class FieldWidths {
 
   // --- widths
 
-  static constexpr unsigned kLongLongBits = 64;
   MaybeWidth width_of_field(const Expr* lvalue) const {
     const FieldDecl* field = const_cast<Expr*>(lvalue)->getSourceBitField();
     if (!field) return llvm::None;

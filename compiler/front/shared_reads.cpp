@@ -70,7 +70,7 @@ class FactWriter {
     return (g.hasLocalLinkage() ? "." : "") + name.str();
   }
   std::string node_of(const Instruction& i) const {
-    const std::string number = "%" + std::to_string(numbers_.lookup(&i));
+    std::string number = "%" + std::to_string(numbers_.lookup(&i));
     if (!isa<AllocaInst>(i)) return number;
     const auto declared = FindDbgAddrUses(const_cast<Instruction*>(&i));
     return "&" + number + "." + (declared.empty() ? "" : declared.front()->getVariable()->getName().str());
@@ -105,7 +105,7 @@ class FactWriter {
     const auto found = nodes(v);
     if (found.empty()) return "-";
     if (found.size() == 1) return *found.begin();
-    const std::string made = "%c" + std::to_string(made_++);
+    std::string made = "%c" + std::to_string(made_++);
     for (const std::string& n : found) out_ << "C " << made << " " << n << "\n";
     return made;
   }

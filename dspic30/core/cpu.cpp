@@ -187,7 +187,7 @@ unsigned Cpu::address_of_any(const Decoded* d) const {
   return index < kFlashWords ? 2 * index : bad_address_;
 }
 
-const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
+const Decoded* Cpu::jump(unsigned address, const Decoded* /*from*/) {
   if (address < kFlashEnd) return arrive(code_ + address / 2);
   // nobody gets to a function there but by the linker's handle
   if (address == kHostHandlerReturn && host_handlers > 0) {

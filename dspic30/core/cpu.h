@@ -58,7 +58,7 @@ class Translator {
   /// noted it as warm.
   virtual Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) = 0;
   /// It runs often, though not so often that this run would gain by a translation: the next one would.
-  virtual void note_warm(const Cpu& cpu, const Decoded* head) {}
+  virtual void note_warm(const Cpu& /*cpu*/, const Decoded* /*head*/) {}
 };
 
 // jumps within translated code are the translator's affair

@@ -104,6 +104,11 @@ class MemoryCheck {
   Value of_register(unsigned n, bool byte) const;
   Value of_memory(unsigned n) const;
   Value source(const Shape& shape, unsigned& reads) const;
+  Value second_operand(const Shape& shape) const;
+  unsigned shifted(const Shape& shape, const Value& a, const Value& b) const;
+  void copy_pair(const Shape& shape, unsigned pc);
+  void finish_bit(const Shape& shape, const Value& a, unsigned pc);
+  void multiplied(const Shape& shape, unsigned either, const Origin& origin);
   void set_register(unsigned n, unsigned bits, bool byte, const Origin& origin);
   void set_written(unsigned n, unsigned bits, unsigned pc, const Origin& origin);
   void put(const Shape& shape, const Value& value, unsigned pc);

@@ -213,7 +213,7 @@ void Adc::schedule(Cycle now) {
   f_.events.set(slot_, std::min(at, flag_at_));
 }
 
-void Adc::on_event(int id, Cycle at) {
+void Adc::on_event(int /*id*/, Cycle at) {
   const Half end = cruise_.start + cruise_.sequence;
   if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
     // one sequence as the one before: what the rest of this function and schedule() come to

@@ -34,7 +34,7 @@ void Dci::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, false);
 }
 
-void Dci::reset(Cycle now) {
+void Dci::reset(Cycle /*now*/) {
   con1_ = con2_ = con3_ = stat_ = tscon_ = rscon_ = 0;
   rx_.fill(0);
   tx_.fill(0);
@@ -109,7 +109,7 @@ void Dci::schedule() {
   f_.events.set(slot_, at);
 }
 
-void Dci::on_event(int id, Cycle at) {
+void Dci::on_event(int /*id*/, Cycle at) {
   advance(at);
   schedule();
 }

@@ -40,7 +40,7 @@ void I2c::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
 }
 
-void I2c::reset(Cycle now) {
+void I2c::reset(Cycle /*now*/) {
   con_ = kSclrel;
   slave_ = Slave::Idle;
   stat_ = brg_ = add_ = 0;
@@ -106,7 +106,7 @@ void I2c::request(std::uint16_t bits, Cycle now) {
   }
 }
 
-void I2c::on_event(int id, Cycle at) {
+void I2c::on_event(int /*id*/, Cycle at) {
   Cycle stretched = 0;
   if (!answered_) {
     answered_ = true;
@@ -175,13 +175,13 @@ void I2c::tell_alone(const char* place, Cycle now) {
 
 bool I2c::holds_clock() const { return on() && slave_ != Slave::Idle && !(con_ & kSclrel); }
 
-void I2c::hear_start(Cycle at) {
+void I2c::hear_start(Cycle /*at*/) {
   if (!on()) return;
   stat_ = static_cast<std::uint16_t>((stat_ | kS) & ~kP);
   slave_ = Slave::Addressing;
 }
 
-void I2c::hear_stop(Cycle at) {
+void I2c::hear_stop(Cycle /*at*/) {
   if (!on()) return;
   stat_ = static_cast<std::uint16_t>((stat_ | kP) & ~kS);
   slave_ = Slave::Idle;

@@ -110,7 +110,7 @@ void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
                       now);
 }
 
-void Interrupts::set_level(int level, Cycle now) {
+void Interrupts::set_level(int level, Cycle /*now*/) {
   stirred_ = true;
   if (!nesting_disabled()) level_ = level;
 }

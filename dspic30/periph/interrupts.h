@@ -26,7 +26,7 @@ class FlagListener {
   virtual ~FlagListener() = default;
   virtual void flag_cleared(int irq, Cycle now) = 0;
   /// INTCON2.INTxEP of this source was changed.
-  virtual void edge_chosen(int irq, Cycle now) {}
+  virtual void edge_chosen(int /*irq*/, Cycle /*now*/) {}
 };
 
 /// Level of trap 1 to 4 [chip C11].

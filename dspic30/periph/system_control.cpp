@@ -87,7 +87,7 @@ void SystemControl::power_save(bool sleep, Cycle now) {
   clear_watchdog(now);
 }
 
-void SystemControl::on_event(int id, Cycle at) {
+void SystemControl::on_event(int /*id*/, Cycle at) {
   if (asleep_) {
     rcon_ |= kWdto;
     woke_ = true;
@@ -105,7 +105,7 @@ void SystemControl::watch_supply(Cycle now) {
   if (limit > 0 && f_.outside.supply_v(now) < limit) f_.interrupts.raise(irq::Lvd, now + 1, false);
 }
 
-std::uint16_t SystemControl::peek(unsigned address, Cycle now) const {
+std::uint16_t SystemControl::peek(unsigned address, Cycle /*now*/) const {
   if (address == kRcon) return rcon_;
   return address == kOsccon ? osccon_ : osctun_;
 }

@@ -25,8 +25,8 @@ inline constexpr int kTimers = 5;
 class TimerListener {
  public:
   virtual ~TimerListener() = default;
-  virtual void timer_matched(int timer, Cycle at) {}
-  virtual void timer_changed(int timer, Cycle at) {}
+  virtual void timer_matched(int /*timer*/, Cycle /*at*/) {}
+  virtual void timer_changed(int /*timer*/, Cycle /*at*/) {}
 };
 
 class Timers final : public SfrOwner, public EventOwner, public FlagListener, public PinListener {

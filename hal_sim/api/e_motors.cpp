@@ -22,7 +22,7 @@ std::size_t index_of(Wheel wheel) { return wheel == Wheel::Left ? 0 : 1; }
 
 /// What setting takes. The coils go off at once; the agenda's cycle is what the function sets last, or for
 /// speed 0 all but last.
-Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at) {
+Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
   const CallCycles& c = cycles_;
   const bool left = wheel == Wheel::Left;
   Cycle cost = speed == 0                    ? (left ? c.left_zero : c.right_zero)
@@ -39,14 +39,14 @@ Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at)
 
 HostResult HostLibrary::e_set_speed_left(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(call, Wheel::Left, call.number(0), call.at);
+  const Cycle cost = set_speed(Wheel::Left, call.number(0), call.at);
   changed(call);
   return HostResult::done(cost);
 }
 
 HostResult HostLibrary::e_set_speed_right(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(call, Wheel::Right, call.number(0), call.at);
+  const Cycle cost = set_speed(Wheel::Right, call.number(0), call.at);
   changed(call);
   return HostResult::done(cost);
 }
@@ -63,8 +63,8 @@ HostResult HostLibrary::e_set_speed(const Call& call) {
                                      : (right_turn ? c.both_refused_pn : c.both_refused_pp));
   effect(call);
   Cycle cost = backward ? (right_turn ? c.both_nn : c.both_np) : (right_turn ? c.both_pn : c.both_pp);
-  cost += set_speed(call, Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
-  cost += set_speed(call, Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
+  cost += set_speed(Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
+  cost += set_speed(Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
   changed(call);
   return HostResult::done(cost);
 }

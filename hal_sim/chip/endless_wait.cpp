@@ -106,7 +106,7 @@ std::vector<std::string> variables_in(const host::Runner& program, const host::P
       std::string error;
       // images of the chip know names, but not their types
       if (std::find(found.begin(), found.end(), name) == found.end() &&
-          (program.find_variable(name, error) || !program.read_variable(name, 1).empty()))
+          (program.data().find_variable(name, error) || !program.data().read_variable(name, 1).empty()))
         found.push_back(name);
     }
     return found;

@@ -108,7 +108,7 @@ void Profile::after(const Step& step) {
   if (contexts_.size() > 1) in_handlers_ += took;
   watch_stack(step.end);
   watch_flags();
-  if (step.left) return leave_handler(step);
+  if (step.left) return leave_handler();
   if (step.pc == dspic::kHostHandlerReturn) return call_agenda(step);
   if (dspic::is_host_place(step.pc) && step.next == step.pc) {  // a function of the host that waits
     here().waited += took;
@@ -242,7 +242,7 @@ void Profile::enter_handler(const Step& step) {
   contexts_.push_back(std::move(context));
 }
 
-void Profile::leave_handler(const Step& step) {
+void Profile::leave_handler() {
   if (contexts_.size() == 1) return;
   Context& context = here();
   come_back(context, 0);

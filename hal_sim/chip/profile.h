@@ -148,7 +148,7 @@ class Profile final : public StepWatch {
   int host_function_called(unsigned pc) const;
   Context& here() { return contexts_.back(); }
   void enter_handler(const Step& step);
-  void leave_handler(const Step& step);
+  void leave_handler();
   void call(const Step& step, bool by_register);
   void call_agenda(const Step& step);
   void note_host_call(const Step& step, int function);

@@ -341,7 +341,7 @@ void AgendaTimer::begin(Cycle at) {
       floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
   if (lost > 0 && running_) {
     settle_motors(walk_tick_ - 1);
-    lose(lost, at);
+    lose(lost);
     line_.late_tick = walk_tick_;
     line_.late_cycle = at;
   }
@@ -420,7 +420,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at) {
   const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
   if (since < 1) return;
   settle_motors(done);
-  lose(since - 1, at);
+  lose(since - 1);
   line_.late_tick = done + 1;
   line_.late_cycle = at;
 }
@@ -433,7 +433,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
   const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
   if (since < 1 && !pending) return;
   settle_motors(done);
-  lose(since - (pending ? 1 : 0), at);
+  lose(since - (pending ? 1 : 0));
   if (!pending) return;
   line_.late_tick = done + 1;
   line_.late_cycle = at;
@@ -451,7 +451,7 @@ Cycle AgendaTimer::tick_after(Cycle after) const {
 }
 
 /// Ticks that never come; below 0: more than come by themselves.
-void AgendaTimer::lose(std::int64_t ticks, Cycle at) {
+void AgendaTimer::lose(std::int64_t ticks) {
   line_.origin += ticks * kAgendaTickCycles;
   for (AgendaMotor& m : motors_) m.disturb();
   if (ticks <= 0) return;

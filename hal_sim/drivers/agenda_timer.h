@@ -222,7 +222,7 @@ class AgendaTimer {
   void resume(std::int64_t done, Cycle at);
   void resume(std::int64_t done, Cycle at, bool pending);
   void abandon(Cycle at);
-  void lose(std::int64_t ticks, Cycle at);
+  void lose(std::int64_t ticks);
   void find_next_fire();
   void find_shares() const;
   std::uint64_t calling_ticks_q32() const;

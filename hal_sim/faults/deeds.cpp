@@ -293,18 +293,9 @@ std::string set_variable(const Case& c, twin::Twin& twin, bool is_tried, bool& c
   host::Runner* program = twin.mind(c.robot).runner();
   if (!program) return "variable: got a robot that runs no program";
   std::string error;
-  const host::Variable* v = program->find_variable(word(c, "variable"), error);
+  const host::Variable* v = program->data().find_number(word(c, "variable"), error);
   if (!v) return "variable: " + error;
-  if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
-    return fmt::format("variable: got '{}', expected a number; name a member or element",
-                       word(c, "variable"));
-  if (is_tried) return "";
-  char before[8] = {}, bytes[8] = {};
-  program->read_memory(v->address, before, v->bytes);
-  std::copy(std::begin(before), std::end(before), bytes);
-  host::set_variable_value(*v, bytes, number(c, "value"));
-  program->write_memory(v->address, bytes, v->bytes);
-  changed = std::memcmp(before, bytes, sizeof bytes) != 0;
+  if (!is_tried) changed = program->data().set_number(*v, number(c, "value"));
   return "";
 }
 

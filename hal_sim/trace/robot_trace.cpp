@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/memory/sfr_table.h"
 
 namespace trace {
 
@@ -68,7 +69,7 @@ void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
   // what the chip does by itself before `at` comes back in about_to_change(). No further than the window: of
   // what comes from outside later nothing is known yet
-  if (runner_ && runner_->has_chip()) runner_->carry_out(std::min(at - 1, runner_->cycles()));
+  if (runner_ && runner_->chip()) runner_->chip()->carry_out(std::min(at - 1, runner_->cycles()));
   show_until(at);
 }
 
@@ -118,7 +119,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
     case Source::Steps:
       return static_cast<std::uint64_t>(board_.steps(static_cast<board::Wheel>(source.index), at));
     case Source::Flag:
-      return runner_ && runner_->flag(source.index, at);
+      return runner_ && runner_->chip() && runner_->chip()->flag(source.index, at);
     case Source::Service:
       return std::any_of(open_.begin(), open_.end(),
                          [&](const Span& open) { return open.vector == source.index; });
@@ -131,10 +132,11 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
       return source.kind == Source::WireBusy ? busy : wire_byte_[index];
     }
     case Source::Register:
-      return runner_->peek(static_cast<unsigned>(source.index), at);
+      return runner_->chip()->peek(static_cast<unsigned>(source.index), at);
     case Source::Variable: {
       char bytes[16] = {};
-      runner_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
+      runner_->data().read_memory(source.variable.address, bytes,
+                                  std::min(source.variable.bytes, sizeof bytes));
       const double value = host::variable_value(source.variable, bytes);
       if (source.variable.kind == host::Variable::Kind::Float) return bits_of(value);
       if (source.variable.bits > 0 || source.variable.bytes > sizeof(std::uint64_t))
@@ -167,7 +169,8 @@ Cycle RobotTrace::horizon(Cycle at) {
         port('D');
         break;
       case Source::Flag:
-        if (runner_) next = std::min(next, runner_->flag_horizon(s.source.index, at));
+        if (runner_ && runner_->chip())
+          next = std::min(next, runner_->chip()->flag_horizon(s.source.index, at));
         break;
       case Source::WireByte:
       case Source::WireBusy:
@@ -181,7 +184,7 @@ Cycle RobotTrace::horizon(Cycle at) {
         break;
       case Source::Register:
         if (!runs_freely(s.source.index))
-          next = std::min(next, runner_->register_horizon(static_cast<unsigned>(s.source.index), at));
+          next = std::min(next, runner_->chip()->register_horizon(static_cast<unsigned>(s.source.index), at));
         break;
       case Source::Tris:
       case Source::Service:

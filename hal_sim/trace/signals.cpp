@@ -123,7 +123,7 @@ bool is_of_drivers(const Signal& port) {
 
 // the same bits of the chip's own register, unless the board alone knows
 void take_from_chip(Signal& port, const host::Runner& runner) {
-  if (!runner.has_chip() || (runner.closed_drivers() && is_of_drivers(port))) return;
+  if (!runner.chip() || (runner.closed_drivers() && is_of_drivers(port))) return;
   const char* kind = nullptr;
   if (port.source.kind == Source::Lat) kind = "LAT";
   if (port.source.kind == Source::Port) kind = "PORT";
@@ -166,12 +166,12 @@ bool port_signal(const std::string& name, Signal& out) {
 // a number, or the numbers of an array
 std::string add_variable(const std::string& name, const host::Runner& runner, std::vector<Signal>& out) {
   std::string error;
-  const host::Variable* v = runner.find_variable(name, error);
+  const host::Variable* v = runner.data().find_variable(name, error);
   if (!v) return error.empty() ? "got '" + name + "', expected a variable" : error;
   if (v->kind == host::Variable::Kind::Aggregate) {
     for (int i = 0; i < kMostElements; ++i) {
       const std::string element = name + "[" + std::to_string(i) + "]";
-      if (!runner.find_variable(element, error)) {
+      if (!runner.data().find_variable(element, error)) {
         if (i > 0) return "";
         return "got '" + name + "', a struct, expected one of its members";
       }
@@ -196,7 +196,7 @@ std::string add_variable(const std::string& name, const host::Runner& runner, st
 
 std::vector<Signal> find_signals(const std::string& name, const host::Runner* runner, std::string& error) {
   error.clear();
-  const bool has_chip = runner && runner->has_chip();
+  const bool has_chip = runner && runner->chip();
   for (const Named& n : kNamed)
     if (name == n.name) {
       Signal found = signal(n.group, n.name, n.source, n.index, n.shift, n.width);

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "programs/build/build.h"
-#include "sim_core/world/world_desc.h"
+
+namespace sim {
+struct WorldDesc;
+}
 
 namespace twin {
 

@@ -4,8 +4,8 @@
 #pragma once
 #include <vector>
 
+#include "sim_core/world/device_desc.h"
 #include "sim_core/world/scene.h"
-#include "sim_core/world/world_desc.h"
 
 namespace programs {
 

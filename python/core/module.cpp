@@ -321,7 +321,7 @@ void assign_to(Handle& handle, int robot, const std::string& expression, const p
 
 py::tuple place_of(Handle& handle, int robot) {
   const host::Runner* const runner = handle.world().runner(handle.robot(robot));
-  const host::Place place = runner ? runner->place_now() : host::Place{};
+  const host::Place place = runner ? runner->data().place_now() : host::Place{};
   return py::make_tuple(place.function, place.file, place.line);
 }
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim_core/base/check.h"
+#include "sim_core/world/world_desc.h"
 
 namespace sim {
 namespace {

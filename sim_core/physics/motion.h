@@ -129,9 +129,9 @@ class Motion {
   /// True when a loose object moves in the plane.
   virtual bool is_loose_moving() const { return false; }
   /// Called when a body's height range changed.
-  virtual void heights_changed(int body) {}
+  virtual void heights_changed(int /*body*/) {}
   /// Called when a blow from below changed a loose object's velocity in the plane.
-  virtual void velocity_changed(int body) {}
+  virtual void velocity_changed(int /*body*/) {}
   /// True where bodies may stand on slopes.
   bool is_sloping() const { return sloping_; }
   /// What the ground under a robot does to it now; only when is_sloping().

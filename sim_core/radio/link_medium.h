@@ -19,7 +19,7 @@
 
 #include "sim_core/base/clock.h"
 #include "sim_core/world/medium.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/radio_desc.h"
 
 namespace sim {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Numbers of packet radios of the IEEE 802.15.4 kind in the 2.4 GHz band, and of the usual medium access on
-// them. Defaults of what a world may choose stand in world/world_desc.h.
+// them. Defaults of what a world may choose stand in world/radio_desc.h.
 #pragma once
 #include <cstdint>
 

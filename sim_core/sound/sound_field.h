@@ -27,6 +27,7 @@
 namespace sim {
 
 class Scene;
+struct WorldDesc;
 
 /// What a loudspeaker plays: samples at even distances of time, linear in between, silence before and after.
 struct SpeakerTrack {

@@ -13,7 +13,7 @@
 
 #include "sim_core/geometry/pose.h"
 #include "sim_core/random/counter_random.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/sound_desc.h"
 
 namespace sim {
 

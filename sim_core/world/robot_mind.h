@@ -60,7 +60,7 @@ class RobotMind {
   /// True when the robot's loudspeaker began or ended something since the last publish_sound().
   virtual bool has_sound_news() const { return false; }
   /// Tells the field so, at the tick boundary `now`. Called one robot after the other, in their order.
-  virtual void publish_sound(SoundField& field, int robot, Clicks now) {}
+  virtual void publish_sound(SoundField& /*field*/, int /*robot*/, Clicks /*now*/) {}
 
   /// Everything of the inside that must repeat from run to run, folded into one number, for the world's
   /// digest.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dspic30/memory/irqs.h"
+#include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/drivers/drivers.h"
 #include "tests/chip/hal_flight.h"
 #include "tests/chip/onlooker.h"
@@ -106,7 +107,10 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
   ASSERT_TRUE(sim.is_there() && dspic.is_there());
   host::Runner& runner = *sim.twin().mind(0).runner();
   const auto frames = static_cast<double>(runner.closed_drivers()->scan().interrupts(runner.cycles()));
-  const auto served = static_cast<double>(dspic.twin().mind(0).runner()->served(::dspic::irq::Adc));
+  const auto served =
+      static_cast<double>(dynamic_cast<chip::ChipRunner&>(*dspic.twin().mind(0).runner())
+                              .device()
+                              .served_interrupts(::dspic::irq::Adc + ::dspic::kFirstIrqVector));
   EXPECT_GT(served, 299'000);
   EXPECT_NEAR(frames, served, 2.5);
 }
@@ -321,7 +325,7 @@ TEST(HalDigest, is_the_same_whoever_looks) {
         twin->simulation().step();
         if (looks == 1) {
           std::int16_t word = 0;
-          twin->mind(0).runner()->read_memory(0x80C, &word, 2);
+          twin->mind(0).runner()->data().read_memory(0x80C, &word, 2);
           twin->mind(0).runner()->diagnoses();
         }
       }

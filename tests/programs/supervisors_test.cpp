@@ -90,7 +90,7 @@ TEST_F(Supervisors, what_is_no_variable_is_explained) {
     })");
   expect_pass();
   for (const char* words : {"got 'cuont', expected a variable", "index 2, expected 0 to 1", "it is no array",
-                            "which has 6 bytes, expected a number", "no member 'colour' in 'state'",
+                            "expected a number; name a member", "no member 'colour' in 'state'",
                             "no member 'x'", "expected a number in [ ]", "in 'other.c'"})
     EXPECT_TRUE(was_said(words)) << words;
 }

@@ -4,7 +4,7 @@
 #pragma once
 #include <string>
 
-#include "lab/class.h"
+#include "exercises/class.h"
 
 namespace lab {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/trial.h"
+#include "exercises/trial.h"
 #include "sim_core/record/share_plot.h"
 
 namespace lab {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "exercises/table.h"
 #include "hal_sim/twin/firmware_store.h"
-#include "lab/table.h"
 
 namespace lab {
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/run.h"
+#include "exercises/run.h"
 
 namespace lab {
 
