@@ -13,6 +13,7 @@ import { beginLayout } from "./frame/layout";
 import { notice } from "./frame/notices";
 import { PastBar } from "./frame/past_bar";
 import { Report } from "./frame/report";
+import { ViewButtons } from "./frame/views";
 import { WorldFile } from "./frame/save";
 import { Connection } from "./link/connection";
 import { Playback } from "./link/playback";
@@ -51,7 +52,7 @@ const tree = new Tree(store, pieces);
 const inspector = new Inspector(store, client, pieces);
 const past = new PastBar(store);
 const report = playback && new Report(store, client, past, playback);
-const views = { fit: (above: boolean) => view.scene.fit(above), toggleTrails: () => view.toggleTrails() };
+const views = { fit: (above: boolean) => view.cameras.fit(above), toggleTrails: () => view.toggleTrails() };
 const console_ = new Console(store, client);
 const plots = new Plots(store, client);
 const debugger_ = new DebuggerPane(store, debug);
@@ -59,6 +60,7 @@ const program = new ProgramPane(store, buffers, debug, debugger_);
 const text = new WorldTextPane(store, buffers);
 const file = new WorldFile(store, client, buffers, text);
 const bar = new Bar(store, client, past, file, views, report);
+const viewButtons = new ViewButtons(store, view);
 const timeline = new TimeLine(store, client);
 const problems = new ProblemsPane(store);
 showBadges(store);
@@ -75,7 +77,7 @@ const dock = new Dock(store, tabs);
 dock.show("console");
 beginLayout();
 listenToClipboard(pieces);
-listenToKeys({ store, client, pieces, bar, file, views, touch, inspector });
+listenToKeys({ store, client, pieces, bar, file, views, touch, inspector, viewButtons });
 setTheme(store, store.dark);
 addEventListener("beforeunload", (e) => {
   if (!store.state.saved || buffers.dirty().length) e.preventDefault();
@@ -92,6 +94,8 @@ const shown = {
   file,
   pieces,
   scene: view.scene,
+  view,
+  film: viewButtons.film,
   touch,
   tree,
   inspector,
