@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
-// The canvas of the scene: it draws when something has changed and the frame before is done, says how long a frame
-// took, and leaves out what takes too long.
+// The canvas of the scene: it draws when something has changed, looks now and then how long a frame takes until its
+// last pixel, and leaves out what takes too long.
 import * as THREE from "three";
 import { Quality } from "./quality";
 
 const kSamples = 4; // a pixel, of antialiasing
-const kPoll = 4; // ms, between two looks whether a frame is done
-const kLate = 25; // ms: a look that comes later says nothing of the drawing, for the script was busy
+const kEvery = 3; // frames, between two that are measured
+const kEveryIfQuick = 30;
+const kQuick = 25; // ms
+const kKeptTimes = 100;
 const kKept = "drawing"; // of localStorage: how much was left out
 
 export class Canvas {
@@ -22,15 +24,16 @@ export class Canvas {
   private readonly smooth = new THREE.WebGLRenderTarget(1, 1, { samples: kSamples });
   private readonly copy = new THREE.Scene();
   private readonly lens = new THREE.OrthographicCamera(-1, 1, 1, -1, 0, 1);
-  private fence?: { sync: WebGLSync; begun: number; looked: number };
-  /** ms, of the last frames; for people who ask why. */
+  private unmeasured = 0; // frames
+  private readonly pixel = new Uint8Array(4);
+  /** ms, of the last frames that were measured; for people who ask why. */
   readonly took: number[] = [];
   /** Hears that other things are left out. */
   readonly onQuality: (() => void)[] = [];
 
   constructor() {
     const kept = Number(localStorage.getItem(kKept) ?? 0);
-    this.quality = new Quality(kept > 0 ? kept : 0, kept >= 0);
+    this.quality = new Quality(kept > 0 ? kept : 0, kept >= 0, window.devicePixelRatio);
     const { renderer, smooth } = this;
     renderer.debug.checkShaderErrors = false; // asking waits for the compiler, and ours compile
     renderer.shadowMap.enabled = true;
@@ -59,14 +62,13 @@ export class Canvas {
     change(this.quality);
     const loop = () => {
       requestAnimationFrame(loop);
-      this.look();
-      if (this.dirty && this.drawing && !this.fence) this.draw();
+      if (this.dirty && this.drawing) this.draw();
     };
     loop();
   }
   setSize(w: number, h: number) {
     const { renderer, smooth, quality } = this;
-    renderer.setPixelRatio(quality.ratio(window.devicePixelRatio));
+    renderer.setPixelRatio(quality.ratio);
     renderer.setSize(w, h);
     const size = renderer.getDrawingBufferSize(new THREE.Vector2());
     if (quality.antialiasing) smooth.setSize(size.x, size.y);
@@ -81,36 +83,23 @@ export class Canvas {
     renderer.render(this.copy, this.lens);
   }
   draw() {
-    const gl = this.renderer.getContext() as WebGL2RenderingContext,
-      begun = performance.now();
+    const last = this.took[this.took.length - 1] ?? Infinity,
+      measures = ++this.unmeasured >= (last < kQuick ? kEveryIfQuick : kEvery);
+    if (measures) this.finish(); // what was begun before
+    const begun = performance.now();
     if (!this.paint()) return;
     this.dirty = false;
-    if (this.fence) gl.deleteSync(this.fence.sync);
-    const sync = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    gl.flush();
-    this.fence = sync ? { sync, begun, looked: performance.now() } : undefined;
-    if (sync) this.lookSoon();
+    if (!measures) return;
+    this.finish();
+    this.unmeasured = 0;
+    const now = performance.now();
+    if (this.took.push(now - begun) > kKeptTimes) this.took.shift();
+    if (!this.held && this.quality.took(now - begun, now)) this.requality();
   }
-  private lookSoon() {
-    setTimeout(() => {
-      this.look();
-      if (this.fence) this.lookSoon();
-    }, kPoll);
-  }
-  private look() {
-    const { fence } = this;
-    if (!fence) return;
-    const gl = this.renderer.getContext() as WebGL2RenderingContext,
-      now = performance.now();
-    const done = gl.isContextLost() || gl.getSyncParameter(fence.sync, gl.SYNC_STATUS) === gl.SIGNALED;
-    const until = now - fence.looked > kLate ? fence.looked : now;
-    fence.looked = now;
-    if (!done) return;
-    gl.deleteSync(fence.sync);
-    this.fence = undefined;
-    const ms = until - fence.begun;
-    if (this.took.push(ms) > 100) this.took.shift();
-    if (!this.held && this.quality.took(ms, now)) this.requality();
+  /** Waits until all of it is drawn. No other way says so on every browser: fences come seconds late. */
+  finish() {
+    const gl = this.renderer.getContext();
+    gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, this.pixel);
   }
   private requality() {
     localStorage.setItem(kKept, String(this.quality.measures ? this.quality.level : -1));

@@ -4,14 +4,15 @@
 
 /** What is left out, in this order. */
 export const kLeftOut = ["shadows", "antialiasing", "fine pixels", "details of robots", "half of the pixels"] as const;
+type LeftOut = (typeof kLeftOut)[number];
 
 const kTooLong = 50; // ms a frame
 const kFarTooLong = 4 * kTooLong;
 const kQuick = 14; // ms a frame: there is time for more
-const kLook = 5; // frames, until one says too long
+const kLook = 4; // measured frames, until one says too long
 const kLookIfFar = 2;
-const kLookIfQuick = 90;
-const kSettle = 3; // frames after a change: materials are made anew
+const kLookIfQuick = 8;
+const kSettle = 1; // measured frames after a change: materials are made anew
 const kWait = 5000; // ms, before more is tried
 const kLongestWait = 600000;
 
@@ -22,27 +23,36 @@ export class Quality {
   private took_: number[] = [];
   private tried = false; // more was tried last
 
-  /** `level`: how many of kLeftOut are left out. */
+  private steps: readonly LeftOut[];
+  /** `level`: how many things are left out; `screen`: its pixels for each of the page's. */
   constructor(
     public level = 0,
     public measures = true,
-  ) {}
+    private screen = 1,
+  ) {
+    this.steps = kLeftOut.filter((what) => screen > 1 || what !== "fine pixels");
+    this.level = Math.min(level, this.steps.length);
+  }
 
+  private leaves(what: LeftOut) {
+    return this.leftOut.includes(what);
+  }
   get shadows() {
-    return this.level < 1;
+    return !this.leaves("shadows");
   }
   get antialiasing() {
-    return this.level < 2;
+    return !this.leaves("antialiasing");
   }
   get details() {
-    return this.level < 4;
+    return !this.leaves("details of robots");
   }
-  /** Pixels drawn for each of the page's, on a screen that has `screen` of them. */
-  ratio(screen: number) {
-    return this.level < 3 ? Math.min(screen, 2) : this.level < 5 ? 1 : 0.7;
+  /** Pixels drawn for each of the page's. */
+  get ratio() {
+    if (this.leaves("half of the pixels")) return Math.min(this.screen, 0.7);
+    return this.leaves("fine pixels") ? 1 : Math.min(this.screen, 2);
   }
-  get leftOut(): readonly string[] {
-    return kLeftOut.slice(0, this.level);
+  get leftOut(): readonly LeftOut[] {
+    return this.steps.slice(0, this.level);
   }
 
   /** Hears what a frame took, ms; true: from now on it is drawn otherwise. `now`: ms. */
@@ -60,7 +70,7 @@ export class Quality {
       return last[count >> 1];
     };
     const isFar = list.length >= kLookIfFar && Math.min(...list.slice(-kLookIfFar)) > kFarTooLong;
-    if (this.level < kLeftOut.length && (isFar || (list.length >= kLook && middle(kLook) > kTooLong))) {
+    if (this.level < this.steps.length && (isFar || (list.length >= kLook && middle(kLook) > kTooLong))) {
       // what was tried did not do: it is tried later and later
       if (this.tried) this.wait = Math.min(kLongestWait, 2 * this.wait);
       return this.change(1, now);

@@ -146,7 +146,8 @@ export class Ruler {
       return;
     }
     const box = byId("stage").getBoundingClientRect(),
-      p = this.scene.project((from.x + to.x) / 2, (from.y + to.y) / 2, kHigh);
+      on = [from, to].map((q) => this.scene.project(q.x, q.y, kHigh)),
+      p = on[0].y < on[1].y ? on[0] : on[1]; // above the upper end
     said.classList.add("at");
     const x = Math.min(Math.max(p.x - box.left, 90), box.width - 90),
       y = Math.min(Math.max(p.y - box.top, 24), box.height - 24);

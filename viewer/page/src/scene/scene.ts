@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The world in three dimensions. Metres, z up. Nothing is drawn unless something changed, and nothing while the frame
-// before is still being drawn; how much is drawn goes by what that takes (quality.ts).
+// The world in three dimensions. Metres, z up. Nothing is drawn unless something changed; how much is drawn
+// goes by what it takes (quality.ts).
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { ghost } from "./ghosts";

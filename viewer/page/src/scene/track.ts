@@ -66,7 +66,7 @@ export function bordersOf(world: World): Border[] {
     const c = Math.cos(t.heading ?? 0),
       s = Math.sin(t.heading ?? 0),
       placed = (x: number, y: number) => [t.position[0] + c * x - s * y, t.position[1] + s * x + c * y];
-    if (t.kind === "wall") around(t.points!, t.closed);
+    if (t.kind === "wall") around(t.points!, t.closed ?? false);
     else if (t.kind === "box") {
       const [w, d] = [t.size![0] / 2, t.size![1] / 2];
       around([placed(-w, -d), placed(w, -d), placed(w, d), placed(-w, d)]);
