@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page check-page view test-view dspic check format bench asan tsan fuzz second routines levels students clean \
+.PHONY: help setup tool build run test page check-page view test-view dspic check chip-tables format bench asan tsan fuzz second routines levels students clean \
   product install deb
 
 ## help: this list
@@ -112,7 +112,7 @@ product: tool page
 	@$(NINJA) manual embed python_core
 
 PREFIX  ?= /usr/local
-## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/install.md
+## install: into PREFIX (/usr/local), below DESTDIR if that is set; docs/start.md
 install: product
 	@DESTDIR='$(DESTDIR)' cmake --install $(BUILD) --prefix '$(PREFIX)' --strip >$(BUILD)/install.log || { cat $(BUILD)/install.log; exit 1; }
 	@echo "installed in $(DESTDIR)$(PREFIX)"
@@ -124,9 +124,11 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of the code: includes, sources of numbers, formatting, contract, timings
+## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings
 check: tool
 	@scripts/setup.sh check
+	@scripts/check_pages.py --test
+	@scripts/check_sizes.py --test
 	@scripts/check.py
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
@@ -134,8 +136,16 @@ check: tool
 	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
-	@$(BUILD)/twinpuck timings --check
+	@$(NINJA) twinpuck-dev
+	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
+
+## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt
+chip-tables: tool
+	@$(NINJA) chip_timing_doc
+	@$(BUILD)/tests/chip_timing_doc $(BUILD)/chip-timing.md
+	@scripts/instruction_coverage.py >$(BUILD)/instructions.txt
+	@echo $(BUILD)/chip-timing.md $(BUILD)/instructions.txt
 
 ## format: format C++ sources in place
 format:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// make bench: processor time per robot-second in the common workload (docs/performance.md), ours with
+// make bench: processor time per robot-second in the common workload (docs/dev/performance.md), ours with
 // compiled firmware inside, libenki beside it, and the floor under both (floor.h), turn and turn about. Then
 // the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was
 // missed.

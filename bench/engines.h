@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// bench --engines: the three motion engines side by side, in speed and in behaviour (docs/engines.md).
+// bench --engines: the three motion engines side by side, in speed and in behaviour (docs/worlds.md).
 #pragma once
 #include <string>
 

@@ -9,7 +9,7 @@ namespace bench {
 
 class EnkiSwarm {
  public:
-  /// Arena, boxes and robots of the world; every robot runs the Braitenberg law of docs/performance.md in
+  /// Arena, boxes and robots of the world; every robot runs the Braitenberg law of docs/dev/performance.md in
   /// C++.
   explicit EnkiSwarm(const sim::WorldDesc& world);
   ~EnkiSwarm();

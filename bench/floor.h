@@ -8,7 +8,7 @@
 
 namespace bench {
 
-/// Arena, boxes and robots of the world; every robot runs the Braitenberg law of docs/performance.md.
+/// Arena, boxes and robots of the world; every robot runs the Braitenberg law of docs/dev/performance.md.
 class Floor {
  public:
   explicit Floor(const sim::WorldDesc& world);

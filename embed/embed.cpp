@@ -3,18 +3,13 @@
 // Out: plain numbers and texts; problems become twinpuck::Error.
 #include <algorithm>
 #include <array>
-#include <filesystem>
 
 #include "embed/twinpuck/twinpuck.h"
 #include "hal_sim/board/memory_end.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
-#include "install/places.h"
-#include "programs/team/team.h"
 
 namespace twinpuck {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -26,14 +21,11 @@ std::string joined(const std::vector<std::string>& lines) {
 
 [[noreturn]] void refuse(const std::string& what) { throw Error({what}); }
 
-/// A file as it is named, or one of worlds/.
 std::string world_file(const std::string& name) {
-  std::error_code none;
-  const fs::path ours = places::share_root() / "worlds" / (name + ".toml");
-  const bool is_plain = name.find('/') == std::string::npos;
-  if (fs::exists(fs::symlink_status(name, none))) return name;
-  if (is_plain && fs::exists(ours, none)) return ours.string();
-  refuse(name + ": world: got a name that is neither a file nor a world of " + ours.parent_path().string());
+  std::vector<std::string> problems;
+  const twin::FoundWorld found = twin::find_world(name, problems);
+  if (!problems.empty()) throw Error(problems);
+  return found.file;
 }
 
 sim::WorldDesc checked(sim::LoadedWorld loaded, const std::string& name, const Settings& settings) {
@@ -48,12 +40,12 @@ struct Opened {
   sim::WorldDesc world;  // as it begins
   twin::Options options;
   std::function<void(const std::string&)> tell;
-  std::unique_ptr<twin::Twin> twin;
-  std::unique_ptr<programs::Team> team;
+  std::unique_ptr<runs::Run> run;
+  twin::Twin* twin = nullptr;  // the run's
+  programs::Team* team = nullptr;
   std::vector<std::array<board::MemoryEnd*, 2>> lines;  // the boards own them
 
-  Opened(sim::WorldDesc desc, const std::string& folder, const Settings& settings)
-      : world(std::move(desc)), tell(settings.tell) {
+  Opened(sim::WorldDesc desc, const Settings& settings) : world(std::move(desc)), tell(settings.tell) {
     for (const auto& [robot, program] : settings.firmware)
       if (robot != "*") options.firmware.push_back({robot, program});
     if (const auto all = settings.firmware.find("*"); all != settings.firmware.end())
@@ -66,19 +58,18 @@ struct Opened {
     options.optimisation = settings.optimisation;
     options.sanitize = settings.sanitize;
     options.threads = settings.threads;
-    options.world_folder = folder;
     options.tell = tell;
     begin();
   }
 
   void begin() {
-    team.reset();  // looks at the twin to its end
-    twin.reset();
+    run.reset();
     lines.clear();
     std::vector<std::string> problems;
-    twin = twin::Twin::open(world, options, problems);
-    if (twin) team = programs::Team::open(*twin, options, {}, problems);
-    if (!team) throw Error(problems);
+    run = runs::Run::open(world, options, {}, problems);
+    if (!run) throw Error(problems);
+    twin = &run->twin();
+    team = &run->team();
     team->say = [this](const std::string& line) {
       if (tell) tell(line);
     };
@@ -127,12 +118,11 @@ std::string version() { return TWINPUCK_VERSION; }
 
 World::World(const std::string& file, Settings settings) {
   const std::string found = world_file(file);
-  opened_ = std::make_unique<Opened>(checked(twin::load_world(found), found, settings),
-                                     fs::path(found).parent_path().string(), settings);
+  opened_ = std::make_unique<Opened>(checked(twin::load_world(found), found, settings), settings);
 }
 World World::of_text(const std::string& text, Settings settings) {
   return World(
-      std::make_unique<Opened>(checked(twin::parse_world(text, "text"), "text", settings), "", settings));
+      std::make_unique<Opened>(checked(twin::parse_world(text, "text"), "text", settings), settings));
 }
 World::World(std::unique_ptr<Opened> opened) : opened_(std::move(opened)) {}
 World::~World() = default;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Worlds of Webots V5.0 to R2025 with e-pucks in them, turned into our world files. docs/import.md says what
+// Worlds of Webots V5.0 to R2025 with e-pucks in them, turned into our world files. docs/webots.md says what
 // is carried and how.
 #pragma once
 #include <functional>

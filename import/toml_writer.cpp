@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Writes the world file as somebody would by hand: what differs from the defaults, in the order of
-// docs/world-format.md, with the name and line of the node that each part was.
+// docs/worlds.md, with the name and line of the node that each part was.
 #include <fmt/format.h>
 
 #include <map>

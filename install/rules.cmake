@@ -62,7 +62,7 @@ endforeach()
 # what verbs read
 install(FILES docs/lab.toml docs/lab-answers.md DESTINATION ${share}/docs OPTIONAL)  # the students' edition has no answers
 install(FILES hal_sim/api/call_cycles.inc DESTINATION ${share}/hal_sim/api)
-install(DIRECTORY docs/ DESTINATION share/doc/twinpuck FILES_MATCHING PATTERN *.md PATTERN *.png)
+install(DIRECTORY docs/ DESTINATION share/doc/twinpuck FILES_MATCHING PATTERN *.md PATTERN *.png PATTERN *.gif)
 install(FILES README.md DESTINATION share/doc/twinpuck)
 install(FILES LICENSE DESTINATION share/doc/twinpuck RENAME copyright)
 
@@ -89,7 +89,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_NAME twinpuck)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SECTION science)
 # what is linked, dpkg-shlibdeps finds; these are loaded when they are needed (LAZY_LIBRARY), or started
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libvpx7, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-pytest")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libvpx7, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-pytest, python3-websocket")
 # programs of the PC: compiled, or run by Python; `new` makes a Makefile
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_RECOMMENDS "g++, make, python3-pytest-xdist, bubblewrap, bash-completion")
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SUGGESTS "default-jdk-headless, gdb, python3-pandas")

@@ -3,9 +3,12 @@
 """Rules of the code that a compiler does not know. Prints one line a problem; exit 1 when there is one.
 
     scripts/check.py
+    scripts/check.py --sizes          prints what is too large to be read at once instead
+    scripts/check.py --rooms PAGE     writes the table of rooms into docs/dev/inside.md
 
-Rules: who may include whom (docs/architecture.md), and no rooms in a circle · no word of what is gone · sim_core knows no robot by name · every number of a
-*_params.h names its one source (docs/sources.md) · no file above 700 lines, no file above 1 MB, no path of
+Rules: who may include whom (docs/dev/inside.md), and no rooms in a circle · pages and comments name what is there, by
+links, anchors and paths (check_pages.py) · no word of what is gone · sim_core knows no robot by name · every number of a
+*_params.h names its one source (docs/dev/sources.md) · no file above 700 lines, no file above 1 MB, no path of
 somebody's machine, an SPDX line in every source · dspic30 uses the standard
 library only · C++ formatted by .clang-format.
 """
@@ -15,6 +18,11 @@ import re
 import shutil
 import subprocess
 import sys
+
+import check_pages
+import check_sizes
+import generated
+import rooms as descriptions
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 LONGEST_FILE = 700      # lines
@@ -45,6 +53,7 @@ MAY_INCLUDE = {
     "hal_sim/signals": ["hal_sim/board", "hal_sim/chip", "hal_sim/debug", "hal_sim/host", "hal_sim/trace", "hal_sim/twin", "sim_core"],
     "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base", "install"],
     "hal_sim/faults": ["hal_sim/board", "hal_sim/host", "hal_sim/signals", "hal_sim/twin", "sim_core"],
+    "hal_sim/inputs": ["hal_sim/", "sim_core/", "compiler/cache"],
     "hal_dspic": ["firmware/include", "firmware/library"],
     "programs/process": ["programs/link"],
     "programs/build": ["compiler/cache/child_process.h", "compiler/cache/memory_limit.h", "sim_core/base", "install"],
@@ -54,16 +63,20 @@ MAY_INCLUDE = {
     "programs/team": ["hal_sim/", "sim_core/", "programs/", "firmware/include/webots/nodes.h"],
     # linked into programs, of which it knows the link
     "programs/controller": ["programs/link", "firmware/include"],
+    "hal_sim/runs": ["hal_sim/", "sim_core/", "programs/team/team.h"],
+    "outputs": ["hal_sim/", "sim_core/", "dspic30/periph/vectors.h", "viewer/report.h", "install"],
+    "lab": ["hal_sim/", "sim_core/", "outputs", "compiler/cache/child_process.h", "programs/build/build.h", "install"],
+    "flash": ["dspic30"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
-    "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "viewer/inputs.h", "install"],  # as viewer, for a language
-    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h"],  # a whole twin, seen and touched from outside
+    "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language
+    "viewer": ["hal_sim/", "compiler/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, seen and touched from outside
     "import": ["sim_core/base", "sim_core/geometry", "sim_core/world", "sim_core/load"],  # it knows e-pucks by their nodes only
     "firmware": ["tests/support/firmware_test.h"],  # a controller brings its own test.cpp
 }
 # whose classes a namespace holds
 NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host": "hal_sim/host",
                    "chip": "hal_sim/chip", "trace": "hal_sim/trace",
-                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "dspic": "dspic30/device"}
+                   "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "inputs": "hal_sim/inputs", "runs": "hal_sim/runs", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],
@@ -74,6 +87,7 @@ PACKAGE_ROOMS = {
     "civetweb.h": ["viewer"], "muParser": ["hal_sim/signals"],
 }
 FREE_ROOMS = ("tools", "tests", "bench")  # may include anything
+UNTOLD = {"scripts", "examples", "editors", "worlds", "docs", "sim_core", "dspic30", "hal_sim", "compiler", "programs"}
 VERBATIM = {"firmware/e-puck/e-puck.c"}  # kept byte for byte as the lab's text prints it
 GENERATED = {"firmware/include/p30F6014A.h", "hal_dspic/codec/sound_samples.c"}
 
@@ -190,7 +204,8 @@ def check_numbers(path, text):
 
 def check_text(path, text):
     lines = text.split("\n")
-    if len(lines) > LONGEST_FILE and path not in GENERATED and not path.endswith((".csv", ".toml", ".txt")):
+    is_data = path.endswith((".csv", ".toml", ".txt"))
+    if len(check_pages.by_hand(text).split("\n") if path.endswith(".md") else lines) > LONGEST_FILE and path not in GENERATED and not is_data:
         problem(path, 0, "%d lines, expected at most %d; split it" % (len(lines), LONGEST_FILE))
     for number, line in enumerate(lines, 1):
         if re.search(r"(?<![\w.$])/(?:home|Users|root|work|tmp/bash_jobs)/\w", line) and path != "scripts/check.py":
@@ -221,22 +236,76 @@ def check_format(paths):
             problem(match.group(1), int(match.group(2)), "not formatted as .clang-format says; run make format")
 
 
+def table_of_rooms():
+    return descriptions.table(MAY_INCLUDE, CORE, CHIP, FREE_ROOMS)
+
+
+def check_rooms(files):
+    """Each room is described, and the page has the table that this file makes."""
+    there = {room_of(path) for path in files if path.endswith((".c", ".h", ".cpp", ".py", ".ts")) and "/" in path}
+    there |= {"%s/%s" % (top, name) for top, row in (("sim_core", CORE), ("dspic30", CHIP)) for name in row}
+    without, gone = descriptions.missing({room for room in there if room not in UNTOLD})
+    for room in without:
+        problem("scripts/rooms.py", 0, "%s: got no line, expected what this room holds" % room)
+    for room in gone:
+        problem("scripts/rooms.py", 0, "%s: there is no such room" % room)
+    page = (ROOT / "docs/dev/inside.md").read_text()
+    begin, end = generated.part(page, "rooms")
+    if page[begin:end] != table_of_rooms():
+        problem("docs/dev/inside.md", 0, "the table of rooms is stale; run scripts/check.py --rooms docs/dev/inside.md")
+
+
+def print_arrows():
+    """Who includes whom, a line a room."""
+    included = collections.defaultdict(list)
+    for here, there in sorted(arrows):
+        included[here].append(there)
+    for here in sorted(included):
+        print("%s -> %s" % (here, ", ".join(included[here])))
+
+
+def print_sizes(files):
+    count = 0
+    for path in files:
+        if path.endswith((".c", ".h", ".cpp", ".py", ".ts", ".mjs")) and path not in GENERATED | VERBATIM:
+            for line in check_sizes.offenders(path, (ROOT / path).read_text()):
+                print(line)
+                count += 1
+    print("check: %d too large" % count)
+    return 0
+
+
 def main():
-    if sys.argv[1:]:
+    if len(sys.argv) == 3 and sys.argv[1] == "--rooms":
+        page = pathlib.Path(sys.argv[2])
+        begin, end = generated.part(page.read_text(), "rooms")
+        page.write_text(page.read_text()[:begin] + table_of_rooms() + page.read_text()[end:])
+        return 0
+    if sys.argv[1:] not in ([], ["--sizes"]):
         print(__doc__.strip(), file=sys.stderr)
         return 2
     files = committed_files()
+    if sys.argv[1:]:
+        return print_sizes(files)
     cpp = []
+    texts = {}
     for path in files:
         whole = ROOT / path
         if whole.stat().st_size > LARGEST_FILE:
             problem(path, 0, "%d bytes, expected at most %d" % (whole.stat().st_size, LARGEST_FILE))
             continue
         try:
-            text = whole.read_text()
+            texts[path] = whole.read_text()
         except UnicodeDecodeError:
             continue  # a picture
+    pages = check_pages.Pages(files, texts.__getitem__)
+    for path, text in texts.items():
+        pages.learn(path, text)
+    for path, text in texts.items():
         check_text(path, text)
+        if not path.startswith("scripts/check_pages"):
+            for line, what in pages.problems(path, text):
+                problem(path, line, what)
         if path.endswith((".c", ".h", ".cpp")):
             check_includes(path, text)
             check_forward_declarations(path, text)
@@ -246,7 +315,11 @@ def main():
         if path.endswith("_params.h"):
             check_numbers(path, text)
     check_circles()
+    check_rooms(files)
+    for page, what in pages.sizes():
+        problem(page, 0, what)
     check_format(cpp)
+    print_arrows()
     for line in problems:
         print(line)
     print("check: %d files, %d problems" % (len(files), len(problems)))

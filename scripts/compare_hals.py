@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 """Do both HALs give the same distributions? Runs worlds over many seeds with hal_sim and hal_dspic, each seed with robots
 that differ a little (sensors' gain, wheels), and compares path, collisions and end of the first robot by the two-sample
-Kolmogorov-Smirnov test. Writes the table of docs/hals.md; exit 1 when a p is below 0.01.
+Kolmogorov-Smirnov test. Writes the table of docs/time.md; exit 1 when a p is below 0.01.
 
   scripts/compare_hals.py BUILD [SEEDS] [SECONDS]
 """
@@ -17,9 +17,11 @@ import subprocess
 import sys
 import tempfile
 
+import generated
+
 WORLDS = ["maze", "corridor", "lamp", "line", "flock", "soccer"]
 IN_COMPANY = {"flock": 30, "soccer": 30}  # seeds at most: a run of hal_dspic takes seconds
-PAGE, BEGIN, END = "docs/hals.md", "<!-- compared -->\n", "<!-- end -->\n"
+PAGE = "docs/time.md"
 FIGURES = ["path (m)", "collisions", "end, from the origin (m)"]
 SPREAD = "[robot.variation]\ngain_spread = 0.05\nwheel_spread = 0.01\n\n"
 
@@ -76,8 +78,8 @@ def main():
                 lines.append("| %s | %.2g |" % (" | ".join(cells), p))
                 print(lines[-1], flush=True)
     page = open(PAGE).read()
-    head, rest = page.split(BEGIN)
-    open(PAGE, "w").write(head + BEGIN + "\n".join(lines) + "\n" + END + rest.split(END)[1])
+    begin, end = generated.part(page, "hals")
+    open(PAGE, "w").write(page[:begin] + "\n".join(lines) + "\n" + page[end:])
     sys.exit(0 if least >= 0.01 else 1)
 
 

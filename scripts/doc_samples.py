@@ -60,7 +60,7 @@ def main():
     program = pathlib.Path(sys.argv[1]).resolve() / "twinpuck"
     problems = 0
 
-    for page in [ROOT / "README.md"] + sorted((ROOT / "docs").glob("*.md")):
+    for page in [ROOT / "README.md"] + sorted((ROOT / "docs").rglob("*.md")):
         text = page.read_text()
         for block in list(BLOCK.finditer(text)):
             command, sample = block.group(1), block.group(2).splitlines()

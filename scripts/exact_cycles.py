@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""The table of docs/profile.md that holds what controllers' functions take on the chip.
+"""The table of docs/time.md that holds what controllers' functions take on the chip.
 
     scripts/exact_cycles.py BUILD_FOLDER                    measures all controllers of firmware/, writes the table
     scripts/exact_cycles.py BUILD_FOLDER --check NAME...    exit 1 when one of these is not what the table says
@@ -13,9 +13,10 @@ import re
 import subprocess
 import sys
 
+import generated
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PAGE = ROOT / "docs/profile.md"
-BEGIN, END = "<!-- exact_cycles.py: begin -->\n", "<!-- exact_cycles.py: end -->\n"
+PAGE = ROOT / "docs/time.md"
 ROW = re.compile(r"^(\w+) +(\d+) +(\d+) +(\d+) +\S+ +\S+% +(\d+) +(\d+) +(\d+ to \d+|\d+|-)  ")
 SHARE, LEAST = 0.05, 4  # of a check
 NAME, MIN, MEAN, MAX, CALLS, OWN, CODE = range(7)
@@ -45,7 +46,7 @@ def check(measured, text):
             row = re.search(rf"^\| {controller} \| `{r[NAME]}\(\)` \| [^|]+ \| (?:\d+, )?(\d+)", text, re.M)
             told = int(row[1]) if row else None
             if told is None or abs(told - int(r[MEAN])) > max(LEAST, SHARE * told):
-                print(f"docs/profile.md: {controller}, {r[NAME]}(): got {told} cycles, expected {r[MEAN]}; "
+                print(f"docs/time.md: {controller}, {r[NAME]}(): got {told} cycles, expected {r[MEAN]}; "
                       "run scripts/exact_cycles.py")
                 wrong = 1
     return wrong
@@ -60,7 +61,7 @@ def main():
     with concurrent.futures.ThreadPoolExecutor(2) as pool:
         measured = list(pool.map(lambda name: measure(program, name), names))
     page = PAGE.read_text()
-    begin, end = page.index(BEGIN) + len(BEGIN), page.index(END)
+    begin, end = generated.part(page, "cycles")
     if len(sys.argv) > 2:
         return check(measured, page[begin:end])
     PAGE.write_text(page[:begin] + table(measured) + page[end:])

@@ -24,7 +24,7 @@ MASKS = {
     "DCOUNT": 0x3FFF, "DOSTARTL": 0xFFFE, "DOSTARTH": 0x007F, "DOENDL": 0xFFFE, "DOENDH": 0x007F,
     "XMODSRT": 0xFFFE, "YMODSRT": 0xFFFE, "WREG15": 0xFFFE, "NVMKEY": 0x00FF, "PMD3": 0x0000,
 }
-# values that the table gives in words (core.md, "Reset"): power-on of an e-puck
+# values that the table gives in words: power-on of an e-puck
 RESETS = {"RCON": 0x0503, "OSCCON": 0x7720}
 
 

@@ -1,6 +1,16 @@
 # SPDX-License-Identifier: MIT
-"""A file that is written from a table, and the check that the committed one is what the table gives."""
+"""A file, or a part of a page, that is written from a table, and the check that it is what the table gives."""
+import re
 import sys
+
+
+def part(page, name):
+    """Where the part of a page lies: its text is page[begin:end]. It stands between two comments of HTML."""
+    found = re.search(r"^<!-- %s: .*-->\n" % re.escape(name), page, re.M)
+    end = page.find("<!-- end -->\n", found.end()) if found else -1
+    if end < 0:
+        sys.exit("got no part '<!-- %s: ... -->' to '<!-- end -->' in the page, expected one" % name)
+    return found.end(), end
 
 
 def main(doc, script, table, file, generate):

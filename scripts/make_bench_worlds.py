@@ -10,7 +10,7 @@ import sys
 
 HEAD = """\
 # SPDX-License-Identifier: MIT
-# The common workload of docs/performance: {robots} robot(s), made by scripts/make_bench_worlds.py from scene_{n}.txt.
+# The common workload of docs/dev/performance.md: {robots} robot(s), made by scripts/make_bench_worlds.py from scene_{n}.txt.
 twinpuck = 1
 title = "braitenberg {n}"
 

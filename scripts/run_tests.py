@@ -38,6 +38,9 @@ def listed(program):
     return names
 
 
+failures = []  # names of those that failed, said once more at the end: a long log's last lines are what one sees
+
+
 def run(build, name, tests):
     """Runs the given tests of a program, all of them if `tests` is None. Returns how many passed and failed."""
     command = [f"{build}/tests/{name}"] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
@@ -56,6 +59,7 @@ def run(build, name, tests):
         elif result and current:
             if result.group(1) == "FAILED":
                 failed += 1
+                failures.append(f"{name}: {current}")
                 say("\n".join([f"FAIL  {name}: {current}"] + ["      " + s for s in said]))
             else:
                 passed += result.group(1) == "OK"
@@ -66,6 +70,7 @@ def run(build, name, tests):
     status = process.wait()
     if status != 0 and not failed:
         failed = 1
+        failures.append(f"{name}: ended with status {status}" + (f" in {current}" if current else ""))
         say("\n".join([f"FAIL  {name}: ended with status {status}" + (f" in {current}" if current else "")] +
                       ["      " + s for s in said[-200:]]))
     return passed, failed
@@ -105,6 +110,7 @@ def main():
         name, status = item
         if status != 0:
             failed += 1
+            failures.append(f"{name}: does not build")
             say(f"FAIL  {name}: does not build")
             continue
         tests = None
@@ -118,6 +124,8 @@ def main():
     if passed + failed == 0:
         print(f"make test: T: got '{options.filter}', expected a part of a test's or a program's name", file=sys.stderr)
         return 5
+    for failure in failures:
+        say(f"failed: {failure}")
     say(f"{passed} passed, {failed} failed")
     return 1 if failed else 0
 

@@ -17,10 +17,6 @@ namespace tools {
 
 namespace fs = std::filesystem;
 
-void complain(const std::vector<std::string>& problems) {
-  for (const auto& p : problems) std::cerr << p << '\n';
-}
-
 CLI::Validator between(double least, double most) {
   return CLI::Validator(
       [least, most](std::string& text) {
@@ -48,29 +44,9 @@ void add_hal(CLI::App& verb, std::string& hal) {
 }
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
-  std::error_code none;
-  const fs::path worlds = places::share_root() / "worlds";
-  const bool is_plain = name.find('/') == std::string::npos;
-  const fs::path ours = worlds / (name + ".toml"), beside = name + ".toml";
-  const bool is_ours = is_plain && fs::exists(ours, none), is_here = fs::is_regular_file(beside, none);
-  // a loop of links is the loader's to name; a folder is a controller of that name, which may lie here
-  if (fs::exists(fs::symlink_status(name, none)) && !((is_ours || is_here) && fs::is_directory(name, none)))
-    return name;
-  // who makes a world of a name has it run
-  if (is_here && is_ours && !fs::equivalent(beside, ours, none))
-    std::cerr << name << ": world: ./" << beside.string() << " is taken, not " << ours.string()
-              << ", which has that name, too\n";
-  if (is_here) return beside.string();
-  if (is_ours) return ours.string();
-  std::vector<std::string> known;
-  for (const fs::path& folder : {worlds, fs::path(".")})
-    for (const auto& entry : fs::directory_iterator(folder, none))
-      if (entry.path().extension() == ".toml") known.push_back(entry.path().stem().string());
-  const std::string guess = sim::did_you_mean(fs::path(name).stem().string(), known);
-  problems.push_back(name +
-                     ": world: got a name that is neither a file, with or without .toml, nor one of worlds/" +
-                     (guess.empty() ? "; `twinpuck list` shows them" : "; did you mean '" + guess + "'?"));
-  return "";
+  const twin::FoundWorld found = twin::find_world(name, problems);
+  if (!found.notice.empty()) std::cerr << found.notice << '\n';
+  return found.file;
 }
 
 std::optional<sim::WorldDesc> open_world(const std::string& name, std::vector<std::string>& problems) {

@@ -6,15 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
+#include "outputs/complain.h"
 
 namespace tools {
 
 /// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
 CLI::Validator between(double least, double most);
 
-/// The world file that a name means: a path, or as `make run` has it, maze for worlds/maze.toml. Empty, with
-/// a line in `problems`, when there is none.
+/// The world file that a name means (twin/world_file.h), told when it could mean another one. Empty, with a
+/// line in `problems`, when there is none.
 std::string find_world(const std::string& name, std::vector<std::string>& problems);
 
 /// That world, read and checked; none, with lines in `problems`, when there is no such file or it has
@@ -37,7 +38,6 @@ void add_hal(CLI::App& verb, std::string& hal);
 bool split_choices(const std::vector<std::string>& words, const char* option,
                    std::vector<twin::Choice>& choices);
 
-/// Writes each problem on a line of its own to stderr.
-void complain(const std::vector<std::string>& problems);
+using outputs::complain;
 
 }  // namespace tools

@@ -13,9 +13,9 @@
 #include "hal_sim/chip/code_cycles.h"
 #include "hal_sim/chip/library_sources.h"
 #include "hal_sim/chip/named_functions.h"
-#include "tools/budgets.h"
+#include "outputs/budgets.h"
+#include "outputs/profile_report.h"
 #include "tools/command_line.h"
-#include "tools/profile_report.h"
 #include "tools/program_file.h"
 #include "tools/verbs.h"
 
@@ -64,7 +64,7 @@ bool measure(const CyclesArguments& a, const std::string& image, chip::ProfileRe
   options.world_folder = fs::path(world->file).parent_path().string();
   const auto twin = twin::Twin::open(std::move(*world), options, problems);
   if (!twin) return false;
-  Profiles profiles(*twin);
+  outputs::Profiles profiles(*twin);
   profiles.begin("cycles", problems);
   if (!problems.empty()) return false;
   while (twin->simulation().now() < sim::from_seconds(a.seconds))
@@ -141,7 +141,7 @@ void show_row(const CyclesArguments& a, const FunctionRow& row) {
   const std::string name = row.name + (is_handler(row.name) ? " (interrupt)" : ""),
                     in = fmt::format("{}", fmt::join(row.part_of, ", "));
   if (!row.has_code && !row.run) {
-    std::cout << fmt::format("{:<32} part of {}  {}\n", name, in, from_here(row.place));
+    std::cout << fmt::format("{:<32} part of {}  {}\n", name, in, outputs::from_here(row.place));
     return;
   }
   std::string run = fmt::format("{:>9} {:>9} {:>9} {:>11} {:>10} {:>7} {:>9}", "", "", "", "", "", 0, "");
@@ -150,10 +150,10 @@ void show_row(const CyclesArguments& a, const FunctionRow& row) {
   if (row.run && row.run->cycles.count > 0) {
     const chip::Spread& c = row.run->cycles;
     run = fmt::format("{:>9} {:>9.0f} {:>9} {:>11.2f} {:>9.2f}% {:>7} {:>9.0f}", c.min, c.mean(), c.max,
-                      micros(c.mean()), micros(c.mean()) / a.period_ms / 10, c.count,
+                      outputs::micros(c.mean()), outputs::micros(c.mean()) / a.period_ms / 10, c.count,
                       static_cast<double>(row.run->own) / static_cast<double>(c.count));
   }
-  std::cout << fmt::format("{:<32} {} {:>15}  {}", name, run, range(row.code), from_here(row.place));
+  std::cout << fmt::format("{:<32} {} {:>15}  {}", name, run, range(row.code), outputs::from_here(row.place));
   if (row.has_code && !row.code.is_known()) std::cout << "; only a run tells: it " << row.code.why_not;
   if (!row.part_of.empty()) std::cout << "; copies of it are part of " << in;
   std::cout << '\n';
@@ -170,12 +170,12 @@ void show(const CyclesArguments& a, const std::vector<FunctionRow>& rows) {
   const bool all = a.with_library ||
                    std::all_of(rows.begin(), rows.end(), [](const auto& row) { return row.place.empty(); });
   for (const FunctionRow& row : rows)
-    if (is_library_place(from_here(row.place)) && !all)
+    if (outputs::is_library_place(outputs::from_here(row.place)) && !all)
       ++of_library;
     else
       show_row(a, row);
   if (std::any_of(rows.begin(), rows.end(), [&](const FunctionRow& row) {
-        return !row.part_of.empty() && (all || !is_library_place(from_here(row.place)));
+        return !row.part_of.empty() && (all || !outputs::is_library_place(outputs::from_here(row.place)));
       }))
     std::cout << "part of others" << chip::kMeasureAlone << '\n';
   if (of_library > 0) std::cout << fmt::format("and {} functions of the library: --all\n", of_library);
@@ -194,9 +194,10 @@ void show_lines(const CyclesArguments& a, const dspic::FirmwareFile& file,
   const chip::CodeCycles cycles(file);
   std::map<std::string, std::vector<std::string>> texts;
   for (const FunctionRow& row : rows) {
-    if (!row.has_code || (is_library_place(from_here(row.place)) && !a.with_library)) continue;
-    std::cout << fmt::format("\n{}()  {}\n{:>7} {:>12} {:>13}\n", row.name, from_here(row.place), "line",
-                             "instructions", "cycles");
+    if (!row.has_code || (outputs::is_library_place(outputs::from_here(row.place)) && !a.with_library))
+      continue;
+    std::cout << fmt::format("\n{}()  {}\n{:>7} {:>12} {:>13}\n", row.name, outputs::from_here(row.place),
+                             "line", "instructions", "cycles");
     for (const auto& line : cycles.lines(row.begin, row.end)) {
       if (!texts.count(line.file)) texts[line.file] = text_of(line.file);
       const auto& text = texts[line.file];
@@ -213,7 +214,7 @@ void show_lines(const CyclesArguments& a, const dspic::FirmwareFile& file,
 
 int cycles(const CyclesArguments& a) {
   std::vector<std::string> problems;
-  Budgets budgets;
+  outputs::Budgets budgets;
   if (!a.budgets.empty()) budgets.read(a.budgets, problems);
   for (const std::string& budget : a.budget) budgets.add(budget, problems);
   dspic::FirmwareFile file;
@@ -231,7 +232,7 @@ int cycles(const CyclesArguments& a) {
   std::map<std::string, double> most;
   for (const FunctionRow& row : rows)
     if (row.has_code && row.code.is_known()) most[row.name] = static_cast<double>(row.code.most);
-  for (const Budgets::Verdict& v : budgets.judge(report, file, most)) {
+  for (const outputs::Budgets::Verdict& v : budgets.judge(report, file, most)) {
     std::cout << v.text << '\n';
     if (!v.passes) exit_code = kTestFailed;
   }
@@ -259,7 +260,7 @@ void add_cycles(CLI::App& app, int& exit_code) {
       "NAME=CYCLES: what a call of a function may take at most; exit code 1 when one takes more");
   verb->add_option(
       "--budgets", a->budgets,
-      "TOML file of what functions and interrupts may take (docs/profile.md); exit code 1 when one takes "
+      "TOML file of what functions and interrupts may take (docs/time.md); exit code 1 when one takes "
       "more");
   verb->add_option("--period", a->period_ms, "the load column assumes one call every so many ms")
       ->check(between(1e-6, 1e9))

@@ -13,9 +13,9 @@
 
 #include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
+#include "outputs/serial_text.h"
+#include "outputs/summary.h"
 #include "tools/command_line.h"
-#include "tools/serial_text.h"
-#include "tools/summary.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -57,11 +57,11 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
 }
 
 /// Robots' text goes to `say`.
-std::shared_ptr<SerialText> listen(debug::Session::Setup& setup,
-                                   std::function<void(const std::string&)> say) {
-  auto serial = std::make_shared<SerialText>(say);
+std::shared_ptr<outputs::SerialText> listen(debug::Session::Setup& setup,
+                                            std::function<void(const std::string&)> say) {
+  auto serial = std::make_shared<outputs::SerialText>(say);
   setup.opened = [=](twin::Twin& twin) {
-    *serial = SerialText(say);
+    *serial = outputs::SerialText(say);
     for (int i = 0; i < twin.robots(); ++i)
       for (int port = 1; port <= 2; ++port)
         if (twin.uart_choice(i, port) == "-") serial->listen(twin, i, port);
@@ -120,7 +120,7 @@ int debug_in_terminal(const DebugArguments& a) {
   }
   std::istream& in = a.commands.empty() ? std::cin : file;
   const bool is_person = a.commands.empty() && isatty(0) != 0;
-  std::cout << programs_text(session->twin()) << session->robot() << ": " << monitor.where();
+  std::cout << outputs::programs_text(session->twin()) << session->robot() << ": " << monitor.where();
   if (is_person) std::cout << "help lists the commands\n";
   for (std::string line; !monitor.wants_end();) {
     if (is_person) std::cout << "(twinpuck) " << std::flush;
@@ -146,7 +146,7 @@ void add_debug(CLI::App& app, int& exit_code) {
       ->check(between(0, 1e7));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(CLI::NonNegativeNumber);
-  verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/debug.md");
+  verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/looking.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
   verb->add_option("--opt", a->optimisation,
                    "level for a program that is built, as run --opt; at -O0 every variable keeps its place")
@@ -154,7 +154,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->callback([a, world, &exit_code] {
     if (a->dap) {
       std::signal(SIGPIPE, SIG_IGN);
-      exit_code = debug::DapServer(0, 1, launched).serve() ? kPass : kBadInput;
+      exit_code = debug::DapLine(0, 1).serve(launched) ? kPass : kBadInput;
       return;
     }
     if (world->count() == 0) throw CLI::RequiredError("WORLD or --dap");

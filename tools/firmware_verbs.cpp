@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "compiler/build/build.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "hal_sim/twin/world_file.h"
 #include "programs/build/build.h"
 #include "sim_core/light/profiles.h"

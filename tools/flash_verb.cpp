@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <iostream>
 
+#include "flash/serial_device.h"
 #include "tools/command_line.h"
 #include "tools/program_file.h"
-#include "tools/serial_device.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 struct FlashOptions {
   std::string image, port;
-  UploadSettings settings;
+  flash::UploadSettings settings;
 };
 
 void show_progress(const char* phase, int done, int total) {
@@ -29,31 +29,32 @@ void show_progress(const char* phase, int done, int total) {
             << std::flush;
 }
 
-int tell(const FlashOptions& options, const UploadPlan& plan, const Upload& result, double seconds) {
+int tell(const FlashOptions& options, const flash::UploadPlan& plan, const flash::Upload& result,
+         double seconds) {
   const std::string rows = fmt::format("{} rows", plan.rows.size());
   const std::string again = fmt::format("in {:.1f} s, {} frames again", seconds, result.repeated);
   switch (result.state) {
-    case Upload::State::Verified:
+    case flash::Upload::State::Verified:
       std::cout << fmt::format("{}: {} written and verified {}; the program runs\n", options.image, rows,
                                again);
       return kPass;
-    case Upload::State::Written:
+    case flash::Upload::State::Written:
       std::cout << fmt::format(
           "{}: {} written {}; not verified: this bootloader cannot read back, each row's sum was right\n",
           options.image, rows, again);
       return kPass;
-    case Upload::State::Untouched:
+    case flash::Upload::State::Untouched:
       complain({fmt::format(
           "{}: {}; press the robot's reset button while this waits, or give --reset TEXT; the robot has "
           "the program that it had",
           options.port, result.why)});
       return kTimeOut;
-    case Upload::State::Refused:
+    case flash::Upload::State::Refused:
       complain({fmt::format(
           "{}: {}; the program is not whole and does not start, the bootloader waits for the next upload",
           options.port, result.why)});
       return kTestFailed;
-    case Upload::State::Unknown:
+    case flash::Upload::State::Unknown:
       complain({fmt::format(
           "{}: {}; the robot has its old program, the new one, or waits in its bootloader: upload again",
           options.port, result.why)});
@@ -64,9 +65,9 @@ int tell(const FlashOptions& options, const UploadPlan& plan, const Upload& resu
 
 int flash(const FlashOptions& options) {
   dspic::FirmwareFile file;
-  UploadPlan plan;
+  flash::UploadPlan plan;
   std::string error;
-  if (!read_program(options.image, file, error) || !plan_upload(file, options.image, plan, error)) {
+  if (!read_program(options.image, file, error) || !flash::plan_upload(file, options.image, plan, error)) {
     complain({error});
     return kBadInput;
   }
@@ -77,7 +78,7 @@ int flash(const FlashOptions& options) {
         options.image, at, fs::path(options.image).replace_extension(".elf").filename().string())});
     return kBadInput;
   }
-  SerialDevice line(options.port);
+  flash::SerialDevice line(options.port);
   if (!line.error().empty()) {
     complain({line.error()});
     return kBadInput;
@@ -85,10 +86,10 @@ int flash(const FlashOptions& options) {
   for (const std::string& note : plan.notes) std::cerr << "note: " << note << '\n';
   std::cerr << fmt::format("waiting for the bootloader on {}: press the robot's reset button\n",
                            options.port);
-  UploadSettings settings = options.settings;
+  flash::UploadSettings settings = options.settings;
   if (!settings.reset_text.empty()) settings.reset_text += '\r';
   const double begin = line.now_s();
-  const Upload result = upload(line, plan, settings, show_progress);
+  const flash::Upload result = flash::upload(line, plan, settings, show_progress);
   return tell(options, plan, result, line.now_s() - begin);
 }
 

@@ -12,11 +12,11 @@
 #include "import/import.h"
 #include "import/wbt_reader.h"
 #include "install/places.h"
+#include "outputs/output_folder.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
-#include "tools/output_folder.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -61,7 +61,7 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   }
   for (const wbt::Remark& r : made.report) complain({place(file, r)});
   std::vector<std::string> problems;
-  if (!can_write(output, "world", problems)) {
+  if (!outputs::can_write(output, "world", problems)) {
     complain(problems);
     return kBadInput;
   }

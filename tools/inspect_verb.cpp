@@ -8,9 +8,10 @@
 #include <iostream>
 
 #include "hal_sim/twin/twin.h"
+#include "outputs/curve_report.h"
+#include "outputs/sensor_report.h"
+#include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
-#include "tools/curve_report.h"
-#include "tools/sensor_report.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -35,8 +36,8 @@ int wrong(const std::string& text) {
 }
 
 /// The profiles that "NAME,NAME" or "all" means; empty after a complaint.
-std::vector<CurveRequest> profiles_of(const std::string& names) {
-  std::vector<CurveRequest> out;
+std::vector<outputs::CurveRequest> profiles_of(const std::string& names) {
+  std::vector<outputs::CurveRequest> out;
   std::vector<std::string> known;
   for (const sim::ProximityProfile& p : sim::proximity_profiles()) known.push_back(p.name);
   std::string rest = names == "all" ? fmt::format("{}", fmt::join(known, ",")) : names;
@@ -63,12 +64,12 @@ sim::Surface surface_of(const InspectArguments& a) {
   return s;
 }
 
-int show_curves(const InspectArguments& a, const std::vector<CurveRequest>& curves) {
+int show_curves(const InspectArguments& a, const std::vector<outputs::CurveRequest>& curves) {
   const sim::Surface surface = surface_of(a);
-  if (!a.json) std::cout << curve_table(curves, surface);
+  if (!a.json) std::cout << outputs::curve_table(curves, surface);
   if (a.plot.empty()) return kPass;
   std::vector<sim::CurveLine> lines;
-  for (const CurveRequest& c : curves) lines.push_back(curve_line(c, surface));
+  for (const outputs::CurveRequest& c : curves) lines.push_back(outputs::curve_line(c, surface));
   sim::CurvePlotOptions options;
   options.title = curves.size() == 1 ? "Response of " + curves[0].name : "Response of proximity sensors";
   options.caption = fmt::format("flat wall of colour [{:g}, {:g}, {:g}], roughness {:g}", a.colour[0],
@@ -80,11 +81,11 @@ int show_curves(const InspectArguments& a, const std::vector<CurveRequest>& curv
   return kInvalidRun;
 }
 
-int show_reading(const InspectArguments& a, const SensorReport& report, const sim::Scene& scene) {
-  CurveRequest own{fmt::format("{} sensor {}", report.robot, report.sensor), report.proximity.config,
-                   report.gain, report.offset_counts};
+int show_reading(const InspectArguments& a, const outputs::SensorReport& report, const sim::Scene& scene) {
+  outputs::CurveRequest own{fmt::format("{} sensor {}", report.robot, report.sensor), report.proximity.config,
+                            report.gain, report.offset_counts};
   if (!a.picture.empty()) {
-    CurveRequest plain = own;
+    outputs::CurveRequest plain = own;
     plain.gain = 1, plain.offset_counts = 0;
     if (!plain.config.rays_answer_singly) plain.config.rays = 1, plain.config.aperture_rad = 0;  // the table
     sim::SensorPictureOptions options;
@@ -96,16 +97,16 @@ int show_reading(const InspectArguments& a, const SensorReport& report, const si
                     report.lit.counts, report.prox_counts);
     const std::string failed =
         sim::write_sensor_picture(a.picture, scene, report.robot_index, scene.now(), report.proximity,
-                                  curve_line(plain, sim::Surface{}), options);
+                                  outputs::curve_line(plain, sim::Surface{}), options);
     if (!failed.empty()) {
       complain({failed});
       return kInvalidRun;
     }
   }
   if (a.plot.empty() && a.profile.empty()) return kPass;
-  std::vector<CurveRequest> curves{own};
+  std::vector<outputs::CurveRequest> curves{own};
   if (!a.profile.empty()) {
-    for (CurveRequest& c : profiles_of(a.profile)) curves.push_back(std::move(c));
+    for (outputs::CurveRequest& c : profiles_of(a.profile)) curves.push_back(std::move(c));
     if (curves.size() == 1) return kBadInput;
   }
   return show_curves(a, curves);
@@ -155,7 +156,7 @@ int inspect_world(const InspectArguments& a) {
   while (simulation.now() < sim::from_seconds(a.at_s)) simulation.step();
   const sim::Scene& scene = simulation.scene();
   if (a.sensor >= 0) {
-    const SensorReport report = report_sensor(*twin, a.world, robot, a.sensor);
+    const outputs::SensorReport report = outputs::report_sensor(*twin, a.world, robot, a.sensor);
     std::cout << (a.json ? to_json(report).dump(2) + "\n" : to_text(report));
     return show_reading(a, report, scene);
   }
@@ -163,10 +164,10 @@ int inspect_world(const InspectArguments& a) {
   std::string text =
       fmt::format("{}: robot {} at {:.4g} s, without noise; --sensor N explains one\n", a.world,
                   scene.world().robots[static_cast<std::size_t>(robot)].name, sim::to_seconds(scene.now())) +
-      overview_head();
+      outputs::overview_head();
   for (int s = 0; s < sensors; ++s) {
-    const SensorReport report = report_sensor(*twin, a.world, robot, s);
-    text += overview_line(report);
+    const outputs::SensorReport report = outputs::report_sensor(*twin, a.world, robot, s);
+    text += outputs::overview_line(report);
     all.push_back(to_json(report));
   }
   std::cout << (a.json ? all.dump(2) + "\n" : text);
@@ -188,9 +189,9 @@ int inspect(const InspectArguments& a) {
   if (!a.robot.empty() || a.sensor >= 0 || !a.picture.empty() || a.at_s != 0)
     return wrong(
         "inspect: got --robot, --sensor, --at or --picture without a world, expected a WORLD with them");
-  const std::vector<CurveRequest> curves = profiles_of(a.profile);
+  const std::vector<outputs::CurveRequest> curves = profiles_of(a.profile);
   if (curves.empty()) return kBadInput;
-  if (a.json) std::cout << curve_json(curves, surface_of(a)).dump(2) << '\n';
+  if (a.json) std::cout << outputs::curve_json(curves, surface_of(a)).dump(2) << '\n';
   return show_curves(a, curves);
 }
 

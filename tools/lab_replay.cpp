@@ -11,10 +11,10 @@
 #include <optional>
 #include <sstream>
 
+#include "outputs/run_outputs.h"
+#include "outputs/summary.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
-#include "tools/run_outputs.h"
-#include "tools/summary.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -24,16 +24,16 @@ namespace {
 constexpr const char* kReplay = "command line: --replay: ";
 
 /// Picture, report and record of a trial, and its summary.
-class ReplayLooker final : public TrialOnlooker {
+class ReplayLooker final : public lab::TrialOnlooker {
  public:
   explicit ReplayLooker(const ReplayArguments& a) {
     outputs_wanted_.record = a.record;
     outputs_wanted_.report = a.report;
     outputs_wanted_.pictures.picture = a.picture;
   }
-  bool open(twin::Twin& twin, programs::Team& team, std::vector<std::string>& problems) override {
-    twin_ = &twin;
-    outputs_ = std::make_unique<RunOutputs>(outputs_wanted_, twin, &team);
+  bool open(runs::Run& run, std::vector<std::string>& problems) override {
+    twin_ = &run.twin();
+    outputs_ = std::make_unique<outputs::RunOutputs>(outputs_wanted_, run);
     was_opened = outputs_->open(problems);
     if (!was_opened) outputs_.reset();  // they look at the twin, which goes
     return was_opened;
@@ -46,7 +46,7 @@ class ReplayLooker final : public TrialOnlooker {
   void finish(std::vector<std::string>& problems) override {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - began_;
     twin_->flush_console();
-    summary = summarise(*twin_, took.count());
+    summary = outputs::summarise(*twin_, took.count());
     const std::size_t before = problems.size();
     outputs_->finish(*summary, problems);
     lost_outputs = problems.size() > before || outputs_->failed();
@@ -54,14 +54,14 @@ class ReplayLooker final : public TrialOnlooker {
     outputs_.reset();
   }
 
-  std::optional<Summary> summary;
+  std::optional<outputs::Summary> summary;
   std::vector<std::string> written;
   bool was_opened = true, lost_outputs = false;
 
  private:
-  OutputArguments outputs_wanted_;
+  outputs::OutputArguments outputs_wanted_;
   twin::Twin* twin_ = nullptr;
-  std::unique_ptr<RunOutputs> outputs_;
+  std::unique_ptr<outputs::RunOutputs> outputs_;
   std::chrono::steady_clock::time_point began_;
 };
 
@@ -79,9 +79,9 @@ std::string guess_text(const std::string& word, const std::vector<std::string>& 
 }
 
 /// The trial that is meant, and the step it is of; none: lines in `problems`.
-std::optional<TrialResult> find_trial(const std::string& text, const LabExercise& exercise,
-                                      const LabSetting& setting, const LabPrograms& programs,
-                                      std::vector<std::string>& problems) {
+std::optional<lab::TrialResult> find_trial(const std::string& text, const lab::Exercise& exercise,
+                                           const lab::Setting& setting, const lab::Programs& programs,
+                                           std::vector<std::string>& problems) {
   const std::vector<std::string> parts = parts_of(text);
   if (parts.size() != 3 && parts.size() != 4) {
     problems.push_back(
@@ -91,9 +91,9 @@ std::optional<TrialResult> find_trial(const std::string& text, const LabExercise
     return std::nullopt;
   }
   std::vector<std::string> worlds, scales;
-  const LabStep* step = nullptr;
-  for (const LabStep& s : exercise.steps) {
-    if (s.kind != LabStep::Kind::Runs) continue;
+  const lab::Step* step = nullptr;
+  for (const lab::Step& s : exercise.steps) {
+    if (s.kind != lab::Step::Kind::Runs) continue;
     worlds.insert(worlds.end(), s.worlds.begin(), s.worlds.end());
     if (!step && std::find(s.worlds.begin(), s.worlds.end(), parts[1]) != s.worlds.end()) step = &s;
   }
@@ -107,7 +107,7 @@ std::optional<TrialResult> find_trial(const std::string& text, const LabExercise
                                    guess_text(parts[1], worlds)));
     return std::nullopt;
   }
-  LabSetting one = setting;
+  lab::Setting one = setting;
   one.seeds = 1;
   char* end = nullptr;
   const long seed = std::strtol(parts[2].c_str(), &end, 10);
@@ -125,7 +125,7 @@ std::optional<TrialResult> find_trial(const std::string& text, const LabExercise
                                          fmt::join(scales, ", ")));
     return std::nullopt;
   }
-  for (const TrialResult& t : trials_of(*step, one, programs))
+  for (const lab::TrialResult& t : lab::trials_of(*step, one, programs))
     if (t.trial.world == parts[1] &&
         (parts.size() == 3 || fmt::format("{:g}", t.trial.noise_scale) == parts[3]))
       return t;
@@ -136,11 +136,11 @@ std::optional<TrialResult> find_trial(const std::string& text, const LabExercise
 
 }  // namespace
 
-const LabExercise* replayed_exercise(const std::string& trial, const std::vector<LabExercise>& all,
-                                     std::vector<std::string>& problems) {
+const lab::Exercise* replayed_exercise(const std::string& trial, const std::vector<lab::Exercise>& all,
+                                       std::vector<std::string>& problems) {
   const std::string id = trial.substr(0, trial.find(':'));
   std::vector<std::string> ids;
-  for (const LabExercise& e : all) {
+  for (const lab::Exercise& e : all) {
     if (e.id == id) return &e;
     ids.push_back(e.id);
   }
@@ -148,10 +148,10 @@ const LabExercise* replayed_exercise(const std::string& trial, const std::vector
   return nullptr;
 }
 
-int replay_trial(const ReplayArguments& arguments, const LabExercise& exercise, const LabSetting& setting,
-                 const LabPrograms& programs) {
+int replay_trial(const ReplayArguments& arguments, const lab::Exercise& exercise, const lab::Setting& setting,
+                 const lab::Programs& programs) {
   std::vector<std::string> problems;
-  std::optional<TrialResult> found = find_trial(arguments.trial, exercise, setting, programs, problems);
+  std::optional<lab::TrialResult> found = find_trial(arguments.trial, exercise, setting, programs, problems);
   if (!found) {
     complain(problems);
     return kBadInput;
@@ -162,15 +162,15 @@ int replay_trial(const ReplayArguments& arguments, const LabExercise& exercise, 
       return absent == &programs.missing ? kNothing : kTestFailed;
     }
   ReplayLooker looker(arguments);
-  static_cast<TrialEnd&>(*found) = run_trial(found->trial, &looker);
+  static_cast<lab::TrialEnd&>(*found) = lab::run_trial(found->trial, &looker);
   complain(found->problems);
   if (!looker.was_opened) return kBadInput;
-  StepResult result{found->trial.step, {*found}, ""};
+  lab::StepResult result{found->trial.step, {*found}, ""};
   const bool kept = share_of(result, std::nan("")) == 1;
-  LabStep alone = *found->trial.step;  // its bounds, of this run
+  lab::Step alone = *found->trial.step;  // its bounds, of this run
   alone.shares = {{1, 1}};
-  std::cout << fmt::format("{}: {}: {}; {}\n", trial_name(exercise, found->trial), kept ? "kept" : "not kept",
-                           measures_text(*found), asked_by(alone, 1));
+  std::cout << fmt::format("{}: {}: {}; {}\n", lab::trial_name(exercise, found->trial),
+                           kept ? "kept" : "not kept", lab::measures_text(*found), lab::asked_by(alone, 1));
   if (looker.summary) std::cout << to_text(*looker.summary);
   if (!looker.written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(looker.written, ", "));
   if (looker.lost_outputs) return kInvalidRun;

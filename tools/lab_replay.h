@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/lab_run.h"
+#include "lab/run.h"
 
 namespace tools {
 
@@ -14,11 +14,11 @@ struct ReplayArguments {
 };
 
 /// The exercise that a trial's name begins with; null, with a line in `problems`: there is none.
-const LabExercise* replayed_exercise(const std::string& trial, const std::vector<LabExercise>& all,
-                                     std::vector<std::string>& problems);
+const lab::Exercise* replayed_exercise(const std::string& trial, const std::vector<lab::Exercise>& all,
+                                       std::vector<std::string>& problems);
 
 /// Runs it, writes what was asked for and says how it went. Returns the exit code.
-int replay_trial(const ReplayArguments& arguments, const LabExercise& exercise, const LabSetting& setting,
-                 const LabPrograms& programs);
+int replay_trial(const ReplayArguments& arguments, const lab::Exercise& exercise, const lab::Setting& setting,
+                 const lab::Programs& programs);
 
 }  // namespace tools

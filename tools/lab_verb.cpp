@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// twinpuck lab: the exercises of docs/lab.md, headless: one line each with what was measured and what is
+// twinpuck lab: the exercises of docs/start.md, headless: one line each with what was measured and what is
 // asked, for our solutions or somebody's programs; a table for a class; one run again, to be looked at.
 #include <fmt/format.h>
 
@@ -9,17 +9,17 @@
 #include <iostream>
 #include <memory>
 
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
+#include "lab/class.h"
+#include "lab/class_table.h"
+#include "lab/mine.h"
+#include "lab/report.h"
+#include "lab/run.h"
+#include "outputs/output_folder.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
-#include "tools/lab_class.h"
-#include "tools/lab_class_table.h"
-#include "tools/lab_mine.h"
 #include "tools/lab_replay.h"
-#include "tools/lab_report.h"
-#include "tools/lab_run.h"
-#include "tools/output_folder.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -33,18 +33,18 @@ constexpr double kUsualLimit_s = 60, kFullLimit_s = 900;
 struct LabArguments {
   std::vector<std::string> ids;
   std::string table, csv, runs, html, junit, plot, mine;
-  LabSetting setting;
+  lab::Setting setting;
   ReplayArguments replay;
   double limit_s = 0;
   bool no_times = false, trusted = false;
 };
 
-std::vector<const LabExercise*> choose(const std::vector<LabExercise>& all,
-                                       const std::vector<std::string>& ids,
-                                       std::vector<std::string>& problems) {
-  std::vector<const LabExercise*> chosen;
+std::vector<const lab::Exercise*> choose(const std::vector<lab::Exercise>& all,
+                                         const std::vector<std::string>& ids,
+                                         std::vector<std::string>& problems) {
+  std::vector<const lab::Exercise*> chosen;
   std::vector<std::string> known;
-  for (const LabExercise& e : all) {
+  for (const lab::Exercise& e : all) {
     known.push_back(e.id);
     if (ids.empty() || std::find(ids.begin(), ids.end(), e.id) != ids.end()) chosen.push_back(&e);
   }
@@ -75,19 +75,20 @@ std::string options_text(const LabArguments& a) {
   const auto add = [&](const std::string& words) { text += (text.empty() ? "" : " ") + words; };
   if (!a.setting.hal.empty()) add("--hal " + a.setting.hal);
   if (a.setting.full) add("--full");
-  if (!a.table.empty()) add("--table " + shell_word(a.table));
+  if (!a.table.empty()) add("--table " + lab::shell_word(a.table));
   return text;
 }
 
-void write_tables(const LabArguments& a, const Class& all, std::vector<std::string>& problems) {
+void write_tables(const LabArguments& a, const lab::Class& all, std::vector<std::string>& problems) {
   if (!a.html.empty())
-    write_file(a.html, "--html", class_html(all, a.mine.empty() ? "The lab" : "The lab: " + a.mine),
+    write_file(a.html, "--html", lab::class_html(all, a.mine.empty() ? "The lab" : "The lab: " + a.mine),
                problems);
-  if (!a.junit.empty()) write_file(a.junit, "--junitxml", class_junit(all), problems);
+  if (!a.junit.empty()) write_file(a.junit, "--junitxml", lab::class_junit(all), problems);
 }
 
-int judge_class(const LabArguments& a, const std::vector<const LabExercise*>& chosen, twin::Options options) {
-  Class all;
+int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& chosen,
+                twin::Options options) {
+  lab::Class all;
   all.exercises = chosen;
   all.setting = a.setting;
   // on the chip's machine a program reaches nothing of this PC
@@ -98,39 +99,41 @@ int judge_class(const LabArguments& a, const std::vector<const LabExercise*>& ch
   std::size_t width = std::string("student").size();
   for (fs::directory_iterator it(a.mine), end; it != end; ++it)
     width = std::max(width, it->path().filename().string().size());
-  std::cout << class_header(all, width) << std::flush;
-  try_class(a.mine, options, !a.ids.empty(),
-            a.limit_s > 0    ? a.limit_s
-            : a.setting.full ? kFullLimit_s
-                             : kUsualLimit_s,
-            all, [&](const Student& student) { std::cout << class_row(all, student, width) << std::flush; });
-  std::cout << '\n' << class_notes(all);
+  std::cout << lab::class_header(all, width) << std::flush;
+  lab::try_class(a.mine, options, !a.ids.empty(),
+                 a.limit_s > 0    ? a.limit_s
+                 : a.setting.full ? kFullLimit_s
+                                  : kUsualLimit_s,
+                 all, [&](const lab::Student& student) {
+                   std::cout << lab::class_row(all, student, width) << std::flush;
+                 });
+  std::cout << '\n' << lab::class_notes(all);
   std::vector<std::string> problems;
-  if (!a.csv.empty()) write_file(a.csv, "--csv", class_csv(all), problems);
-  if (!a.runs.empty()) write_file(a.runs, "--runs", class_runs_csv(all), problems);
+  if (!a.csv.empty()) write_file(a.csv, "--csv", lab::class_csv(all), problems);
+  if (!a.runs.empty()) write_file(a.runs, "--runs", lab::class_runs_csv(all), problems);
   write_tables(a, all, problems);
   complain(problems);
   if (!problems.empty()) return kInvalidRun;
-  for (const Student& student : all.students)
-    for (const LabCell& cell : student.cells)
-      if (is_failure(cell.verdict)) return kTestFailed;
+  for (const lab::Student& student : all.students)
+    for (const lab::Cell& cell : student.cells)
+      if (lab::is_failure(cell.verdict)) return kTestFailed;
   return kPass;
 }
 
 /// The share against the noise scale, of the steps that have several; how many plots.
-int draw_plots(const std::string& file, const LabCell& cell, std::vector<std::string>& problems) {
+int draw_plots(const std::string& file, const lab::Cell& cell, std::vector<std::string>& problems) {
   int plots = 0;
-  for (const StepResult& step : cell.steps) {
+  for (const lab::StepResult& step : cell.steps) {
     if (file.empty() || step.step->noise_scales.size() < 2 || step.trials.empty()) continue;
-    const std::string wrong = sim::write_share_plot(file, share_plot(step));
+    const std::string wrong = sim::write_share_plot(file, lab::share_plot(step));
     if (!wrong.empty()) problems.push_back(wrong);
     ++plots;
   }
   return plots;
 }
 
-int judge_one(const LabArguments& a, const std::vector<const LabExercise*>& chosen,
-              const LabPrograms& programs) {
+int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& chosen,
+              const lab::Programs& programs) {
   std::vector<std::string> problems;
   std::ofstream csv;
   const std::string runs = !a.csv.empty() ? a.csv : a.runs;
@@ -141,30 +144,30 @@ int judge_one(const LabArguments& a, const std::vector<const LabExercise*>& chos
       complain({runs + ": " + runs_option + ": cannot be written"});
       return kBadInput;
     }
-    csv << lab_csv_header();
+    csv << lab::csv_header();
   }
-  Class all;
+  lab::Class all;
   all.exercises = chosen;
   all.setting = a.setting;
   all.options = options_text(a);
-  Student one{a.mine.empty() ? "solutions" : fs::path(a.mine).lexically_normal().filename().string(),
-              a.mine,
-              programs,
-              {}};
+  lab::Student one{a.mine.empty() ? "solutions" : fs::path(a.mine).lexically_normal().filename().string(),
+                   a.mine,
+                   programs,
+                   {}};
   if (one.name.empty() || one.name == ".") one.name = fs::canonical(a.mine).filename().string();
   int passed = 0, failed = 0, seen = 0, missing = 0, plots = 0;
-  for (const LabExercise* e : chosen) {
-    LabCell cell = try_exercise(*e, a.setting, programs, complain);
-    for (const StepResult& step : cell.steps)
-      if (csv.is_open()) csv << lab_csv(e->id, step);
+  for (const lab::Exercise* e : chosen) {
+    lab::Cell cell = lab::try_exercise(*e, a.setting, programs, complain);
+    for (const lab::StepResult& step : cell.steps)
+      if (csv.is_open()) csv << lab::csv_rows(e->id, step);
     plots += draw_plots(a.plot, cell, problems);
-    ++(cell.verdict == LabVerdict::None   ? missing
-       : is_failure(cell.verdict)         ? failed
-       : cell.verdict == LabVerdict::Pass ? passed
-                                          : seen);
-    std::cout << fmt::format("{:<6} {}  {}: {}\n", e->id, verdict_text(cell.verdict), e->title,
+    ++(cell.verdict == lab::Verdict::None   ? missing
+       : lab::is_failure(cell.verdict)      ? failed
+       : cell.verdict == lab::Verdict::Pass ? passed
+                                            : seen);
+    std::cout << fmt::format("{:<6} {}  {}: {}\n", e->id, lab::verdict_text(cell.verdict), e->title,
                              to_text(cell, a.setting, !a.no_times));
-    const std::string command = replay_command(cell, a.mine, all.options);
+    const std::string command = lab::replay_command(cell, a.mine, all.options);
     if (!command.empty()) std::cout << "             " << command << '\n';
     std::cout << std::flush;
     one.cells.push_back(std::move(cell));
@@ -188,22 +191,22 @@ int judge_one(const LabArguments& a, const std::vector<const LabExercise*>& chos
 }
 
 /// The names of all programs that a table asks a student for.
-std::set<std::string> programs_of(const std::vector<LabExercise>& all) {
-  std::vector<const LabExercise*> each;
-  for (const LabExercise& e : all) each.push_back(&e);
-  return wanted_programs(each);
+std::set<std::string> programs_of(const std::vector<lab::Exercise>& all) {
+  std::vector<const lab::Exercise*> each;
+  for (const lab::Exercise& e : all) each.push_back(&e);
+  return lab::wanted_programs(each);
 }
 
 /// One run again, with the programs that were asked for.
-int replay(const LabArguments& a, const std::vector<LabExercise>& all, const twin::Options& options) {
+int replay(const LabArguments& a, const std::vector<lab::Exercise>& all, const twin::Options& options) {
   std::vector<std::string> problems;
-  const LabExercise* const e = replayed_exercise(a.replay.trial, all, problems);
-  if (e && !a.mine.empty() && is_class(a.mine, programs_of(all), wanted_programs({e}), true))
+  const lab::Exercise* const e = replayed_exercise(a.replay.trial, all, problems);
+  if (e && !a.mine.empty() && lab::is_class(a.mine, programs_of(all), lab::wanted_programs({e}), true))
     problems.push_back(a.mine + ": --mine: got a class's folder, expected one student's with --replay");
-  LabPrograms programs;
+  lab::Programs programs;
   if (problems.empty())
-    programs = a.mine.empty() ? reference_programs({e}, options, problems)
-                              : own_programs(a.mine, options, {e}, true, true);
+    programs = a.mine.empty() ? lab::reference_programs({e}, options, problems)
+                              : lab::own_programs(a.mine, options, {e}, true, true);
   complain(problems);
   return problems.empty() ? replay_trial(a.replay, *e, a.setting, programs) : kBadInput;
 }
@@ -224,10 +227,10 @@ void check_together(const LabArguments& a, std::vector<std::string>& problems) {
             fmt::format("command line: {}: got no --replay, expected the run that is meant", option));
   std::vector<std::pair<std::string, std::string>> files{
       {a.csv, "--csv"}, {a.runs, "--runs"}, {a.html, "--html"}, {a.junit, "--junitxml"}, {a.plot, "--plot"}};
-  check_files_differ(files, problems);
+  outputs::check_files_differ(files, problems);
   files.pop_back();  // plots are tried when they are drawn
   for (const auto& [file, option] : files)
-    if (!file.empty()) can_write(file, option.c_str(), problems);
+    if (!file.empty()) outputs::can_write(file, option.c_str(), problems);
 }
 
 int lab(const LabArguments& given) {
@@ -235,12 +238,12 @@ int lab(const LabArguments& given) {
   a.setting.is_mine = !a.mine.empty();
   std::vector<std::string> problems;
   const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
-  auto all = read_lab_table(table, problems);
+  auto all = lab::read_table(table, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;
   }
-  if (a.setting.is_mine) all = own_exercises(std::move(all));
+  if (a.setting.is_mine) all = lab::own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);
   check_together(a, problems);
   if (!problems.empty()) {
@@ -250,10 +253,12 @@ int lab(const LabArguments& given) {
   twin::Options options;
   options.hal = a.setting.hal;
   if (!a.replay.trial.empty()) return replay(a, all, options);
-  if (a.setting.is_mine && is_class(a.mine, programs_of(all), wanted_programs(chosen), !a.ids.empty()))
+  if (a.setting.is_mine &&
+      lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty()))
     return judge_class(a, chosen, options);
-  LabPrograms programs = a.setting.is_mine ? own_programs(a.mine, options, chosen, !a.ids.empty(), false)
-                                           : reference_programs(chosen, options, problems);
+  lab::Programs programs = a.setting.is_mine
+                               ? lab::own_programs(a.mine, options, chosen, !a.ids.empty(), false)
+                               : lab::reference_programs(chosen, options, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;
@@ -270,9 +275,9 @@ int lab(const LabArguments& given) {
 }  // namespace
 
 void add_lab(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("lab", "Run the exercises of docs/lab.md, one line each");
+  auto* verb = app.add_subcommand("lab", "Run the exercises of docs/start.md, one line each");
   auto a = std::make_shared<LabArguments>();
-  LabSetting& setting = a->setting;
+  lab::Setting& setting = a->setting;
   verb->add_option("EXERCISE", a->ids, "such as I1 or S14; all without one");
   verb->add_option(
       "--mine", a->mine,
@@ -284,7 +289,7 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->add_option("--first-seed", setting.first_seed, "their seeds are this one and the next ones")
       ->check(CLI::Range(0, 1000000000))
       ->capture_default_str();
-  verb->add_flag("--full", setting.full, "as many runs as the figures in docs/lab.md rest on");
+  verb->add_flag("--full", setting.full, "as many runs as the figures in docs/start.md rest on");
   verb->add_option("--jobs", setting.jobs, "processes that share the runs; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();

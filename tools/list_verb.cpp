@@ -10,7 +10,7 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/faults/kinds.h"
 #include "hal_sim/signals/signals.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/verbs.h"
@@ -55,11 +55,21 @@ void print(const std::string& heading, std::vector<std::pair<std::string, std::s
     std::cout << "  " << name << std::string(width - name.size() + 2, ' ') << text << "\n";
 }
 
+/// Names of a world's robots, a line each: for the shell's completion.
+int list_robots(const std::string& name) {
+  std::vector<std::string> problems;
+  const auto world = open_world(name, problems);
+  complain(problems);
+  if (!world) return kBadInput;
+  for (const auto& robot : world->robots) std::cout << robot.name << '\n';
+  return kPass;
+}
+
 int list(const std::string& what) {
   // tables that are the same wherever one stands
   if (what == "faults") {
     std::cout
-        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/faults.md)\n"
+        << "Faults (twinpuck run --faults FILE, --fault \"KIND PARAMETER=VALUE at=2s\"; docs/testing.md)\n"
         << faults::text_table();
     return kPass;
   }
@@ -108,12 +118,20 @@ int list(const std::string& what) {
 }  // namespace
 
 void add_list(CLI::App& app, int& exit_code) {
-  auto* verb = app.add_subcommand("list", "List controllers, worlds, supervisors and parts; faults, signals");
-  auto what = std::make_shared<std::string>();
-  verb->add_option("KIND", *what,
-                   "controllers, worlds, supervisors or parts, all of them without it; faults or signals")
-      ->check(CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "faults", "signals"}));
-  verb->callback([what, &exit_code] { exit_code = list(*what); });
+  auto* verb = app.add_subcommand(
+      "list", "List controllers, worlds, supervisors and parts; faults, signals; robots of a world");
+  auto what = std::make_shared<std::string>(), world = std::make_shared<std::string>();
+  verb->add_option(
+          "KIND", *what,
+          "controllers, worlds, supervisors or parts, all of them without it; faults, signals or robots")
+      ->check(
+          CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "faults", "signals", "robots"}));
+  verb->add_option("WORLD", *world, "whose robots");
+  verb->callback([what, world, &exit_code] {
+    if ((*what == "robots") == world->empty())
+      throw CLI::ValidationError("WORLD", "got robots without one, or one without robots, expected both");
+    exit_code = *what == "robots" ? list_robots(*world) : list(*what);
+  });
 }
 
 }  // namespace tools

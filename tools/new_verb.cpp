@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "compiler/projects/program_files.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/templates.h"

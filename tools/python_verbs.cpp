@@ -77,7 +77,7 @@ void add_test(CLI::App& app, int& exit_code) {
 void add_grade(CLI::App& app, int& exit_code) {
   add_python_verb(app, "grade", "Run tests over a class's folders: points, a table, JUnit", "twinpuck._grade",
                   "Example: twinpuck grade tests/ --submissions class/ --csv points.csv --html points.html\n"
-                  "`twinpuck grade -- --help` lists the options (docs/teachers.md).\n"
+                  "`twinpuck grade -- --help` lists the options (docs/testing.md).\n"
                   "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 130 interrupted",
                   exit_code);
 }

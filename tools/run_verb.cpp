@@ -1,38 +1,36 @@
 // SPDX-License-Identifier: MIT
 // twinpuck run WORLD: simulates, shows progress, writes what was asked for, tells what happened.
+#include <fmt/format.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <filesystem>
 #include <iostream>
+#include <memory>
+#include <optional>
 #include <thread>
 
-#include "hal_sim/faults/injector.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/inputs/recording.h"
+#include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
-#include "programs/team/team.h"
+#include "outputs/progress.h"
+#include "outputs/serial_text.h"
+#include "outputs/summary.h"
+#include "outputs/terminal_view.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
-#include "tools/profile_outputs.h"
-#include "tools/progress.h"
+#include "tools/output_options.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
-#include "tools/run_outputs.h"
-#include "tools/serial_text.h"
-#include "tools/summary.h"
-#include "tools/terminal_view.h"
 #include "tools/verbs.h"
-#include "viewer/inputs.h"
 
 namespace tools {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Wall = std::chrono::steady_clock;
 constexpr double kPictureEvery_s = 0.05;
 constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
@@ -48,8 +46,8 @@ struct RunArguments {
   double host_limit_s = 0;
   std::string optimisation, hal;
   bool sanitize = false, quiet = false, strict = false, live = false;
-  OutputArguments outputs;
-  ProfileArguments profile;
+  outputs::OutputArguments outputs;
+  outputs::ProfileArguments profile;
 };
 
 bool parse_speed(const std::string& text, double& factor) {
@@ -95,209 +93,283 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
   return problems.empty();
 }
 
-int run(const RunArguments& arguments) {
-  const auto began = Wall::now();
-  limit_host_time(arguments.host_limit_s);
-  double speed;
-  twin::Options options;
-  options.threads = arguments.threads;
-  options.optimisation = arguments.optimisation;
-  options.hal = arguments.hal;
-  options.externs = arguments.externs;
-  options.sanitize = arguments.sanitize;
-  options.coverage = arguments.outputs.coverage;
-  options.tell = [](const std::string& line) { std::cerr << line << '\n'; };
-  bool fits_the_chip = true;
-  options.no_room = [&fits_the_chip] { fits_the_chip = false; };
-  if (!parse_speed(arguments.speed, speed) || !split_choices(arguments.firmware, "--fw", options.firmware) ||
-      !split_choices(arguments.uart1, "--uart", options.uart1) ||
-      !split_choices(arguments.uart2, "--uart2", options.uart2))
-    return kBadInput;
+/// One run of the command: opened, stepped to its end, closed.
+class CommandRun {
+ public:
+  explicit CommandRun(const RunArguments& arguments) : a_(arguments) {}
+  /// False: nothing runs, and people were told why.
+  bool open();
+  void loop();
+  /// What there is to say and to write. Returns the exit code.
+  int close();
 
-  if (arguments.live && !::isatty(STDOUT_FILENO)) {
-    complain({"command line: --live: got no terminal, expected one of 80 by 24 characters on stdout"});
-    return kBadInput;
-  }
-  std::vector<std::string> problems;
-  std::unique_ptr<viewer::Replay> replay;
-  if (!arguments.replay.empty()) {
-    replay = viewer::Replay::open(arguments.replay, problems);
-    if (replay) replay->resume(options);
-  }
-  const std::string file = replay || !problems.empty() ? "" : find_world(arguments.world, problems);
-  if (!problems.empty()) {
-    complain(problems);
-    return kBadInput;
-  }
-  sim::LoadedWorld loaded =
-      replay ? twin::parse_world(replay->opening.text, replay->opening.file) : twin::load_world(file);
-  if (!loaded.world) {
-    complain({loaded.report(replay ? arguments.replay : file)});
-    return kBadInput;
-  }
-  if (replay) loaded.world->seed = replay->opening.seed;
-  if (arguments.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(arguments.seed);
-  std::vector<twin::Choice> keys;
-  if (!split_choices(arguments.keys, "--key", keys)) return kBadInput;
-  for (const auto& key : keys) {
-    const std::string wrong = add_key(key.robot, key.value, loaded.world->robots);
-    if (wrong.empty()) continue;
-    complain({"command line: --key: " + wrong});
-    return kBadInput;
-  }
-  if (!arguments.quiet)
-    for (const std::string& notice : sim::proximity_notices(*loaded.world)) std::cerr << notice << '\n';
-  options.world_folder = fs::path(loaded.world->file).parent_path().string();
-  auto twin = twin::Twin::open(std::move(*loaded.world), options, problems);
-  if (!twin) {
-    complain(problems);
-    return kBadInput;
-  }
-  auto team = programs::Team::open(*twin, options,
-                                   replay ? replay->opening.supervisors : arguments.supervisors, problems);
-  if (!team) {
-    complain(problems);
-    return kBadInput;
-  }
-  viewer::Inputs inputs(*twin);
-  if (!add_faults(arguments, inputs.faults(), problems)) {
-    complain(problems);
-    return kBadInput;
-  }
-  team->should_give_up = [] { return end_asked() != 0; };
-  if (!arguments.quiet) std::cout << programs_text(*twin) << std::flush;
-  RunOutputs outputs(arguments.outputs, *twin, team.get());
-  ProfileOutputs profile(arguments.profile, *twin);
-  if (!outputs.open(problems) || !profile.open(problems)) {
-    complain(problems);
-    return kBadInput;
-  }
-  for (int i = 0; i < twin->robots(); ++i)
-    for (int port = 1; port <= 2; ++port)
-      if (const auto* end = twin->mind(i).board().uart(port).end(); end && !end->name().empty())
-        std::cerr << twin->world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": "
-                  << end->name() << '\n';
+ private:
+  bool read_options();
+  std::optional<sim::WorldDesc> read_world();
+  void tell_other_ends();
+  void begin();
+  void step(sim::Clicks look);
+  void show();
+  void keep_pace() const;
+  void say(const std::string& line);
+  int exit_code(int end_code, bool is_clean, bool kept_budgets) const;
+  double wall_s() const { return std::chrono::duration<double>(Wall::now() - start_).count(); }
+  double now_s() const { return sim::to_seconds(run_->simulation().now()); }
 
-  // the run
+  const RunArguments& a_;
+  const Wall::time_point began_ = Wall::now();
+  Wall::time_point start_ = began_;  // of the first tick
+  std::vector<std::string> problems_;
+  twin::Options options_;
+  double speed_ = 0;  // 0: as fast as possible
+  bool fits_the_chip_ = true;
+  std::unique_ptr<inputs::Replay> replay_;
+  std::unique_ptr<runs::Run> run_;
+  std::unique_ptr<outputs::RunOutputs> outputs_;
+  std::unique_ptr<outputs::ProfileOutputs> profile_;
+  std::unique_ptr<outputs::Progress> progress_;
+  std::unique_ptr<outputs::TerminalView> terminal_;
+  std::unique_ptr<outputs::TerminalScreen> screen_;
+  std::unique_ptr<outputs::SerialText> serial_;
+  sim::Clicks end_ = 0;
+  double next_picture_s_ = 0, took_s_ = 0;
   // while programs run, the outputs are whole up to the last tick
-  std::atomic<bool> is_stepping{false};
-  GracefulEnd guard([&] {
-    if (arguments.live) TerminalScreen::give_back();
-    if (is_stepping) outputs.rescue();
-  });
-  auto& simulation = twin->simulation();
-  const sim::Clicks end = replay && replay->end() >= 0 ? replay->end() : sim::from_seconds(arguments.seconds);
-  Progress progress(arguments.seconds, arguments.quiet || arguments.live);
-  std::unique_ptr<TerminalView> terminal;
-  std::unique_ptr<TerminalScreen> screen;
-  if (arguments.live) {
-    terminal = std::make_unique<TerminalView>(*twin);
-    screen = std::make_unique<TerminalScreen>();
+  std::atomic<bool> is_stepping_{false};
+  std::unique_ptr<GracefulEnd> guard_;  // looks at outputs from a thread of its own
+};
+
+// --- opening
+
+bool CommandRun::read_options() {
+  options_.threads = a_.threads;
+  options_.optimisation = a_.optimisation;
+  options_.hal = a_.hal;
+  options_.externs = a_.externs;
+  options_.sanitize = a_.sanitize;
+  options_.coverage = a_.outputs.coverage;
+  options_.tell = [](const std::string& line) { std::cerr << line << '\n'; };
+  options_.no_room = [this] { fits_the_chip_ = false; };
+  if (!parse_speed(a_.speed, speed_) || !split_choices(a_.firmware, "--fw", options_.firmware) ||
+      !split_choices(a_.uart1, "--uart", options_.uart1) ||
+      !split_choices(a_.uart2, "--uart2", options_.uart2))
+    return false;
+  if (a_.live && !::isatty(STDOUT_FILENO))
+    problems_.push_back(
+        "command line: --live: got no terminal, expected one of 80 by 24 characters on stdout");
+  return problems_.empty();
+}
+
+/// The world, with what the command line says of it; none: lines in problems_.
+std::optional<sim::WorldDesc> CommandRun::read_world() {
+  if (!a_.replay.empty()) {
+    replay_ = inputs::Replay::open(a_.replay, problems_);
+    if (replay_) replay_->resume(options_);
   }
-  double next_picture_s = 0;
-  const auto start = Wall::now();
-  const auto wall_s = [&] { return std::chrono::duration<double>(Wall::now() - start).count(); };
-  const auto say = [&](const std::string& line) {
-    if (screen) return terminal->say(line);
-    progress.clear();
-    std::cout << line << '\n';
+  const std::string file = replay_ || !problems_.empty() ? "" : find_world(a_.world, problems_);
+  if (!problems_.empty()) return {};
+  sim::LoadedWorld loaded =
+      replay_ ? twin::parse_world(replay_->opening.text, replay_->opening.file) : twin::load_world(file);
+  if (!loaded.world) {
+    problems_.push_back(loaded.report(replay_ ? a_.replay : file));
+    return {};
+  }
+  if (replay_) loaded.world->seed = replay_->opening.seed;
+  if (a_.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(a_.seed);
+  std::vector<twin::Choice> keys;
+  if (!split_choices(a_.keys, "--key", keys)) return {};
+  for (const auto& key : keys)
+    if (const std::string wrong = add_key(key.robot, key.value, loaded.world->robots); !wrong.empty()) {
+      problems_.push_back("command line: --key: " + wrong);
+      return {};
+    }
+  return std::move(loaded.world);
+}
+
+bool CommandRun::open() {
+  limit_host_time(a_.host_limit_s);
+  const auto opens = [this] {
+    if (!read_options()) return false;
+    auto world = read_world();
+    if (!world) return false;
+    if (!a_.quiet)
+      for (const std::string& notice : sim::proximity_notices(*world)) std::cerr << notice << '\n';
+    run_ = runs::Run::open(std::move(*world), options_,
+                           replay_ ? replay_->opening.supervisors : a_.supervisors, problems_);
+    if (!run_ || !add_faults(a_, run_->inputs().faults(), problems_)) return false;
+    run_->team().should_give_up = [] { return end_asked() != 0; };
+    if (!a_.quiet) std::cout << outputs::programs_text(run_->twin()) << std::flush;
+    outputs_ = std::make_unique<outputs::RunOutputs>(a_.outputs, *run_);
+    profile_ = std::make_unique<outputs::ProfileOutputs>(a_.profile, run_->twin());
+    return outputs_->open(problems_) && profile_->open(problems_);
   };
-  for (int i = 0; i < twin->robots() && !arguments.quiet; ++i) {
-    const std::string name = twin->world().robots[static_cast<std::size_t>(i)].name;
-    auto& console = twin->mind(i).board().virtual_devices().on_console;
-    console = [name, say, before = console](const std::string& line) {
+  if (!opens()) {
+    complain(problems_);
+    return false;
+  }
+  tell_other_ends();
+  return true;
+}
+
+/// Where UARTs can be reached from outside.
+void CommandRun::tell_other_ends() {
+  twin::Twin& twin = run_->twin();
+  for (int i = 0; i < twin.robots(); ++i)
+    for (int port = 1; port <= 2; ++port)
+      if (const auto* end = twin.mind(i).board().uart(port).end(); end && !end->name().empty())
+        std::cerr << twin.world().robots[static_cast<std::size_t>(i)].name << " uart" << port << ": "
+                  << end->name() << '\n';
+}
+
+// --- running
+
+void CommandRun::say(const std::string& line) {
+  if (screen_) return terminal_->say(line);
+  progress_->clear();
+  std::cout << line << '\n';
+}
+
+/// Up to the first tick: screen, consoles, programs of the PC, serial lines.
+void CommandRun::begin() {
+  twin::Twin& twin = run_->twin();
+  guard_ = std::make_unique<GracefulEnd>([this] {
+    if (a_.live) outputs::TerminalScreen::give_back();
+    if (is_stepping_) outputs_->rescue();
+  });
+  end_ = replay_ && replay_->end() >= 0 ? replay_->end() : sim::from_seconds(a_.seconds);
+  progress_ = std::make_unique<outputs::Progress>(a_.seconds, a_.quiet || a_.live);
+  if (a_.live) {
+    terminal_ = std::make_unique<outputs::TerminalView>(twin);
+    screen_ = std::make_unique<outputs::TerminalScreen>();
+  }
+  start_ = Wall::now();
+  for (int i = 0; i < twin.robots() && !a_.quiet; ++i) {
+    const std::string name = twin.world().robots[static_cast<std::size_t>(i)].name;
+    auto& console = twin.mind(i).board().virtual_devices().on_console;
+    console = [name, this, before = console](const std::string& line) {
       if (before) before(line);
       say(name + ": " + line);
     };
   }
-  is_stepping = true;
-  team->before_first_tick();
-  is_stepping = false;
-  outputs.before_run();
-  SerialText serial(say);
-  for (int i = 0; i < twin->robots(); ++i)
+  is_stepping_ = true;
+  run_->team().before_first_tick();
+  is_stepping_ = false;
+  outputs_->before_run();
+  serial_ = std::make_unique<outputs::SerialText>([this](const std::string& line) { say(line); });
+  for (int i = 0; i < twin.robots(); ++i)
     for (int port = 1; port <= 2; ++port) {
       // a quiet run shows only what was asked for by name
-      const auto& asked = port == 1 ? options.uart1 : options.uart2;
+      const auto& asked = port == 1 ? options_.uart1 : options_.uart2;
       const bool by_option =
           std::any_of(asked.begin(), asked.end(), [](const auto& c) { return c.value == "-"; });
-      if (twin->uart_choice(i, port) == "-" && (by_option || !arguments.quiet)) serial.listen(*twin, i, port);
+      if (twin.uart_choice(i, port) == "-" && (by_option || !a_.quiet)) serial_->listen(twin, i, port);
     }
+}
+
+void CommandRun::loop() {
+  begin();
   // where nothing is due ticks are passed over, but text and ^C are looked for in between; somebody who looks
   // on sees more of it
-  const bool is_seen = arguments.live || speed > 0 || !team->is_empty();
-  const sim::Clicks look = outputs.wants_ticks() ? 0 : sim::kClicksPerSecond / (is_seen ? 64 : 4);
-  while (simulation.now() < end && !team->has_ended()) {
-    is_stepping = true;
-    if (replay) replay->apply_due(inputs, simulation.now());
-    inputs.faults().advance(std::min({end, simulation.now() + look, replay ? replay->next() : sim::kEver}));
-    is_stepping = false;
-    outputs.after_tick();
-    serial.show();
-    if (end_asked() || outputs.failed()) break;
-    if (screen && wall_s() >= next_picture_s) {
-      screen->show(terminal->frame(sim::to_seconds(simulation.now()) / std::max(wall_s(), 1e-3)));
-      next_picture_s = wall_s() + kPictureEvery_s;
-    }
-    if (progress.is_due()) progress.show(sim::to_seconds(simulation.now()));
-    if (speed > 0) {
-      const double due_s = sim::to_seconds(simulation.now()) / speed;
-      for (double ahead_s; (ahead_s = due_s - wall_s()) > 0 && !end_asked();)
-        std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
-    }
+  const bool is_seen = a_.live || speed_ > 0 || !run_->team().is_empty();
+  const sim::Clicks look = outputs_->wants_ticks() ? 0 : sim::kClicksPerSecond / (is_seen ? 64 : 4);
+  while (run_->simulation().now() < end_ && !run_->team().has_ended()) {
+    step(look);
+    if (end_asked() || outputs_->failed()) break;
+    show();
+    if (speed_ > 0) keep_pace();
   }
-  if (replay && !end_asked()) replay->finish(inputs, simulation, problems);
-  const double took_s = wall_s();
-  screen.reset();
-  progress.finish();
-  twin->flush_console();
-  is_stepping = true;
-  team->finish();
-  is_stepping = false;
-  guard.finishing();
-  const int end_code = end_asked();
-  if (team->has_ended() && !(arguments.quiet && team->outcome().code == 0)) complain({team->outcome().text});
-  for (int i = 0; i < twin->robots(); ++i) twin->mind(i).board().exchange(twin->mind(i).now());
+  if (replay_ && !end_asked()) replay_->finish(run_->inputs(), run_->simulation(), problems_);
+  took_s_ = wall_s();
+}
 
-  serial.finish();
-  Summary summary = summarise(*twin, took_s);
-  for (const faults::Status& status : inputs.faults().statuses()) summary.faults.push_back(status);
-  outputs.finish(summary, problems);
-  complain(problems);
-  if (!arguments.quiet) {
+void CommandRun::step(sim::Clicks look) {
+  const sim::Clicks now = run_->simulation().now();
+  is_stepping_ = true;
+  if (replay_) replay_->apply_due(run_->inputs(), now);
+  run_->inputs().faults().advance(std::min({end_, now + look, replay_ ? replay_->next() : sim::kEver}));
+  is_stepping_ = false;
+  outputs_->after_tick();
+  serial_->show();
+}
+
+void CommandRun::show() {
+  if (screen_ && wall_s() >= next_picture_s_) {
+    screen_->show(terminal_->frame(now_s() / std::max(wall_s(), 1e-3)));
+    next_picture_s_ = wall_s() + kPictureEvery_s;
+  }
+  if (progress_->is_due()) progress_->show(now_s());
+}
+
+void CommandRun::keep_pace() const {
+  const double due_s = now_s() / speed_;
+  for (double ahead_s; (ahead_s = due_s - wall_s()) > 0 && !end_asked();)
+    std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
+}
+
+// --- closing
+
+int CommandRun::close() {
+  twin::Twin& twin = run_->twin();
+  programs::Team& team = run_->team();
+  screen_.reset();
+  progress_->finish();
+  twin.flush_console();
+  is_stepping_ = true;
+  team.finish();
+  is_stepping_ = false;
+  guard_->finishing();
+  const int end_code = end_asked();
+  if (team.has_ended() && !(a_.quiet && team.outcome().code == 0)) complain({team.outcome().text});
+  for (int i = 0; i < twin.robots(); ++i) twin.mind(i).board().exchange(twin.mind(i).now());
+
+  // what the run came to, for people and in files
+  serial_->finish();
+  outputs::Summary summary = outputs::summarise(twin, took_s_);
+  summary.faults = run_->inputs().faults().statuses();
+  outputs_->finish(summary, problems_);
+  complain(problems_);
+  if (!a_.quiet) {
+    const std::vector<std::string> written = outputs_->written();
     std::cout << to_text(summary);
-    const std::vector<std::string> written = outputs.written();
-    for (std::size_t i = 0; i < written.size(); ++i) std::cout << (i == 0 ? "written: " : ", ") << written[i];
-    if (!written.empty()) std::cout << '\n';
+    if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
   }
   // a run that was cut off says nothing of faults that were still to come
   if (end_code == 0)
-    for (const std::string& line : inputs.faults().problems()) {
-      problems.push_back(line);
+    for (const std::string& line : run_->inputs().faults().problems()) {
+      problems_.push_back(line);
       complain({line});
     }
-  const bool kept_budgets = profile.finish(problems);
-  for (const auto& t : summary.traps) std::cerr << to_text(t);
+  const bool kept_budgets = profile_->finish(problems_);
+  for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)
     for (const auto& d : r.diagnoses) {
       is_clean = false;
-      if (!arguments.quiet || arguments.strict) std::cerr << to_text(r.name, d) << '\n';
+      if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
     }
-  if (end_code == kHostTime) {
-    const double all_s = std::chrono::duration<double>(Wall::now() - began).count();
-    complain({"twinpuck: host time: got " + std::to_string(static_cast<long>(all_s)) +
-              " s, expected at most " + std::to_string(static_cast<long>(arguments.host_limit_s)) +
-              " s; outputs hold what was simulated"});
-    return end_code;
-  }
-  if (end_code == kInterrupted) return kInterrupted;
-  if (!problems.empty() || outputs.failed()) return kInvalidRun;
-  if (team->outcome().crashed) return kTrapped;
-  if (team->outcome().code != 0) return kTestFailed;
-  if (!summary.traps.empty()) return kTrapped;
+  if (end_code == kHostTime)
+    complain(
+        {fmt::format("twinpuck: host time: got {} s, expected at most {} s; outputs hold what was simulated",
+                     static_cast<long>(std::chrono::duration<double>(Wall::now() - began_).count()),
+                     static_cast<long>(a_.host_limit_s))});
+  return exit_code(end_code, is_clean, kept_budgets);
+}
+
+int CommandRun::exit_code(int end_code, bool is_clean, bool kept_budgets) const {
+  const programs::Outcome& outcome = run_->team().outcome();
+  if (end_code == kHostTime || end_code == kInterrupted) return end_code;
+  if (!problems_.empty() || outputs_->failed()) return kInvalidRun;
+  if (outcome.crashed) return kTrapped;
+  if (outcome.code != 0) return kTestFailed;
+  if (!run_->twin().traps().empty()) return kTrapped;
   if (!kept_budgets) return kTestFailed;
-  return arguments.strict && !(is_clean && fits_the_chip) ? kTestFailed : kPass;
+  return a_.strict && !(is_clean && fits_the_chip_) ? kTestFailed : kPass;
+}
+
+int run(const RunArguments& arguments) {
+  CommandRun run(arguments);
+  if (!run.open()) return kBadInput;
+  run.loop();
+  return run.close();
 }
 
 }  // namespace
@@ -345,7 +417,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("Faults");
   one_each(
       verb->add_option("--faults", a->fault_files,
-                       "a file of faults and stimuli (docs/faults.md); the run is invalid, exit 7, when one "
+                       "a file of faults and stimuli (docs/testing.md); the run is invalid, exit 7, when one "
                        "never takes effect"));
   one_each(verb->add_option("--fault", a->faults,
                             "one of them: \"KIND [PARAMETER=VALUE]... [robot=NAME] [at=TIME] [for=TIME] "
@@ -353,7 +425,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("Checks");
   verb->add_flag(
       "--strict", a->strict,
-      "exit code 1 when board or chip have anything to say about a program (docs/diagnoses.md), or "
+      "exit code 1 when board or chip have anything to say about a program (docs/controllers.md), or "
       "its data and stack do not fit the chip");
   verb->add_flag("--sanitize", a->sanitize,
                  "check every access of memory and 16-bit overflow in controllers built from source");

@@ -10,7 +10,6 @@
 #include <string_view>
 
 #include "tools/command_line.h"
-#include "tools/manual.h"
 #include "tools/printable.h"
 #include "tools/run_guard.h"
 #include "tools/twinpuck.h"
@@ -25,11 +24,11 @@ struct Verb {
   void (*add)(CLI::App&, int& exit_code);
 };
 constexpr Verb kVerbs[] = {
-    {"run", add_run},         {"check", add_check},     {"build", add_build},   {"lint", add_lint},
-    {"cycles", add_cycles},   {"dis", add_dis},         {"asm", add_asm},       {"flash", add_flash},
-    {"debug", add_debug},     {"new", add_new},         {"init", add_init},     {"paths", add_paths},
-    {"inspect", add_inspect}, {"list", add_list},       {"import", add_import}, {"view", add_view},
-    {"lab", add_lab},         {"timings", add_timings}, {"test", add_test},     {"grade", add_grade},
+    {"run", add_run},         {"check", add_check}, {"build", add_build},   {"lint", add_lint},
+    {"cycles", add_cycles},   {"dis", add_dis},     {"asm", add_asm},       {"flash", add_flash},
+    {"debug", add_debug},     {"new", add_new},     {"init", add_init},     {"paths", add_paths},
+    {"inspect", add_inspect}, {"list", add_list},   {"import", add_import}, {"view", add_view},
+    {"lab", add_lab},         {"test", add_test},   {"grade", add_grade},
 };
 
 }  // namespace
@@ -55,7 +54,6 @@ int twinpuck(int argc, char** argv) {
       std::any_of(std::begin(kVerbs), std::end(kVerbs), [&](const Verb& v) { return v.name == called; });
   for (const Verb& verb : kVerbs)
     if (!is_verb || verb.name == called) verb.add(app, exit_code);
-  if (called == "manual") add_manual(app, exit_code);
   add_help(app);
   try {
     app.parse(argc, argv);

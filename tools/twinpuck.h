@@ -4,7 +4,7 @@
 namespace tools {
 
 /// The command twinpuck, whole: reads the command line, does what it says, tells what went wrong. Returns the
-/// exit code (docs/design.md).
+/// exit code (docs/start.md).
 int twinpuck(int argc, char** argv);
 
 }  // namespace tools

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/design.md.
+// The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/start.md.
 #pragma once
 #include <CLI/CLI.hpp>
 #include <string>
@@ -39,7 +39,6 @@ void add_paths(CLI::App& app, int& exit_code);
 void add_list(CLI::App& app, int& exit_code);
 void add_import(CLI::App& app, int& exit_code);
 void add_inspect(CLI::App& app, int& exit_code);
-void add_timings(CLI::App& app, int& exit_code);
 void add_debug(CLI::App& app, int& exit_code);
 void add_lab(CLI::App& app, int& exit_code);
 void add_view(CLI::App& app, int& exit_code);

@@ -30,16 +30,16 @@ struct ViewArguments {
 };
 
 /// A recording's world, under a name of its own beside the world's file: saved, it shall overwrite nothing.
-viewer::Opening opening_of(const viewer::Replay& replay) {
-  viewer::Opening opening = replay.opening;
+inputs::Opening opening_of(const inputs::Replay& replay) {
+  inputs::Opening opening = replay.opening;
   replay.resume(opening.options);
   const fs::path file = fs::absolute(opening.file).lexically_normal();
   opening.file = (file.parent_path() / ("replay of " + file.filename().string())).string();
   return opening;
 }
 
-viewer::Opening opening_of(const ViewArguments& a, std::vector<std::string>& problems) {
-  viewer::Opening opening;
+inputs::Opening opening_of(const ViewArguments& a, std::vector<std::string>& problems) {
+  inputs::Opening opening;
   opening.file = find_world(a.world, problems);
   const std::string wrong =
       problems.empty() ? sim::read_input_file(opening.file, sim::kLongestWorld, opening.text) : "";
@@ -57,8 +57,8 @@ viewer::Opening opening_of(const ViewArguments& a, std::vector<std::string>& pro
 
 int view(const ViewArguments& a) {
   std::vector<std::string> problems;
-  auto replay = a.replay.empty() ? nullptr : viewer::Replay::open(a.replay, problems);
-  viewer::Opening opening;
+  auto replay = a.replay.empty() ? nullptr : inputs::Replay::open(a.replay, problems);
+  inputs::Opening opening;
   if (problems.empty()) opening = replay ? opening_of(*replay) : opening_of(a, problems);
   if (!problems.empty() || (!replay && !split_choices(a.firmware, "--fw", opening.options.firmware))) {
     complain(problems);
@@ -66,16 +66,17 @@ int view(const ViewArguments& a) {
   }
   opening.options.threads = a.threads;
 
-  auto live = viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(),
-                                     problems, std::move(replay));
+  auto live =
+      viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(), problems,
+                             std::move(replay), [](const std::string& wrong) { complain({wrong}); });
   complain(problems);  // of the world's the page tells, too, and may mend them
   if (!live) return kBadInput;
   GracefulEnd guard([] {});
   std::cout << "open " << live->server().address() << "\nCtrl-C ends it" << std::endl;
   while (!end_asked()) std::this_thread::sleep_for(kLook);
   guard.finishing();
-  live.reset();  // the recording is whole before the guard goes
-  return kPass;
+  // the recording is whole before the guard goes
+  return live->end().empty() ? kPass : kInvalidRun;
 }
 
 }  // namespace
@@ -108,7 +109,9 @@ void add_view(CLI::App& app, int& exit_code) {
           "--opt", a->optimisation,
           "level for controllers built from source; without it, that of a program's project file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
-  verb->footer("Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input");
+  verb->footer(
+      "Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input, 7 the "
+      "recording could not be written");
   verb->callback([a, world, replay, &exit_code] {
     if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
     exit_code = view(*a);

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/document.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
-#include <unistd.h>
-
 #include <cmath>
-#include <cstring>
 #include <filesystem>
+#include <set>
 #include <stdexcept>
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
+#include "viewer/text_file.h"
 
 namespace viewer {
 
@@ -53,6 +51,36 @@ std::string literal(const Json& value) {
   return out + "]";
 }
 
+std::pair<long long, long long> stamp_of(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return {-1, -1};
+  return {info.st_mtim.tv_sec * 1000000000ll + info.st_mtim.tv_nsec, info.st_size};
+}
+
+/// The numbers of a list as it is written; empty: it is none.
+std::vector<double> numbers_in(const std::string& list) {
+  std::vector<double> out;
+  if (list.empty() || list[0] != '[') return out;
+  for (std::size_t at = 1; at < list.size();) {
+    char* end = nullptr;
+    const double value = std::strtod(list.c_str() + at, &end);
+    const auto next = static_cast<std::size_t>(end - list.c_str());
+    if (next == at) {
+      ++at;
+    } else {
+      out.push_back(value);
+      at = next;
+    }
+  }
+  return out;
+}
+
+bool is_many(const std::string& path) {
+  for (const sim::SectionSpec& section : sim::world_schema())
+    if (path == section.path) return section.many;
+  return true;
+}
+
 /// Keys and paths come from the page: only those that the format has.
 void check_key(const std::string& path, const std::string& key) {
   for (const sim::SectionSpec& section : sim::world_schema())
@@ -77,39 +105,21 @@ void check_part_key(const std::string& key) {
 
 }  // namespace
 
-std::string replace_file(const std::string& path, const std::string& bytes) {
-  std::error_code none;
-  const fs::path target = fs::weakly_canonical(path, none);  // a link goes on being one
-  const std::string fresh =
-      (target.parent_path() / (".#" + target.filename().string() + "." + std::to_string(::getpid())))
-          .string();
-  struct stat was {};
-  const mode_t mode = ::stat(target.c_str(), &was) == 0 ? was.st_mode & 07777 : 0644;
-  const int file = ::open(fresh.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, mode);
-  const auto fail = [&] {
-    const std::string why = std::strerror(errno);
-    ::unlink(fresh.c_str());
-    return path + ": cannot be written: " + why;
-  };
-  if (file < 0) return fail();
-  std::size_t done = 0;
-  while (done < bytes.size()) {
-    const ssize_t n = ::write(file, bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    done += static_cast<std::size_t>(n);
-  }
-  const bool good = done == bytes.size() && ::fchmod(file, mode) == 0 && ::fsync(file) == 0;
-  if (::close(file) != 0 || !good || ::rename(fresh.c_str(), target.c_str()) != 0) return fail();
-  return "";
-}
-
-Document::Document(std::string file, std::string text)
-    : file_(std::move(file)), saved_(text), text_(std::move(text)) {
+Document::Document(std::string file, std::string bytes)
+    : file_(std::move(file)),
+      bytes_(std::move(bytes)),
+      saved_text_(plain_text(bytes_).text),
+      disk_(base_of(bytes_)),
+      stamp_(stamp_of(file_)),
+      text_(saved_text_) {
+  is_new_ = stamp_.first < 0;
+  remove_left_over(file_);
   load();
 }
 
 void Document::load() { loaded_ = twin::parse_world(text_.text(), file_); }
+
+std::string Document::base() const { return base_of(text_.text()); }
 
 void Document::take_back() {
   if (!before_) return;
@@ -128,21 +138,43 @@ void Document::remember(int group) {
   redo_.clear();
 }
 
-int Document::edit(const Json& request) {
-  const auto op = request.at("op").get<std::string>();
+void Document::put(sim::WorldText next, int group) {
+  before_.reset();
+  if (next.text() == text_.text()) return;
+  before_ = Before{text_, redo_, group == 0 || group != group_, group_};
+  if (before_->remembered) remember(group);
+  text_ = std::move(next);
+  load();
+}
+
+std::vector<int> Document::edit(const Json& request) {
   sim::WorldText next = text_;
-  int fresh = 0;
+  std::vector<int> fresh;
+  if (!request.contains("edits")) fresh = edit_one(next, request);
+  for (const Json& one : request.value("edits", Json::array())) {
+    const std::vector<int> more = edit_one(next, one);
+    fresh.insert(fresh.end(), more.begin(), more.end());
+  }
+  put(std::move(next), request.value("group", 0));
+  return fresh;
+}
+
+std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) const {
+  const auto op = request.at("op").get<std::string>();
   const auto piece = [&]() -> const sim::WorldText::Element& {
     const auto* element = next.find(request.at("thing").get<int>());
     if (!element) refuse("thing: got one that is not there");
     return *element;
   };
+  const auto set = [&](int id, const std::string& path, const Json& values) {
+    for (const auto& [key, value] : values.items()) {
+      check_key(path, key);
+      next.set(id, key, literal(value));
+    }
+  };
   if (op == "set") {
     const sim::WorldText::Element element = piece();
-    for (const auto& [key, value] : request.at("values").items()) {
-      check_key(element.path, key);
-      next.set(element.id, key, literal(value));
-    }
+    set(element.id, element.path, request.at("values"));
   } else if (op == "add") {
     const auto path = request.at("path").get<std::string>();
     sim::WorldText::Values values;
@@ -150,18 +182,17 @@ int Document::edit(const Json& request) {
       check_key(path, key);
       values.emplace_back(key, literal(value));
     }
-    fresh = next.add(path, values);
+    for (const auto& element : next.elements())
+      if (element.path == path && !is_many(path)) refuse("path: got '" + path + "', which is there once");
+    return {next.add(path, values, is_many(path))};
   } else if (op == "remove") {
     next.remove(piece().id);
   } else if (op == "copy") {
     const sim::WorldText::Element element = piece();
-    fresh = next.copy(element.id);
+    const int fresh = next.copy(element.id);
     if (fresh == 0) refuse("thing: got one of which there is only one");
-    const Json values = request.value("values", Json::object());
-    for (const auto& [key, value] : values.items()) {
-      check_key(element.path, key);
-      next.set(fresh, key, literal(value));
-    }
+    set(fresh, element.path, request.value("values", Json::object()));
+    return {fresh};
   } else if (op == "add_inner") {
     const auto path = request.at("path").get<std::string>();
     if (path != "robot.part" || piece().path != "robot") refuse("path: expected robot.part, of a robot");
@@ -175,18 +206,63 @@ int Document::edit(const Json& request) {
     if (!next.remove_inner(piece().id, request.at("path").get<std::string>(), request.at("index").get<int>()))
       refuse("index: got one that is not there");
   } else if (op == "text") {
-    next.replace(request.at("text").get<std::string>());
+    if (request.contains("base") && request.at("base") != base())
+      throw Refusal("base: the text was changed meanwhile",
+                    {{"conflict", {{"base", base()}, {"text", text_.text()}}}});
+    next.replace(plain_text(request.at("text").get<std::string>()).text);
+  } else if (op == "paste") {
+    return paste(next, request);
   } else {
-    refuse("op: got '" + op + "', expected set, add, remove, copy, add_inner, remove_inner or text");
+    refuse("op: got '" + op + "', expected set, add, remove, copy, paste, add_inner, remove_inner or text");
   }
-  before_.reset();
-  if (next.text() == text_.text()) return fresh;
-  const int group = request.value("group", 0);
-  before_ = Before{text_, redo_, group == 0 || group != group_, group_};
-  if (before_->remembered) remember(group);
-  text_ = std::move(next);
-  load();
+  return {0};
+}
+
+/// Pieces of some world's text come to this one's end, moved by (dx, dy); what has a name of something that
+/// is there gets another.
+std::vector<int> Document::paste(sim::WorldText& next, const Json& request) const {
+  const double dx = request.value("dx", 0.0), dy = request.value("dy", 0.0);
+  const sim::WorldText from(plain_text(request.at("text").get<std::string>()).text);
+  std::set<std::string> names;
+  for (const auto& element : next.elements()) names.insert(next.value(element.id, "name"));
+  std::vector<int> fresh;
+  for (const auto& element : from.elements()) {
+    if (!element.many) continue;  // the arena and the settings are this world's
+    const int id = next.append(from.text_of(element.id));
+    fresh.push_back(id);
+    if (const std::string name = next.value(id, "name"); name.size() > 2 && names.count(name) > 0) {
+      std::string stem = name.substr(1, name.size() - 2);
+      stem.erase(stem.find_last_not_of("0123456789") + 1);
+      int number = 2;
+      while (names.count(fmt::format("\"{}{}\"", stem, number)) > 0) ++number;
+      next.set(id, "name", fmt::format("\"{}{}\"", stem, number));
+    }
+    names.insert(next.value(id, "name"));
+    if (std::vector<double> at = numbers_in(next.value(id, "position")); at.size() >= 2) {
+      at[0] += dx;
+      at[1] += dy;
+      next.set(id, "position", literal(at));
+    }
+    if (std::vector<double> points = numbers_in(next.value(id, "points")); !points.empty()) {
+      Json moved = Json::array();
+      for (std::size_t i = 0; i + 1 < points.size(); i += 2)
+        moved.push_back({points[i] + dx, points[i + 1] + dy});
+      next.set(id, "points", literal(moved));
+    }
+  }
+  if (fresh.empty()) refuse("text: got no piece of a world, expected [[box]], [[robot]] and the like");
   return fresh;
+}
+
+std::string Document::text_of(const std::vector<int>& ids) const {
+  std::string out;
+  for (const int id : ids) {
+    std::string text = text_.text_of(id);
+    if (text.empty()) refuse("things: got one that is not there");
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    out += text + "\n\n";
+  }
+  return out;
 }
 
 bool Document::undo() {
@@ -209,23 +285,61 @@ bool Document::redo() {
   return true;
 }
 
-std::string Document::save(const std::string& name) {
-  std::string file = file_;
-  if (!name.empty()) {
-    const bool plain =
-        name.find('/') == std::string::npos && name[0] != '.' && name.find('\0') == std::string::npos;
-    if (!plain || fs::path(name).extension() != ".toml")
-      return "name: got '" + name + "', expected a file name that ends in .toml, for the world's own folder";
-    file = (fs::path(file_).parent_path() / name).string();
-  }
-  const std::string wrong = replace_file(file, text_.text());
-  if (!wrong.empty()) return wrong;
-  saved_ = text_.text();
-  if (file != file_) {
-    file_ = file;
-    load();
-  }
-  return "";
+void Document::save(bool overwrite) {
+  const std::string fresh = bytes_like(bytes_, text_.text());
+  replace_known(file_, fresh, base_of(bytes_), overwrite || is_new_);
+  is_new_ = false;
+  bytes_ = fresh;
+  saved_text_ = text_.text();
+  disk_ = base_of(bytes_);
+  stamp_ = stamp_of(file_);
+}
+
+void Document::save_as(const std::string& folder, const std::string& name, bool overwrite) {
+  const bool plain = !name.empty() && name.find('/') == std::string::npos && name[0] != '.' &&
+                     name.find('\0') == std::string::npos;
+  if (!plain || fs::path(name).extension() != ".toml")
+    refuse("name: got '" + name + "', expected a file name that ends in .toml, for the world's own folder");
+  const std::string file = (fs::path(folder) / name).string();
+  std::error_code none;
+  const fs::file_status there = fs::symlink_status(file, none);
+  if (fs::is_symlink(there)) refuse("name: got '" + name + "', which is a link to somewhere else");
+  if (fs::exists(there) && !fs::is_regular_file(there)) refuse("name: got '" + name + "', which is no file");
+  if (fs::exists(there) && !overwrite)
+    refuse("name: got '" + name + "', which is there already; overwrite it?");
+  if (!is_writable(file)) throw Refusal(name + ": is read-only, and stays as it is", {{"readonly", true}});
+  const std::string fresh = bytes_like(bytes_, text_.text());
+  if (const std::string wrong = replace_file(file, fresh); !wrong.empty()) refuse(wrong);
+  file_ = file;
+  is_new_ = false;
+  bytes_ = fresh;
+  saved_text_ = text_.text();
+  disk_ = base_of(bytes_);
+  stamp_ = stamp_of(file_);
+  load();
+}
+
+void Document::reload() {
+  auto bytes = bytes_at(file_, sim::kLongestWorld);
+  if (!bytes) refuse(file_ + ": cannot be read");
+  bytes_ = std::move(*bytes);
+  saved_text_ = plain_text(bytes_).text;
+  disk_ = base_of(bytes_);
+  stamp_ = stamp_of(file_);
+  sim::WorldText next = text_;
+  next.replace(saved_text_);
+  put(std::move(next), 0);
+}
+
+std::optional<std::string> Document::disk_change() {
+  const auto stamp = stamp_of(file_);
+  if (stamp == stamp_) return std::nullopt;
+  stamp_ = stamp;
+  const auto bytes = bytes_at(file_, sim::kLongestWorld);
+  const std::string base = bytes ? base_of(*bytes) : "";
+  if (base == disk_) return std::nullopt;
+  disk_ = base;
+  return base;
 }
 
 }  // namespace viewer

@@ -14,30 +14,52 @@ namespace viewer {
 
 class Document {
  public:
-  Document(std::string file, std::string text);
+  /// `bytes`: what `file` holds.
+  Document(std::string file, std::string bytes);
 
   const std::string& file() const { return file_; }
+  /// With lines that end with LF, whatever the file's end with.
   const sim::WorldText& text() const { return text_; }
+  /// Names the text.
+  std::string base() const;
   const sim::LoadedWorld& loaded() const { return loaded_; }
-  bool is_saved() const { return text_.text() == saved_; }
+  bool is_saved() const { return text_.text() == saved_text_; }
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
 
-  /// One edit (docs/control.md, "edit"). Returns the id of what is new, otherwise 0. Throws
-  /// std::runtime_error when it cannot be done. Edits of one `group` other than 0 are undone together.
-  int edit(const nlohmann::json& request);
+  /// An edit (docs/connecting.md, "edit"), or a list of them in `edits`: all or none. Returns the ids of what
+  /// is new, 0 for an edit that makes nothing. Throws std::runtime_error when it cannot be done, Refusal with
+  /// `conflict` when the text is another than the one that was edited. Edits of one `group` other than 0 are
+  /// undone together.
+  std::vector<int> edit(const nlohmann::json& request);
   /// As it was before the last edit(), as if that had not been.
   void take_back();
   bool undo();
   bool redo();
-  /// Returns an empty string, or what is wrong. `name`: another file of the same folder; empty: the same.
-  std::string save(const std::string& name);
+  /// The pieces of these ids, as they are written.
+  std::string text_of(const std::vector<int>& ids) const;
+
+  /// Over the file as it was read; else Refusal (text_file.h), if it is not to be overwritten. Throws
+  /// std::runtime_error when the disk does not take it.
+  void save(bool overwrite);
+  /// Likewise as another file, of `folder`, which is then this one's.
+  void save_as(const std::string& folder, const std::string& name, bool overwrite);
+  /// What is on the disk becomes the text, as one edit. Throws std::runtime_error when there is nothing.
+  void reload();
+  /// Has the file become another since it was read, written or looked at? Its base, "" when it is gone.
+  std::optional<std::string> disk_change();
 
  private:
+  void put(sim::WorldText next, int group);
+  std::vector<int> edit_one(sim::WorldText& next, const nlohmann::json& request) const;
+  std::vector<int> paste(sim::WorldText& next, const nlohmann::json& request) const;
   void remember(int group);
   void load();
 
-  std::string file_, saved_;
+  std::string file_, bytes_, saved_text_;  // what the file held when it was read or written, and its text
+  std::string disk_;                       // base of what it holds
+  bool is_new_ = false;                    // it was not there when it was opened
+  std::pair<long long, long long> stamp_;  // its time, ns, and size, then
   sim::WorldText text_;
   sim::LoadedWorld loaded_;
   std::vector<sim::WorldText> undo_, redo_;
@@ -50,8 +72,5 @@ class Document {
   std::optional<Before> before_;  // of the last edit
   int group_ = 0;
 };
-
-/// Writes a file so that it is the old or the new one at every instant. Empty, or what is wrong.
-std::string replace_file(const std::string& path, const std::string& bytes);
 
 }  // namespace viewer

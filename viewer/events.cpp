@@ -8,7 +8,7 @@ namespace {
 using Json = nlohmann::json;
 constexpr std::size_t kMostDiagnoses = 200;
 
-/// Bytes as a JSON text: what is no UTF-8 is taken for Latin-1.
+/// Bytes as a JSON text: each is a character.
 std::string latin_to_utf8(const std::string& bytes) {
   std::string out;
   for (const char c : bytes) {
@@ -30,7 +30,7 @@ Json serial_event(const twin::Twin& twin, int robot, int port, const std::string
           {"robot", twin.world().robots[static_cast<std::size_t>(robot)].name},
           {"port", port},
           {"time_s", sim::to_seconds(twin.simulation().now())},
-          {"text", port == 0 ? bytes : latin_to_utf8(bytes)}};
+          {"text", latin_to_utf8(bytes)}};
 }
 
 Json trap_event(const host::TrapReport& trap) {

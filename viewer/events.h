@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a page is told of a run, as JSON (docs/control.md, "events"); the live view and a report say it alike.
+// What a page is told of a run, as JSON (docs/connecting.md, "events"); a report has the same.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -95,4 +95,32 @@ std::string frame(twin::Twin& twin, const FrameHead& head, const std::vector<dou
   return out + bodies + rays;
 }
 
+std::string frame_table() {
+  struct Row {
+    const char *place, *holds;
+  };
+  constexpr Row kRows[] = {
+      {"0", "`TPK1`"},
+      {"4", "u32 revision of the `world` event it belongs to"},
+      {"8", "f64 time, s"},
+      {"16", "f64 pace, simulated seconds a second"},
+      {"24", "u32 flags: 1 plays, 2 ended"},
+      {"28, 32, 36, 40", "u32 robots, bodies (robots, then movable objects), values, rays"},
+      {"44", "u32 subscription that the values are of"},
+      {"48", "f64 each value"},
+      {"then", "f32 x, y, z, heading (m, rad) of each body"},
+      {"then",
+       "u32 LEDs, u32 state of each robot: 1 no program, 2 stopped by a trap, 4 waits, 8 its loudspeaker "
+       "sounds"},
+      {"then",
+       "f32 x 7 of each ray: from, to, and how much of its light comes back, 0 to 1; -1: nothing was met"},
+  };
+  std::string out =
+      "Binary messages are frames, little endian, at most 60 a second; a slow client gets fewer.\n\n| bytes "
+      "| "
+      "|\n|---|---|\n";
+  for (const Row& row : kRows) out += std::string("| ") + row.place + " | " + row.holds + " |\n";
+  return out;
+}
+
 }  // namespace viewer

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One state of the world as bytes for the page: docs/control.md, "frames". Little endian, version 1.
+// One state of the world as bytes for the page: docs/connecting.md, "frames". Little endian, version 1.
 //
 //   0 u32 "TPK1"   4 u32 world revision    8 f64 time, s     16 f64 pace, simulated s per s
 //  24 u32 flags   28 u32 robots   32 u32 bodies   36 u32 values   40 u32 rays   44 u32 subscription
@@ -21,6 +21,8 @@ struct FrameHead {
   double pace = 0;
 };
 
+/// The table above for docs, in Markdown.
+std::string frame_table();
 /// The part that all clients share: what comes behind the values.
 std::string frame_bodies(twin::Twin& twin);
 /// Rays of the proximity sensors of these robots: from, to, and 0 to 1 how much of its light comes back; -1:

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "viewer/inputs.h"
+#include "hal_sim/inputs/inputs.h"
 
 namespace viewer {
 
@@ -48,7 +48,8 @@ void robot_edit(const Text& from, const Text& to, int id, int index, const sim::
     edit.inputs.push_back({{"do", "selector"},
                            {"robot", robot.name},
                            {"position", selector == robot.own.end() ? 0.0 : selector->second.numbers.at(0)}});
-  if (robot.battery_v >= kLeastBatteryV && robot.battery_v <= kMostBatteryV && keys.erase("battery"))
+  if (robot.battery_v >= inputs::kLeastBatteryV && robot.battery_v <= inputs::kMostBatteryV &&
+      keys.erase("battery"))
     edit.inputs.push_back({{"do", "battery"}, {"robot", robot.name}, {"volts", robot.battery_v}});
   if (!robot.firmware.empty() && !from.value(id, "firmware").empty() && keys.erase("firmware"))
     edit.firmware.emplace_back(index, robot.firmware);

@@ -3,19 +3,21 @@
 
 namespace viewer {
 
-std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& record, int port,
+std::unique_ptr<LiveView> LiveView::open(inputs::Opening opening, const std::string& record, int port,
                                          const std::string& page_folder, std::vector<std::string>& problems,
-                                         std::unique_ptr<Replay> replay) {
+                                         std::unique_ptr<inputs::Replay> replay,
+                                         std::function<void(const std::string&)> tell) {
   std::unique_ptr<LiveView> view(new LiveView);
   LiveView* v = view.get();
   // the session's thread sends through the server, and the server's threads post to the session: neither runs
   // before both are there
   v->session_ = std::make_unique<Session>(
       std::move(opening), record,
-      Session::Outlet{[v](ClientId c, std::string text) { v->server_->send(c, std::move(text)); },
-                      [v](ClientId c, std::string bytes) { v->server_->send_frame(c, std::move(bytes)); },
-                      [v](ClientId c) { return v->server_->wants_frame(c); }});
+      Outlet{[v](ClientId c, std::string text) { v->server_->send(c, std::move(text)); },
+             [v](ClientId c, std::string bytes) { v->server_->send_frame(c, std::move(bytes)); },
+             [v](ClientId c) { return v->server_->wants_frame(c); }});
   v->session_->replay(std::move(replay));
+  v->session_->on_recording_error = std::move(tell);
   v->session_->open(problems);
   std::string wrong;
   v->server_ =
@@ -32,9 +34,12 @@ std::unique_ptr<LiveView> LiveView::open(Opening opening, const std::string& rec
   return view;
 }
 
-LiveView::~LiveView() {
-  session_->stop();
+LiveView::~LiveView() { end(); }
+
+std::string LiveView::end() {
+  const std::string wrong = session_->stop();
   server_.reset();
+  return wrong;
 }
 
 }  // namespace viewer

@@ -156,7 +156,7 @@ void Report::add_sources(Json& programs, Json& sources) const {
     for (const std::string& file : found.files()) {
       std::string text;
       try {
-        text = found.read(file);
+        text = found.read(file).text;
       } catch (const std::runtime_error&) {
         continue;  // gone, or too long
       }
@@ -183,33 +183,35 @@ std::string Report::finish(const std::string& summary) {
   loaded.world = twin_.world();
   std::string text;
   sim::read_input_file(twin_.world().file, sim::kLongestWorld, text);  // a world without a file has no text
-  const Json piece{{"hello",
-                    {{"event", "hello"},
-                     {"you", 0},
-                     {"revision", 1},
-                     {"state",
-                      {{"playing", false},
-                       {"speed", 1},
-                       {"ended", false},
-                       {"time_s", 0},
-                       {"seed", twin_.world().seed},
-                       {"saved", true},
-                       {"undo", false},
-                       {"redo", false},
-                       {"steering", 0},
-                       {"runs", false}}},
-                     {"world", world_json(loaded, sim::WorldText(text))},
-                     {"programs", programs},
-                     {"diagnoses", diagnoses_json(twin_)},
-                     {"names", names_of_robots()},
-                     {"schema", Json::object()}}},
-                   {"sources", sources},
-                   {"floor", floor.image_rgb.empty() ? Json() : floor_json(floor)},
-                   {"events", events_},
-                   {"summary", Json::parse(summary)},
-                   {"names", names_},
-                   {"units", units_},
-                   {"frame_bytes", frames_.empty() ? 0 : frames_.front().size()}};
+  const Json piece{
+      {"hello",
+       {{"event", "hello"},
+        {"you", 0},
+        {"revision", 1},
+        {"state",
+         {{"playing", false},
+          {"speed", 1},
+          {"ended", false},
+          {"time_s", 0},
+          {"seed", twin_.world().seed},
+          {"saved", true},
+          {"undo", false},
+          {"redo", false},
+          {"steering", 0},
+          {"runs", false}}},
+        {"world", world_json(loaded, sim::WorldText(text), "", &twin_,
+                             movable_ids(loaded.world ? *loaded.world : loaded.draft, sim::WorldText(text)))},
+        {"programs", programs},
+        {"diagnoses", diagnoses_json(twin_)},
+        {"names", names_of_robots()},
+        {"schema", Json::object()}}},
+      {"sources", sources},
+      {"floor", floor.image_rgb.empty() ? Json() : floor_json(floor)},
+      {"events", events_},
+      {"summary", Json::parse(summary)},
+      {"names", names_},
+      {"units", units_},
+      {"frame_bytes", frames_.empty() ? 0 : frames_.front().size()}};
   replace(script_, "</script", "<\\/script");
   std::string page = html_;
   replace(page, "<link rel=\"stylesheet\" href=\"page.css\">", "<style>\n" + style_ + "</style>");

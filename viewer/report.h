@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A run as one HTML file: the page of the live view with all that it would have been told, to scrub through
-// without a server or a network. Frames are those of docs/control.md, at most kMostFrames of them: a longer
-// run has them farther apart. In: the run, tick by tick. Out: the file, at the end.
+// without a server or a network. Frames are those of docs/connecting.md, at most kMostFrames of them: a
+// longer run has them farther apart. In: the run, tick by tick. Out: the file, at the end.
 //
 //   {"hello": {..}, "events": [..], "summary": {..}, "names": [..], "units": [..], "frame_bytes": n}
 //   and in a second piece the frames, byte 0 of all of them, byte 1 .., deflated, in base64

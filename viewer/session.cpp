@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-// The thread: requests, pace, frames. What requests do is in session_requests.cpp.
+// The thread, runs and what everybody is told. What requests do is in session_requests.cpp.
 #include "viewer/session.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "hal_sim/chip/chip_runner.h"
 #include "sim_core/load/world_loader.h"
 #include "viewer/events.h"
 #include "viewer/world_json.h"
@@ -17,35 +19,27 @@ using namespace std::chrono_literals;
 
 namespace {
 
-constexpr auto kFrameEvery = 15ms;  // 60 a second
-constexpr auto kSlice = 4ms;        // of stepping, between two looks at requests
+constexpr auto kIdleLook = 15ms;  // between two looks at what stands
+constexpr auto kSlice = 4ms;      // of stepping, between two looks at requests
 constexpr auto kTraceEvery = 100ms;
-constexpr auto kLookPause = 100ms;
+constexpr auto kWatchEvery = 150ms;                // are files what they were?
+constexpr auto kBuildLook = 5ms;                   // is it done?
 constexpr std::size_t kMostTold = 4000;            // spans, and changes, of one event
-constexpr auto kPaceOver = 500ms;                  // the pace is a mean over so long
 constexpr std::size_t kLongestSerial = 64u << 10;  // bytes of a line sent at once
-
-double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
+constexpr std::size_t kMostUnread = 64u << 10;     // bytes of a line that wait for the first page
+constexpr double kLongestInterruptWait_s = 10;
 
 }  // namespace
 
-Session::Session(Opening opening, std::string record, Outlet outlet)
+Session::Session(inputs::Opening opening, std::string record, Outlet outlet)
     : opening_(std::move(opening)),
       record_file_(std::move(record)),
-      outlet_(std::move(outlet)),
+      home_(fs::path(opening_.file).parent_path().string()),
       document_(opening_.file, opening_.text),
+      pages_(std::move(outlet)),
       live_text_("") {}
 
 Session::~Session() { stop(); }
-
-void Session::stop() {
-  ending_ = true;
-  has_news_ = true;
-  news_.notify_all();
-  if (thread_.joinable()) thread_.join();
-  if (build_.valid()) build_.wait();
-  close_run();
-}
 
 bool Session::open(std::vector<std::string>& problems) { return reopen(problems); }
 
@@ -53,30 +47,96 @@ void Session::start() {
   thread_ = std::thread([this] { live(); });
 }
 
-void Session::post(ClientId client, Kind kind, std::string text) {
-  {
-    std::lock_guard<std::mutex> lock(mutex_);
-    messages_.push_back({client, kind, std::move(text)});
-    has_news_ = true;
-  }
-  news_.notify_one();
+std::string Session::stop() {
+  mail_.end();
+  if (thread_.joinable()) thread_.join();
+  programs_.forget();
+  close_run();
+  return recording_told_;
 }
 
-/// The run that was is over: its programs finish, its recording is whole.
+// --- the thread
+
+void Session::live() {
+  while (!mail_.is_ending()) {
+    const bool changed = take_messages();
+    if (debugging_) {
+      if (debugging_->runs()) debugging_->run_on();
+      if (run_) after_ticks();
+    } else if (run_ && pace_.plays() && !ended_) {
+      advance_slice();
+    }
+    if (run_) pace_.measure(now());
+    look_around();
+    show(changed);
+    if (!run_ || !plays() || ended_) mail_.wait(kIdleLook);
+  }
+}
+
+bool Session::take_messages() {
+  if (!mail_.has_news()) return false;
+  const auto messages = mail_.take();
+  for (const Mailbox::Message& message : messages) handle(message);
+  return !messages.empty();
+}
+
+/// What may have changed by itself.
+void Session::look_around() {
+  if (Wall::now() < next_watch_) return;
+  next_watch_ = Wall::now() + kWatchEvery;
+  if (Json diagnoses = run_ ? diagnoses_json(run_->twin()) : Json::array(); diagnoses != diagnoses_told_) {
+    diagnoses_told_ = std::move(diagnoses);
+    pages_.tell_all({{"event", "diagnoses"}, {"diagnoses", diagnoses_told_}});
+  }
+  watch_files();
+  watch_programs();
+  watch_recording();
+  // a build that is under way is looked for more often
+  if (programs_.is_building()) next_watch_ = Wall::now() + kBuildLook;
+}
+
+void Session::show(bool all) {
+  send_serial();
+  if (!run_ || pages_.is_empty()) return;
+  FrameHead head;
+  head.revision = revision_;
+  head.flags = (plays() ? kRunning : 0u) | (ended_ ? kEnded : 0u);
+  head.pace = pace_.measured();
+  pages_.send_frames(run_->twin(), head, plays(), all);
+  send_trace();
+  pages_.send_looks(run_->twin());
+}
+
+// --- runs
+
 void Session::close_run() {
-  trace_.reset();
-  looks_.clear();
-  if (team_) team_->finish();
-  if (recorder_ && twin_) recorder_->end(twin_->simulation().now(), twin_->simulation().digest());
-  recorder_.reset();
-  inputs_.reset();
-  team_.reset();
-  twin_.reset();
-  lines_.clear();
+  if (debugging_) debugging_->halt();
+  pages_.let_go();
+  run_.reset();
+  debugging_.reset();
+  held_.clear();
 }
 
 /// A new run from time 0, of the document as it is.
 bool Session::reopen(std::vector<std::string>& problems) {
+  close_run();  // first: programs lie in memory where they lay in the run before
+  ended_ = is_replayed_ = false;
+  if (!open_run(replay_ ? replay_->inputs() : std::vector<Json>(), problems)) {
+    tell_problems(problems);
+    return false;
+  }
+  run_->begin(
+      [this](const std::string& line) {
+        pages_.tell_all({{"event", "says"}, {"text", line}});
+      },
+      [this] { return mail_.is_ending(); });
+  if (!record_file_.empty()) run_->record(record_file_, opening_);
+  take_up_run();
+  tell_problems({});
+  return true;
+}
+
+bool Session::open_run(std::vector<Json> script, std::vector<std::string>& problems) {
   const sim::LoadedWorld& loaded = document_.loaded();
   if (!loaded.world) {
     problems.push_back(loaded.report(document_.file()));
@@ -87,9 +147,9 @@ bool Session::reopen(std::vector<std::string>& problems) {
   opening_.text = document_.text().text();
   world.seed = opening_.seed;
   twin::Options options = opening_.options;
-  options.world_folder = fs::path(opening_.file).parent_path().string();
-  told_.clear();
-  options.tell = [this](const std::string& line) { told_.push_back(line); };
+  options.world_folder = world_folder();
+  std::vector<std::string> told;
+  options.tell = [&told](const std::string& line) { told.push_back(line); };
   // options that name robots are for those that are there
   const auto is_gone = [&](const twin::Choice& c) {
     for (const auto& r : world.robots)
@@ -99,232 +159,209 @@ bool Session::reopen(std::vector<std::string>& problems) {
   if (was_open_)
     for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
       choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
-  close_run();  // first: programs lie in memory where they lay in the run before
-  twin_ = twin::Twin::open(world, options, problems);
-  if (!twin_) return false;
-  was_open_ = true;
-  team_ = programs::Team::open(*twin_, options, opening_.supervisors, problems);
-  if (!team_) {
-    twin_.reset();
-    return false;
-  }
-  inputs_ = std::make_unique<Inputs>(*twin_);
-  if (!record_file_.empty()) recorder_ = std::make_unique<Recorder>(record_file_, opening_);
-  live_text_ = document_.text();
-  movable_ = movable_ids(twin_->world(), live_text_);
-  if (replay_) replay_->rewind();
-  is_replayed_ = false;
-  ended_ = false;
-  traps_told_ = 0;
-  anchor_ = pace_from_ = 0;
-  anchor_wall_ = pace_wall_ = Wall::now();
   programs_.clear();
-  for (int r = 0; r < twin_->robots(); ++r) {
-    const auto& robot = twin_->world().robots[static_cast<std::size_t>(r)];
-    for (int port = 1; port <= 2; ++port)
-      if (twin_->uart_choice(r, port) == "-" || twin_->uart_choice(r, port) == "none") {
-        lines_.push_back(std::make_unique<Line>(Line{r, port, ""}));
-        twin_->mind(r).board().uart(port).listen(&lines_.back()->text);
-      }
-    lines_.push_back(std::make_unique<Line>(Line{r, 0, ""}));
-    twin_->mind(r).board().virtual_devices().on_console =
-        [line = lines_.back().get()](const std::string& text) { line->text += text + "\n"; };
-    if (robot.firmware.empty()) continue;
-    program_named(robot.firmware).robots.push_back(r);
+  auto run = std::make_unique<Run>(std::move(script), replay_ != nullptr);
+  const bool opened = run->open(world, options, opening_.supervisors, problems);
+  for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) {
+    // a world that does not run has programs, too: one of them may be why
+    std::string name = opened ? run->twin().world().robots[static_cast<std::size_t>(r)].firmware
+                              : world.robots[static_cast<std::size_t>(r)].firmware;
+    if (!opened)
+      for (const twin::Choice& c : options.firmware)
+        if (c.robot == "*" || c.robot == world.robots[static_cast<std::size_t>(r)].name) name = c.value;
+    if (!name.empty()) programs_.named(name, options.world_folder).robots.push_back(r);
   }
-  team_->should_give_up = [this] { return ending_.load(); };
-  team_->say = [this](const std::string& line) { tell_all({{"event", "says"}, {"text", line}}); };
-  team_->before_first_tick();
-  resubscribe();
+  programs_.take_opening(problems, told);
+  if (!opened) return false;
+  was_open_ = true;
+  run_ = std::move(run);
   return true;
 }
 
-Session::Program& Session::program_named(const std::string& name) {
-  for (Program& program : programs_)
-    if (program.name == name) return program;
-  std::vector<std::string> none;
-  const std::string folder = fs::path(opening_.file).parent_path().string();
-  programs_.push_back({name, {}, Sources(twin::find_firmware(name, folder, none)), false, {}});
-  return programs_.back();
+/// The run's twin is another one.
+void Session::take_up_run() {
+  live_text_ = document_.text();
+  movable_ = movable_ids(run_->twin().world(), live_text_);
+  traps_told_ = 0;
+  pace_.begin(now());
+  pages_.take_up(run_->twin());
 }
 
-/// A robot of the run gets another program, as soon as that is built.
-void Session::choose_program(int robot, const std::string& name) {
-  opening_.options.firmware.push_back({twin_->world().robots[static_cast<std::size_t>(robot)].name, name});
-  program_named(name).waiting.push_back(robot);
-  next_watch_ = {};
-}
-
-void Session::restart() {
+void Session::begin_anew() {
   std::vector<std::string> problems;
-  if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
+  reopen(problems);
   tell_world();
   tell_state();
 }
 
-void Session::live() {
-  while (!ending_) {
-    const bool changed = take_messages();
-    if (playing_ && twin_ && !ended_) {
-      advance_slice();
-    } else {
-      pace_ = 0;
-      pace_wall_ = Wall::now();
-      if (twin_) pace_from_ = twin_->simulation().now();
+void Session::advance_slice() {
+  const auto begin = Wall::now();
+  // in between is looked for requests, and for what programs print
+  const sim::Clicks look = sim::kClicksPerSecond / 64;
+  while (!mail_.has_news() && !run_->has_ended() && Wall::now() - begin <= kSlice) {
+    const sim::Clicks due = pace_.due(now());
+    if (now() >= due) {
+      mail_.wait(std::min<std::chrono::duration<double>>(std::chrono::duration<double>(pace_.wait_s(now())),
+                                                         kSlice));
+      break;
     }
-    if (Wall::now() >= next_watch_) watch_programs();
-    send_serial();
-    send_frames(changed);
-    send_trace();
-    send_looks();
-    if (!playing_ || !twin_ || ended_) {
-      std::unique_lock<std::mutex> lock(mutex_);
-      news_.wait_for(lock, kFrameEvery, [&] { return has_news_.load(); });
-    }
+    step_until(std::min(now() + look, due));
+    if (!pace_.plays()) break;
   }
+  after_ticks();
 }
 
-bool Session::take_messages() {
-  if (!has_news_) return false;
-  std::deque<Message> messages;
-  {
-    std::lock_guard<std::mutex> lock(mutex_);
-    messages.swap(messages_);
-    has_news_ = ending_.load();
-  }
-  for (const Message& message : messages) handle(message);
-  return !messages.empty();
-}
-
-/// Inputs of a recording that are due are done. Until when the world may run before it is looked at again.
-sim::Clicks Session::replay_due() {
-  if (!replay_) return sim::kEver;
-  const sim::Clicks now = twin_->simulation().now(), end = replay_->end();
-  try {
-    replay_->apply_due(*inputs_, now);
-  } catch (const std::exception& e) {
-    tell_all({{"event", "problems"}, {"problems", {std::string("replay: ") + e.what()}}});
-    replay_.reset();
-    return sim::kEver;
-  }
-  if (now >= end && end >= 0 && !is_replayed_) {
+/// With what a recording did on the way; where it ends, the run stands still.
+void Session::step_until(sim::Clicks end) {
+  const sim::Clicks replayed = replay_ ? replay_->end() : -1;
+  const auto end_replay = [&] {
+    if (replayed < 0 || is_replayed_ || now() < replayed) return false;
+    run_->do_due();
     is_replayed_ = true;
     stand_still();
+    return true;
+  };
+  try {
+    if (end_replay()) return;
+    run_->advance(replayed > now() ? std::min(end, replayed) : end);
+    end_replay();
+  } catch (const std::exception& e) {
+    tell_problems({std::string("replay: ") + e.what()});
+    stand_still();
   }
-  return std::min(replay_->next(), now < end ? end : sim::kEver);
 }
 
 /// By itself, not because somebody asked: everybody gets a last frame of it.
 void Session::stand_still() {
-  playing_ = false;
-  for (auto& [client, page] : pages_) page.fresh = true;
+  pace_.play(false, now());
+  pages_.show_anew();
   tell_state();
 }
 
-void Session::advance_slice() {
-  sim::Simulation& simulation = twin_->simulation();
-  const auto begin = Wall::now();
-  // in between is looked for requests, and for what programs print
-  const sim::Clicks look = sim::kClicksPerSecond / 64;
-  while (!has_news_ && !team_->has_ended()) {
-    const auto now = Wall::now();
-    if (now - begin > kSlice) break;
-    sim::Clicks until = std::min(simulation.now() + look, replay_due());
-    if (!playing_) break;
-    if (speed_ > 0) {
-      const sim::Clicks due = anchor_ + sim::from_seconds(seconds(now - anchor_wall_) * speed_);
-      if (simulation.now() >= due) {
-        // until the next tick is due, or a request comes
-        const double wait_s =
-            (sim::to_seconds(simulation.now() - anchor_) + simulation.scene().tick_s()) / speed_ -
-            seconds(now - anchor_wall_);
-        std::unique_lock<std::mutex> lock(mutex_);
-        news_.wait_for(lock, std::chrono::duration<double>(std::min(wait_s, seconds(kSlice))),
-                       [&] { return has_news_.load(); });
-        break;
-      }
-      // a machine that is too slow does not run after the time it lost
-      if (seconds(now - anchor_wall_) * speed_ - sim::to_seconds(simulation.now() - anchor_) >
-          0.25 * speed_) {
-        anchor_ = simulation.now();
-        anchor_wall_ = now;
-        continue;
-      }
-      until = std::min(until, due);
-    }
-    inputs_->faults().advance(until);
-  }
-  after_ticks();
-  if (Wall::now() - pace_wall_ > kPaceOver) {
-    pace_ = sim::to_seconds(simulation.now() - pace_from_) / seconds(Wall::now() - pace_wall_);
-    pace_wall_ = Wall::now();
-    pace_from_ = simulation.now();
-  }
+bool Session::step_interrupt(int robot) {
+  const host::Runner* program = run_->twin().mind(robot).runner();
+  if (!program) return false;
+  const auto served = program->interrupts_served();
+  const sim::Clicks end = now() + sim::from_seconds(kLongestInterruptWait_s);
+  while (program->interrupts_served() == served && now() < end && !run_->has_ended()) run_->step();
+  return program->interrupts_served() != served;
 }
 
 /// What happened in the ticks that everybody should know.
 void Session::after_ticks() {
-  const auto traps = twin_->traps();
-  for (std::size_t i = traps_told_; i < traps.size(); ++i) tell_all(trap_event(traps[i]));
+  const auto traps = run_->twin().traps();
+  for (std::size_t i = traps_told_; i < traps.size(); ++i) pages_.tell_all(trap_event(traps[i]));
   traps_told_ = std::max(traps_told_, traps.size());
-  if (team_->has_ended() && !ended_) {
+  if (run_->has_ended() && !ended_) {
     ended_ = true;
     stand_still();
   }
 }
 
-void Session::step_ticks(double span_s, int count) {
-  sim::Simulation& simulation = twin_->simulation();
-  for (int i = 0; i < count && !team_->has_ended(); ++i) {
-    const sim::Clicks end = simulation.now() + sim::from_seconds(span_s);
-    do {
-      const sim::Clicks due = replay_due();
-      if (span_s <= 0)
-        inputs_->step();
-      else
-        inputs_->faults().advance(std::min(end, due));
-    } while (simulation.now() < end);
+void Session::input(const Json& request, const sim::WorldDesc* world) {
+  if (debugging_)
+    run_->input_later(request);
+  else
+    run_->input(request, world);
+}
+
+// --- debugging
+
+/// The run goes on in the debugger's hands, which repeat it up to where it stands.
+void Session::debug_robot(int robot) {
+  twin::Twin& twin = run_->twin();
+  if (!run_->is_alone())
+    throw std::runtime_error(
+        "robot: this world has programs of the PC, which cannot be repeated; debug it without them");
+  const std::string name = twin.world().robots[static_cast<std::size_t>(robot)].name;
+  auto* const runner = dynamic_cast<chip::ChipRunner*>(twin.mind(robot).runner());
+  if (!runner) throw std::runtime_error("robot: got '" + name + "', which runs no firmware");
+  const debug::Cycle from = twin.mind(robot).cycle_at(now());
+  debug::Session::Setup setup;
+  setup.world = twin.world();
+  setup.options = opening_.options;
+  setup.options.world_folder = world_folder();
+  setup.options.firmware.clear();
+  for (int i = 0; i < twin.robots(); ++i)
+    if (!twin.image_path(i).empty())
+      setup.options.firmware.push_back(
+          {twin.world().robots[static_cast<std::size_t>(i)].name, twin.image_path(i)});
+  setup.robot = name;
+  auto repeated = std::make_unique<Run>(run_->done(), replay_ != nullptr);
+  Run* const run = repeated.get();
+  setup.opened = [this, run](twin::Twin& opened) {
+    run->attach(opened);
+    pages_.take_up(opened);
+  };
+  setup.closes = [this, run] {
+    pages_.let_go();
+    run->detach();
+  };
+  setup.step = [run](twin::Twin&) { run->step(); };
+  setup.ticked = [this] { debugger_ticked(); };
+  setup.repeated = [run] {
+    for (auto& line : run->lines()) line->text.clear();
+  };
+  pace_.play(false, now());
+  close_run();
+  std::vector<std::string> problems;
+  run_ = std::move(repeated);
+  debugging_ = Debugging::open(
+      std::move(setup), from,
+      [this](const std::string& event, const Json& body) {
+        pages_.tell_all({{"event", "dap"}, {"name", event}, {"body", body}});
+      },
+      [this] { return mail_.has_news(); }, problems);
+  if (!debugging_) {
+    run_.reset();
+    begin_anew();
+    throw std::runtime_error(problems.empty() ? "the world cannot be opened again" : problems[0]);
   }
-  after_ticks();
+  for (auto& line : run_->lines()) line->text.clear();
+  take_up_run();
+  traps_told_ = run_->twin().traps().size();
+  tell_state();
 }
 
-bool Session::step_interrupt(int robot) {
-  sim::Simulation& simulation = twin_->simulation();
-  const host::Runner* program = twin_->mind(robot).runner();
-  if (!program) return false;
-  const auto served = program->interrupts_served();
-  const sim::Clicks end = simulation.now() + 10 * sim::kClicksPerSecond;
-  while (program->interrupts_served() == served && simulation.now() < end && !team_->has_ended()) {
-    replay_due();
-    inputs_->step();
+/// The run goes on as a usual one, from where it stands.
+void Session::debug_no_more() {
+  const sim::Clicks stands = now();
+  std::vector<Json> done = run_->done();
+  const bool is_past_replay = is_replayed_;
+  std::vector<Programs::Built> held = std::move(held_);
+  close_run();
+  std::vector<std::string> problems;
+  if (open_run(std::move(done), problems)) {
+    run_->begin([](const std::string&) {}, [this] { return mail_.is_ending(); });
+    if (!record_file_.empty()) run_->record(record_file_, opening_);
+    while (now() < stands && !mail_.is_ending()) run_->advance(stands);
+    for (auto& line : run_->lines()) line->text.clear();
+    take_up_run();
+    traps_told_ = run_->twin().traps().size();
+    is_replayed_ = is_past_replay;
+    for (Programs::Built& built : held) load_built(built);
   }
-  after_ticks();
-  return program->interrupts_served() != served;
+  tell_problems(problems);
+  tell_programs();
+  tell_state();
 }
 
-void Session::play(bool on) {
-  playing_ = on;
-  if (!twin_) return;
-  anchor_ = twin_->simulation().now();
-  anchor_wall_ = Wall::now();
+/// On the world's thread, while this one waits in run_on(): pages see it run, at the pace that was asked for.
+void Session::debugger_ticked() {
+  show(false);
+  while (!mail_.has_news() && now() >= pace_.due(now())) {
+    std::this_thread::sleep_for(1ms);
+    show(false);
+  }
 }
 
-void Session::input(const Json& request) {
-  // a program that goes is looked at no more, and the one that comes is
-  std::unique_ptr<TraceFeed> before;
-  if (request.at("do") == "program") before = std::move(trace_);
-  const int robot = before ? before->robot() : 0;
-  const auto signals = before ? before->asked() : std::vector<std::string>();
-  const bool traced = before != nullptr;
-  before.reset();
-  inputs_->apply(request);
-  if (traced) trace(robot, signals);
-  if (recorder_) recorder_->note(twin_->simulation().now(), request);
-}
+// --- edits
+
+std::string Session::world_folder() const { return fs::path(document_.file()).parent_path().string(); }
 
 /// What the file's new text asks of the run; "it needs a new one" where there is none that has begun.
 LiveEdit Session::live_edit_now() const {
-  if (!twin_ || twin_->simulation().now() == 0) return {"the run has not begun", {}, {}};
+  if (!run_ || now() == 0) return {"the run has not begun", {}, {}};
   return live_edit(live_text_, document_.text(), *document_.loaded().world);
 }
 
@@ -338,145 +375,164 @@ void Session::document_changed(const LiveEdit& edit) {
     const std::vector<int> ids = movable_ids(*document_.loaded().world, text);
     for (int id : ids) {
       const auto was = std::find(movable_.begin(), movable_.end(), id);
-      before.push_back(was == movable_.end() ? -1
-                                             : twin_->robots() + static_cast<int>(was - movable_.begin()));
+      before.push_back(
+          was == movable_.end() ? -1 : run_->twin().robots() + static_cast<int>(was - movable_.begin()));
     }
-    input({{"do", "world"}, {"text", text.text()}, {"before", before}});
+    input({{"do", "world"}, {"text", text.text()}, {"before", before}}, &*document_.loaded().world);
     for (const Json& request : edit.inputs) input(request);
     for (const auto& [robot, name] : edit.firmware) choose_program(robot, name);
     movable_ = ids;
     live_text_ = text;
-    resubscribe();
+    pages_.take_up(run_->twin());
   } else {
     std::vector<std::string> problems;
-    if (!reopen(problems)) tell_all({{"event", "problems"}, {"problems", problems}});
+    reopen(problems);
   }
   tell_world();
   tell_state();
 }
 
-void Session::tell_all(const Json& event) {
-  const std::string text = event.dump(-1, ' ', false, Json::error_handler_t::replace);
-  for (const auto& [client, page] : pages_) outlet_.send(client, text);
+/// A robot of the run gets another program, as soon as that is built.
+void Session::choose_program(int robot, const std::string& name) {
+  opening_.options.firmware.push_back(
+      {run_->twin().world().robots[static_cast<std::size_t>(robot)].name, name});
+  programs_.named(name, world_folder()).waiting.push_back(robot);
+  next_watch_ = {};
 }
+
+// --- files and programs
+
+void Session::watch_files() {
+  if (const auto base = document_.disk_change())
+    pages_.tell_all({{"event", "disk"},
+                     {"file", fs::path(document_.file()).filename().string()},
+                     {"base", base->empty() ? Json() : Json(*base)}});
+  const auto changes = programs_.look();
+  for (const Programs::Change& change : changes)
+    pages_.tell_all({{"event", "disk"},
+                     {"program", change.program},
+                     {"file", change.file},
+                     {"base", change.base.empty() ? Json() : Json(change.base)}});
+  // a world that could not run for its program is tried again with another one
+  if (!changes.empty() && !run_ && document_.loaded().world) begin_anew();
+}
+
+void Session::watch_programs() {
+  if (auto built = programs_.take_built()) {
+    if (debugging_)
+      held_.push_back(std::move(*built));
+    else
+      load_built(*built);
+  }
+  Programs::Program* const program = run_ ? programs_.next_to_build() : nullptr;
+  if (!program) return;
+  pages_.tell_all({{"event", "building"}, {"program", program->name}});
+  twin::Options options = opening_.options;
+  options.world_folder = world_folder();
+  const int robot = program->robots.empty() ? program->waiting.front() : program->robots.front();
+  // with the HAL that it runs with
+  if (options.hal.empty() && run_->twin().hal(robot) != "own") options.hal = run_->twin().hal(robot);
+  options.webots_settings = twin::webots_settings_of(run_->twin().world());
+  programs_.build(*program, options);
+}
+
+/// The new program begins where its robots stand; one that does not compile leaves the old one running.
+void Session::load_built(Programs::Built& built) {
+  Programs::Program* const program = programs_.find(built.name);
+  if (built.problems.empty() && program && run_) {
+    try {
+      if (!built.robots.empty()) input({{"do", "program"}, {"robots", built.robots}, {"image", built.path}});
+      for (const int robot : built.robots)
+        if (std::find(program->robots.begin(), program->robots.end(), robot) == program->robots.end())
+          programs_.shift_robot(robot, *program);
+    } catch (const std::exception& e) {
+      built.problems.push_back(e.what());
+      program->problems = built.problems;
+    }
+    pages_.take_up(run_->twin());
+  }
+  tell_programs();
+  pages_.tell_all({{"event", "built"},
+                   {"program", built.name},
+                   {"ok", built.problems.empty()},
+                   {"problems", built.problems},
+                   {"warnings", built.warnings},
+                   {"took_s", built.took_s}});
+}
+
+/// A recording that is not whole is said at once, not at the end.
+void Session::watch_recording() {
+  const std::string wrong = run_ ? run_->recording_error() : std::string();
+  if (wrong.empty() || wrong == recording_told_) return;
+  recording_told_ = wrong;
+  if (on_recording_error) on_recording_error(wrong);
+  tell_state();
+}
+
+// --- what is told
 
 void Session::tell_world() {
   ++revision_;
-  Json world = world_json(document_.loaded(), document_.text());
-  tell_all({{"event", "world"}, {"revision", revision_}, {"world", std::move(world)}});
-  tell_all({{"event", "programs"}, {"programs", programs_json()}});
-  for (auto& [client, page] : pages_) page.fresh = true;
+  pages_.tell_all({{"event", "world"}, {"revision", revision_}, {"world", world_json_now()}});
+  tell_programs();
+  pages_.show_anew();
+}
+
+Json Session::world_json_now() const {
+  return world_json(document_.loaded(), document_.text(), document_.base(), run_ ? &run_->twin() : nullptr,
+                    movable_);
+}
+
+void Session::tell_programs() {
+  pages_.tell_all({{"event", "programs"}, {"programs", programs_.json(run_ ? &run_->twin() : nullptr)}});
+}
+
+void Session::tell_problems(std::vector<std::string> problems) {
+  if (problems == problems_) return;
+  problems_ = std::move(problems);
+  pages_.tell_all({{"event", "problems"}, {"problems", problems_}});
 }
 
 Json Session::state_json() const {
-  Json state{{"playing", playing_},
-             {"speed", speed_},
+  Json state{{"playing", plays()},
+             {"speed", pace_.speed()},
              {"ended", ended_},
-             {"time_s", twin_ ? sim::to_seconds(twin_->simulation().now()) : 0.0},
+             {"time_s", sim::to_seconds(now())},
              {"seed", opening_.seed},
              {"saved", document_.is_saved()},
              {"undo", document_.can_undo()},
              {"redo", document_.can_redo()},
              {"steering", steering_},
-             {"runs", twin_ != nullptr}};
-  if (ended_) state["outcome"] = {{"code", team_->outcome().code}, {"text", team_->outcome().text}};
+             {"debugging", debugging_ ? debugging_->robot() : ""},
+             {"runs", run_ != nullptr}};
+  if (ended_) state["outcome"] = {{"code", run_->outcome().code}, {"text", run_->outcome().text}};
+  if (!record_file_.empty()) state["recording"] = {{"file", record_file_}, {"error", recording_told_}};
   return state;
 }
 
 void Session::send_serial() {
-  constexpr std::size_t kMostUnread = 1 << 16;
-  for (const auto& line : lines_) {
+  if (!run_) return;
+  for (const auto& line : run_->lines()) {
     if (line->text.empty()) continue;
     // what is said before there is a page waits for the first one
-    if (pages_.empty()) {
+    if (pages_.is_empty()) {
       if (line->text.size() > kMostUnread) line->text.erase(0, line->text.size() - kMostUnread);
       continue;
     }
     const std::string some = line->text.substr(0, kLongestSerial);
     line->text.erase(0, some.size());
-    tell_all(serial_event(*twin_, line->robot, line->port, some));
+    pages_.tell_all(serial_event(run_->twin(), line->robot, line->port, some));
   }
-}
-
-void Session::send_frames(bool all) {
-  if (!twin_ || pages_.empty()) return;
-  const auto now = Wall::now();
-  std::string bodies;
-  for (auto& [client, page] : pages_) {
-    const bool is_due = now - page.last_frame >= kFrameEvery;
-    if (!(page.fresh || all || (playing_ && is_due))) continue;
-    if (!outlet_.wants_frame(client)) {
-      page.fresh = true;  // as soon as it can
-      continue;
-    }
-    if (bodies.empty()) bodies = frame_bodies(*twin_);
-    std::vector<double> values;
-    for (const Named& named : page.values) values.push_back(named.value(*twin_));
-    FrameHead head;
-    head.revision = revision_;
-    head.flags = (playing_ ? kRunning : 0u) | (ended_ ? kEnded : 0u);
-    head.subscription = page.subscription;
-    head.pace = pace_;
-    outlet_.send_frame(client, frame(*twin_, head, values, bodies, frame_rays(*twin_, page.rays)));
-    page.last_frame = now;
-    page.fresh = false;
-  }
-}
-
-void Session::trace(int robot, const std::vector<std::string>& signals) {
-  trace_.reset();  // first: a robot has one observer
-  trace_ = std::make_unique<TraceFeed>(*twin_, robot, signals);
-  traced_ = -1;
 }
 
 void Session::send_trace() {
-  if (!trace_ || traced_ == twin_->simulation().now() || Wall::now() < next_trace_) return;
+  if (Wall::now() < next_trace_) return;
   next_trace_ = Wall::now() + kTraceEvery;
-  traced_ = twin_->simulation().now();
-  tell_all(trace_->take(kMostTold));
-}
-
-/// To who looks at a robot, what is new there; and to who has just begun, all.
-void Session::send_looks() {
-  if (!twin_ || Wall::now() < next_look_) return;
-  next_look_ = Wall::now() + kLookPause;
-  std::map<int, Json> news;
-  for (auto& [client, page] : pages_) {
-    const int robot = page.looked_at.empty() ? -1 : twin_->find(page.looked_at);
-    if (robot < 0) continue;
-    auto& look = looks_[robot];
-    if (!look) look = std::make_unique<RobotLook>(*twin_, robot);
-    if (news.find(robot) == news.end()) news[robot] = look->take();
-    Json event = news[robot];
-    if (event.is_null() && page.look_is_fresh) event = look->last();
-    if (event.is_null()) continue;
-    outlet_.send(client, event.dump(-1, ' ', false, Json::error_handler_t::replace));
-    page.look_is_fresh = false;
-  }
-  for (auto it = looks_.begin(); it != looks_.end();)
-    it = news.find(it->first) == news.end() ? looks_.erase(it) : std::next(it);
-}
-
-/// After the world or a program was exchanged: names mean something else now, or nothing.
-void Session::resubscribe() {
-  for (auto& [client, page] : pages_) {
-    page.rays.erase(
-        std::remove_if(page.rays.begin(), page.rays.end(), [&](int r) { return r >= twin_->robots(); }),
-        page.rays.end());
-    page.values.clear();
-    for (const std::string& name : page.names) {
-      try {
-        page.values.push_back(find_named(*twin_, name));
-      } catch (const std::exception&) {
-        page.values.push_back({"", [](twin::Twin&) { return std::numeric_limits<double>::quiet_NaN(); }});
-      }
-    }
-    page.fresh = true;
-  }
+  if (const Json event = run_->take_trace(kMostTold); !event.is_null()) pages_.tell_all(event);
 }
 
 int Session::robot_named(const std::string& name) const {
-  const int robot = twin_ ? twin_->find(name) : -1;
+  const int robot = run_ ? run_->twin().find(name) : -1;
   if (robot < 0)
     throw std::runtime_error(fmt::format("robot: got '{}', expected a robot of the world", name));
   return robot;

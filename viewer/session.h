@@ -1,52 +1,42 @@
 // SPDX-License-Identifier: MIT
 // A world that runs while pages look at it and touch it. One thread has it all: it takes requests between
-// ticks, steps the simulation at the pace that was asked for, and hands out answers, events and frames. It
-// waits for nobody: who sends must not block. docs/control.md is the protocol.
+// ticks, steps the run at the pace that was asked for, and hands out answers, events and frames. It waits for
+// nobody: who sends must not block.
+//
+//   clients --Mailbox--> requests (requests.h) --> Document   the world file's text
+//                                              --> Programs   controllers, their sources and builds
+//                                              --> Run        the twin, and all that is done to it
+//                                              --> Debugging  the run, while a robot is debugged
+//           <--Pages---- answers, events, frames                                    Pace: how fast
 #pragma once
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
-#include <deque>
 #include <functional>
-#include <future>
-#include <map>
 #include <memory>
-#include <mutex>
-#include <set>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "hal_sim/twin/twin.h"
-#include "programs/team/team.h"
+#include "viewer/debugging.h"
 #include "viewer/document.h"
-#include "viewer/frame.h"
-#include "viewer/inputs.h"
 #include "viewer/live_edits.h"
-#include "viewer/names.h"
-#include "viewer/robot_look.h"
-#include "viewer/sources.h"
-#include "viewer/trace_feed.h"
-#include "viewer/web_server.h"
+#include "viewer/mailbox.h"
+#include "viewer/pace.h"
+#include "viewer/pages.h"
+#include "viewer/programs.h"
+#include "viewer/run.h"
 
 namespace viewer {
 
-/// Version of the protocol; docs/control.md says what changed.
-inline constexpr int kProtocolVersion = 1;
+/// Version of the protocol; docs/changelog.md says what changed.
+inline constexpr int kProtocolVersion = 2;
 
 class Session {
  public:
-  struct Outlet {
-    std::function<void(ClientId, std::string)> send;        ///< a text
-    std::function<void(ClientId, std::string)> send_frame;  ///< replaces one that waits
-    std::function<bool(ClientId)> wants_frame;
-  };
-
   /// `opening.text` is what `opening.file` holds. `record`: file for the inputs; empty: none.
-  Session(Opening opening, std::string record, Outlet outlet);
+  Session(inputs::Opening opening, std::string record, Outlet outlet);
   /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end.
   /// Before open().
-  void replay(std::unique_ptr<Replay> recording) { replay_ = std::move(recording); }
+  void replay(std::unique_ptr<inputs::Replay> recording) { replay_ = std::move(recording); }
   ~Session();
   Session(const Session&) = delete;
   Session& operator=(const Session&) = delete;
@@ -55,135 +45,125 @@ class Session {
   bool open(std::vector<std::string>& problems);
   /// Starts the thread. From now on only those below may be called, by any thread.
   void start();
-  void client_came(ClientId client) { post(client, Kind::Came, ""); }
-  void client_said(ClientId client, std::string text) { post(client, Kind::Said, std::move(text)); }
-  /// Ends the thread and the run; nothing is sent any more.
-  void stop();
-  void client_left(ClientId client) { post(client, Kind::Left, ""); }
+  void client_came(ClientId client) { mail_.post(client, Mailbox::Kind::Came, ""); }
+  void client_said(ClientId client, std::string text) {
+    mail_.post(client, Mailbox::Kind::Said, std::move(text));
+  }
+  void client_left(ClientId client) { mail_.post(client, Mailbox::Kind::Left, ""); }
+  /// Told at once, on the thread, when the recording cannot be written any more; may be empty. Before
+  /// start().
+  std::function<void(const std::string&)> on_recording_error;
+  /// Ends the thread and the run; nothing is sent any more. What is wrong with the recording; empty: nothing.
+  std::string stop();
 
  private:
   using Wall = std::chrono::steady_clock;
-  enum class Kind { Came, Said, Left };
-  struct Message {
-    ClientId client;
-    Kind kind;
-    std::string text;
-  };
-  struct Page {
-    bool fresh = true;  // has not got a frame of what is shown now
-    std::uint32_t subscription = 0;
-    std::vector<std::string> names;
-    std::vector<Named> values;
-    std::vector<int> rays;
-    std::string looked_at;       // robot; empty: none
-    bool look_is_fresh = false;  // it has not been told of it
-    Wall::time_point last_frame{};
-  };
-  struct Line {  // of a serial line or a console, until it has been sent
-    int robot, port;
-    std::string text;
-  };
-  struct Program {  // a controller that robots run, and its sources
-    std::string name;
-    std::vector<int> robots;
-    Sources sources;
-    bool stale = false;        // its sources have changed since it was built
-    std::vector<int> waiting;  // robots that get it when it is built, and run another one until then
-  };
-  struct Built {
-    std::string name, path;
-    std::vector<std::string> problems, warnings;
-    double took_s = 0;
-  };
+  using Handler = Json (Session::*)(ClientId client, const Json& request);
+  friend struct Handlers;
 
-  void post(ClientId client, Kind kind, std::string text);
+  // --- the thread
   void live();
   bool take_messages();
-  void handle(const Message& message);
+  void handle(const Mailbox::Message& message);
   Json answer(ClientId client, const Json& request);
-  Json run_request(const std::string& what, const Json& request);
-  Json edit_request(const std::string& what, const Json& request);
-  Json program_request(const std::string& what, const Json& request);
-  Json look_request(ClientId client, const std::string& what, const Json& request);
+  void look_around();
+  void show(bool all);
 
+  // --- requests, by name (session_requests.cpp)
+  Json do_play(ClientId, const Json&);
+  Json do_pause(ClientId, const Json&);
+  Json step(ClientId, const Json&);
+  Json set_speed(ClientId, const Json&);
+  Json restart(ClientId, const Json&);
+  Json steer(ClientId, const Json&);
+  Json tell_state_to(ClientId, const Json&);
+  Json subscribe(ClientId, const Json&);
+  Json rays(ClientId, const Json&);
+  Json look(ClientId, const Json&);
+  Json trace(ClientId, const Json&);
+  Json floor(ClientId, const Json&);
+  Json edit(ClientId, const Json&);
+  Json undo(ClientId, const Json&);
+  Json redo(ClientId, const Json&);
+  Json reload(ClientId, const Json&);
+  Json text_of(ClientId, const Json&);
+  Json save(ClientId, const Json&);
+  Json save_as(ClientId, const Json&);
+  Json worlds(ClientId, const Json&);
+  Json open_world(ClientId, const Json&);
+  Json new_world(ClientId, const Json&);
+  Json source(ClientId, const Json&);
+  Json write_source(ClientId, const Json&);
+  Json debug(ClientId, const Json&);
+  Json dap(ClientId, const Json&);
+  Json touch(ClientId, const Json&);
+  Run& running() const;
+  Json changed(const Json& request, const std::function<void()>& take_back, Json reply);
+
+  // --- runs
   bool reopen(std::vector<std::string>& problems);
-  void restart();
+  bool open_run(std::vector<Json> script, std::vector<std::string>& problems);
   void close_run();
+  void take_up_run();
+  void begin_anew();
+  void advance_slice();
+  void stand_still();
+  void step_until(sim::Clicks end);
+  bool step_interrupt(int robot);
+  void after_ticks();
+  void repeat_until(sim::Clicks end);
+  void input(const Json& request, const sim::WorldDesc* world = nullptr);
+  void debug_robot(int robot);
+  void debug_no_more();
+  void debugger_ticked();
+  bool plays() const { return debugging_ ? debugging_->runs() : pace_.plays(); }
+  sim::Clicks now() const { return run_ ? run_->now() : 0; }
+
+  // --- edits
+  void open_document(const std::string& file, bool discard);
   void document_changed(const LiveEdit& edit);
   LiveEdit live_edit_now() const;
   void choose_program(int robot, const std::string& name);
-  Program& program_named(const std::string& name);
-  void advance_slice();
-  void stand_still();
-  sim::Clicks replay_due();
-  void step_ticks(double span_s, int count);
-  bool step_interrupt(int robot);
-  void after_ticks();
-  void input(const Json& request);
-  void resubscribe();
+  std::string world_folder() const;
 
+  // --- what is told
   Json state_json() const;
-  void tell_all(const Json& event);
-  void tell_state() { tell_all({{"event", "state"}, {"state", state_json()}}); }
+  Json world_json_now() const;
+  void tell_state() { pages_.tell_all({{"event", "state"}, {"state", state_json()}}); }
   void tell_world();
+  void tell_programs();
+  void tell_problems(std::vector<std::string> problems);
   void send_serial();
-  void send_frames(bool all);
   void send_trace();
-  void send_looks();
-  void trace(int robot, const std::vector<std::string>& signals);
-  Json programs_json() const;
+  void watch_files();
   void watch_programs();
-  void build_program(Program& program);
-  void finish_build();
-  void play(bool on);
+  void watch_recording();
+  void load_built(Programs::Built& built);
   int robot_named(const std::string& name) const;
 
-  Opening opening_;
-  std::string record_file_;
-  Outlet outlet_;
+  inputs::Opening opening_;
+  std::string record_file_, home_;          // home_: folder of the world that was opened first
+  std::unique_ptr<inputs::Replay> replay_;  // null: there is none
   Document document_;
+  Programs programs_;
+  Pages pages_;
+  Pace pace_;
+  Mailbox mail_;
+  std::unique_ptr<Debugging> debugging_;  // null: nobody is debugged; it has the run's twin
+  std::unique_ptr<Run> run_;              // null: the world cannot run
+  std::vector<Programs::Built> held_;     // programs that were built while a robot was debugged
 
-  std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<programs::Team> team_;
-  std::unique_ptr<Inputs> inputs_;
-  std::unique_ptr<Recorder> recorder_;
-  std::unique_ptr<Replay> replay_;    // null: there is none, or it did not fit
-  bool is_replayed_ = false;          // to its end
-  std::unique_ptr<TraceFeed> trace_;  // while a page shows a time line
-  sim::Clicks traced_ = 0;            // until when pages know it
-  Wall::time_point next_trace_{};
-  std::map<int, std::unique_ptr<RobotLook>> looks_;  // by robot, while a page looks at it
-  Wall::time_point next_look_{};
-  std::vector<std::unique_ptr<Line>> lines_;  // UARTs keep pointers
-  std::vector<int> movable_;                  // ids of the movable objects that live
-  sim::WorldText live_text_;                  // what the world that lives was made of
-  std::vector<Program> programs_;
-  std::future<Built> build_;
-  std::string building_;
-  bool building_stale_ = false;    // for all robots that run it
-  std::vector<int> building_for_;  // and for these
-  std::vector<std::string> told_;  // the compiler's warnings of the last opening
+  std::vector<int> movable_;           // ids of the movable objects that live
+  sim::WorldText live_text_;           // what the world that lives was made of
+  std::vector<std::string> problems_;  // why there is no run
+  std::string recording_told_;         // what was said to be wrong with the recording
   std::size_t traps_told_ = 0;
   Json diagnoses_told_ = Json::array();
-
-  bool playing_ = false, ended_ = false;
+  bool ended_ = false, is_replayed_ = false;
   bool was_open_ = false;  // once, so that the options that name robots were right
-  double speed_ = 1;       // 0: as fast as possible
-  Wall::time_point anchor_wall_{};
-  sim::Clicks anchor_ = 0;
-  double pace_ = 0;
-  Wall::time_point pace_wall_{};
-  sim::Clicks pace_from_ = 0;
-  Wall::time_point next_watch_{};
+  Wall::time_point next_watch_{}, next_trace_{};
   std::uint32_t revision_ = 1;
-
-  std::map<ClientId, Page> pages_;
   ClientId steering_ = 0;
-
-  std::mutex mutex_;
-  std::condition_variable news_;
-  std::deque<Message> messages_;
-  std::atomic<bool> has_news_{false}, ending_{false};
   std::thread thread_;
 };
 

@@ -1,56 +1,81 @@
 // SPDX-License-Identifier: MIT
-// What requests of pages do. Each is a JSON object with "do" and an "id" that the answer repeats; what cannot
-// be done is answered with "error".
+// What requests of pages do. Each is a JSON object with "do" and an "id" that the answer repeats; the table
+// in requests.cpp says what may be in it. What cannot be done is answered with "error".
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 
+#include "install/places.h"
+#include "sim_core/base/did_you_mean.h"
+#include "sim_core/base/input_file.h"
+#include "sim_core/load/world_loader.h"
 #include "viewer/events.h"
+#include "viewer/requests.h"
 #include "viewer/session.h"
+#include "viewer/text_file.h"
 #include "viewer/world_json.h"
+#include "viewer/worlds.h"
 
 namespace viewer {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
 
 namespace {
 
-constexpr int kMostSteps = 10000;        // of one request
-constexpr std::size_t kMostNames = 256;  // of one page's subscription
-constexpr auto kWatchEvery = 150ms;      // are sources what they were?
+const Json kDone{{"ok", true}};
 
-bool is_one_of(const std::string& what, std::initializer_list<const char*> words) {
-  for (const char* word : words)
-    if (what == word) return true;
-  return false;
-}
+std::string examples_folder() { return (places::share_root() / "worlds").string(); }
+
+std::string shown(const std::string& word) { return word.substr(0, 60); }
 
 }  // namespace
 
-void Session::handle(const Message& message) {
-  if (message.kind == Kind::Left) {
-    pages_.erase(message.client);
+/// Who does what; a request of the table that is not here is an input of the run.
+struct Handlers {
+  static const std::map<std::string, Session::Handler>& all() {
+    static const std::map<std::string, Session::Handler> handlers{
+        {"play", &Session::do_play},        {"pause", &Session::do_pause},
+        {"step", &Session::step},           {"speed", &Session::set_speed},
+        {"restart", &Session::restart},     {"steer", &Session::steer},
+        {"state", &Session::tell_state_to}, {"subscribe", &Session::subscribe},
+        {"rays", &Session::rays},           {"look", &Session::look},
+        {"trace", &Session::trace},         {"floor", &Session::floor},
+        {"edit", &Session::edit},           {"undo", &Session::undo},
+        {"redo", &Session::redo},           {"reload", &Session::reload},
+        {"text_of", &Session::text_of},     {"save", &Session::save},
+        {"save_as", &Session::save_as},     {"worlds", &Session::worlds},
+        {"open", &Session::open_world},     {"new_world", &Session::new_world},
+        {"source", &Session::source},       {"write_source", &Session::write_source},
+        {"debug", &Session::debug},         {"dap", &Session::dap},
+    };
+    return handlers;
+  }
+};
+
+void Session::handle(const Mailbox::Message& message) {
+  if (message.kind == Mailbox::Kind::Left) {
+    pages_.leave(message.client);
     if (steering_ == message.client) {
-      steering_ = pages_.empty() ? 0 : pages_.begin()->first;
+      steering_ = pages_.first();
       tell_state();
     }
     return;
   }
-  if (message.kind == Kind::Came) {
-    pages_[message.client];
+  if (message.kind == Mailbox::Kind::Came) {
+    pages_.come(message.client);
     if (steering_ == 0) steering_ = message.client;
-    const Json hello{{"event", "hello"},
-                     {"version", kProtocolVersion},
-                     {"you", message.client},
-                     {"revision", revision_},
-                     {"state", state_json()},
-                     {"world", world_json(document_.loaded(), document_.text())},
-                     {"programs", programs_json()},
-                     {"diagnoses", diagnoses_told_},
-                     {"names", names_of_robots()},
-                     {"schema", schema_json()}};
-    outlet_.send(message.client, hello.dump(-1, ' ', false, Json::error_handler_t::replace));
+    pages_.send(message.client, {{"event", "hello"},
+                                 {"version", kProtocolVersion},
+                                 {"you", message.client},
+                                 {"revision", revision_},
+                                 {"state", state_json()},
+                                 {"world", world_json_now()},
+                                 {"programs", programs_.json(run_ ? &run_->twin() : nullptr)},
+                                 {"problems", problems_},
+                                 {"diagnoses", diagnoses_told_},
+                                 {"names", names_of_robots()},
+                                 {"schema", schema_json()}});
     return;
   }
   Json reply;
@@ -58,264 +83,335 @@ void Session::handle(const Message& message) {
   try {
     if (!request.is_object()) throw std::runtime_error("got no JSON object, expected one");
     reply = answer(message.client, request);
+  } catch (const Refusal& refusal) {
+    reply = refusal.more();
+    reply["error"] = refusal.what();
   } catch (const std::exception& e) {
     reply = {{"error", e.what()}};
   }
   reply["answer"] = request.is_object() ? request.value("id", Json()) : Json();
-  outlet_.send(message.client, reply.dump(-1, ' ', false, Json::error_handler_t::replace));
+  pages_.send(message.client, reply);
 }
 
 Json Session::answer(ClientId client, const Json& request) {
-  const auto what = request.at("do").get<std::string>();
-  if (what == "steer") {
-    steering_ = client;
-    tell_state();
-    return {{"ok", true}};
+  const auto what =
+      request.contains("do") && request["do"].is_string() ? request["do"].get<std::string>() : "";
+  const Request* known = find_request(what);
+  if (!known) {
+    std::vector<std::string> names;
+    for (const Request& r : requests()) names.emplace_back(r.name);
+    const std::string like = sim::did_you_mean(what, names);
+    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/connecting.md{}",
+                                         shown(what), like.empty() ? "" : "; did you mean " + like + "?"));
   }
-  if (is_one_of(what, {"subscribe", "rays", "source", "state", "trace", "look", "floor"}))
-    return look_request(client, what, request);
-  if (client != steering_) throw std::runtime_error("another page steers; take the wheel first");
-  if (is_one_of(what, {"edit", "undo", "redo", "save", "save_as"})) return edit_request(what, request);
-  if (what == "write_source") return program_request(what, request);
-  if (is_one_of(what, {"play", "pause", "step", "speed", "restart"})) return run_request(what, request);
-  if (!Inputs::is_input(what) || what == "world")
-    throw std::runtime_error(fmt::format("do: got '{}', expected a request of docs/control.md", what));
-  if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
-  input(request);
-  return {{"ok", true}};
+  check_request(*known, request);
+  if (known->right != Right::Look && client != steering_)
+    throw std::runtime_error("another page steers; take the wheel first");
+  const auto handler = Handlers::all().find(what);
+  return handler == Handlers::all().end() ? touch(client, request)
+                                          : (this->*handler->second)(client, request);
 }
 
-Json Session::run_request(const std::string& what, const Json& request) {
-  if (what == "speed") {
-    const Json& factor = request.at("factor");
-    const double speed = factor == "max" ? 0 : factor.get<double>();
-    if (!(speed == 0 ? factor == "max" : speed > 0 && speed <= 1e6))
-      throw std::runtime_error("factor: got " + factor.dump() + ", expected max or a number above 0");
-    speed_ = speed;
-    play(playing_);
-  } else if (what == "restart") {
-    if (request.contains("seed")) opening_.seed = request.at("seed").get<std::uint64_t>();
-    playing_ = request.value("play", playing_);
-    restart();
-  } else {
-    if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
-    if (what == "play") {
-      if (ended_) throw std::runtime_error("the run has ended; restart it");
-      play(true);
-    } else if (what == "pause") {
-      play(false);
-    } else {
-      const auto unit = request.value("unit", std::string("tick"));
-      play(false);
-      if (ended_) throw std::runtime_error("the run has ended; restart it");
-      const int count = request.value("count", 1);
-      if (count < 1 || count > kMostSteps)
-        throw std::runtime_error(fmt::format("count: expected 1 to {}", kMostSteps));
-      if (unit == "tick")
-        step_ticks(0, count);
-      else if (unit == "control")
-        step_ticks(twin_->world().webots.time_step_s, count);
-      else if (unit != "interrupt")
-        throw std::runtime_error("unit: got '" + unit + "', expected tick, control or interrupt");
-      else if (!step_interrupt(robot_named(request.at("robot").get<std::string>())))
-        throw std::runtime_error("no interrupt came within 10 s");
+Run& Session::running() const {
+  if (!run_) throw std::runtime_error("the world does not run: mend its problems first");
+  return *run_;
+}
+
+Json Session::touch(ClientId, const Json& request) {
+  running();
+  Json bare = request;
+  bare.erase("id");
+  input(bare);
+  return kDone;
+}
+
+// --- time
+
+Json Session::do_play(ClientId, const Json&) {
+  running();
+  if (ended_) throw std::runtime_error("the run has ended; restart it");
+  if (debugging_ && !debugging_->runs())
+    debugging_->ask({{"command", "continue"}, {"arguments", {{"threadId", 1}}}});
+  pace_.play(!debugging_, now());
+  tell_state();
+  return kDone;
+}
+
+Json Session::do_pause(ClientId, const Json&) {
+  running();
+  if (debugging_ && debugging_->runs())
+    debugging_->ask({{"command", "pause"}, {"arguments", {{"threadId", 1}}}});
+  pace_.play(false, now());
+  tell_state();
+  return kDone;
+}
+
+Json Session::step(ClientId, const Json& request) {
+  running();
+  if (debugging_) throw std::runtime_error("a robot is debugged: step its program, or end that first");
+  if (ended_) throw std::runtime_error("the run has ended; restart it");
+  const auto unit = request.value("unit", std::string("tick"));
+  const int robot = unit == "interrupt" ? robot_named(request.value("robot", std::string())) : -1;
+  pace_.play(false, now());
+  for (int left = request.value("count", 1); left > 0 && !run_->has_ended(); --left) {
+    if (unit == "tick") {
+      step_until(now());
+    } else if (unit == "control") {
+      const double step_s = run_->twin().world().webots.time_step_s;
+      // the first multiple behind here; ticks lie between
+      const auto number = static_cast<std::int64_t>(sim::to_seconds(now()) / step_s + 1e-9) + 1;
+      const sim::Clicks end = sim::from_seconds(static_cast<double>(number) * step_s);
+      while (now() < end && !run_->has_ended()) {
+        const sim::Clicks before = now();
+        step_until(end);
+        if (now() == before) break;
+      }
+    } else if (!step_interrupt(robot)) {
+      throw std::runtime_error("no interrupt came within 10 s");
     }
   }
+  after_ticks();
   tell_state();
-  return {{"ok", true}};
+  return kDone;
 }
 
-Json Session::edit_request(const std::string& what, const Json& request) {
-  Json reply{{"ok", true}};
-  if (what == "save" || what == "save_as") {
-    const auto name = what == "save" ? std::string() : request.at("name").get<std::string>();
-    if (!name.empty() && !request.value("overwrite", false) &&
-        fs::exists(fs::path(document_.file()).parent_path() / fs::path(name).filename()))
-      throw std::runtime_error("name: got '" + name + "', which is there already; overwrite it?");
-    const std::string wrong = document_.save(name);
-    if (!wrong.empty()) throw std::runtime_error(wrong);
-    reply["file"] = document_.file();
-    tell_state();
-    return reply;
+Json Session::set_speed(ClientId, const Json& request) {
+  const Json& factor = request.at("factor");
+  const double speed = factor == "max" ? 0 : factor.is_number() ? factor.get<double>() : -1;
+  if (factor != "max" && !(speed > 0 && speed <= 1e6))
+    throw std::runtime_error("factor: got " + shown(factor.dump()) + ", expected max or a number above 0");
+  pace_.set_speed(speed, now());
+  tell_state();
+  return kDone;
+}
+
+Json Session::restart(ClientId, const Json& request) {
+  if (request.contains("seed")) opening_.seed = request.at("seed").get<std::uint64_t>();
+  pace_.play(request.value("play", pace_.plays()), 0);
+  begin_anew();
+  return kDone;
+}
+
+// --- looking
+
+Json Session::steer(ClientId client, const Json&) {
+  steering_ = client;
+  tell_state();
+  return kDone;
+}
+
+Json Session::tell_state_to(ClientId, const Json&) {
+  Json state = state_json();
+  if (run_) {
+    state["digest"] = fmt::format("{:016x}", run_->twin().simulation().digest());
+    state["diagnoses"] = diagnoses_json(run_->twin());
+    state["clicks"] = now();
   }
-  if (what == "edit")
-    reply["thing"] = document_.edit(request);
-  else
-    reply["done"] = what == "undo" ? document_.undo() : document_.redo();
+  return {{"ok", true}, {"state", state}};
+}
+
+Json Session::subscribe(ClientId client, const Json& request) {
+  std::vector<std::string> units;
+  const std::uint32_t number =
+      pages_.subscribe(client, running().twin(), request.at("names").get<std::vector<std::string>>(), units);
+  return {{"ok", true}, {"subscription", number}, {"units", units}};
+}
+
+Json Session::rays(ClientId client, const Json& request) {
+  running();
+  std::vector<int> robots;
+  for (const Json& name : request.at("robots")) robots.push_back(robot_named(name.get<std::string>()));
+  pages_.want_rays(client, std::move(robots));
+  return kDone;
+}
+
+Json Session::look(ClientId client, const Json& request) {
+  const auto robot = request.at("robot").get<std::string>();
+  if (!robot.empty()) robot_named(robot);
+  pages_.look_at(client, robot);
+  return kDone;
+}
+
+Json Session::trace(ClientId, const Json& request) {
+  const auto robot = request.at("robot").get<std::string>();
+  if (robot.empty()) {
+    if (run_) run_->trace_no_more();
+    return kDone;
+  }
+  if (debugging_) throw std::runtime_error("a robot is debugged: its time line is not drawn meanwhile");
+  running().trace(robot_named(robot), request.value("signals", std::vector<std::string>()));
+  return kDone;
+}
+
+Json Session::floor(ClientId, const Json&) {
+  const sim::LoadedWorld& loaded = document_.loaded();
+  return floor_json((loaded.world ? *loaded.world : loaded.draft).floor);
+}
+
+// --- the world file
+
+/// The document is another one: the run follows, or, unless it may begin anew, all is as it was.
+Json Session::changed(const Json& request, const std::function<void()>& take_back, Json reply) {
+  reply["ok"] = true;
   if (!document_.loaded().world) {
     document_changed({});
     return reply;
   }
   const LiveEdit asked = live_edit_now();
-  const bool has_begun = twin_ && twin_->simulation().now() > 0;
+  const bool has_begun = run_ && now() > 0;
+  if (debugging_ && !asked.why_not.empty()) {
+    take_back();
+    throw std::runtime_error(asked.why_not + ": a robot is debugged, end that first");
+  }
   if (!asked.why_not.empty() && has_begun && !request.value("anew", false)) {
-    // as if nobody had asked
-    if (what == "edit")
-      document_.take_back();
-    else
-      what == "undo" ? document_.redo() : document_.undo();
-    return {{"error", asked.why_not + ": the run would begin anew"}, {"anew", true}};
+    take_back();  // as if nobody had asked
+    throw Refusal(asked.why_not + ": the run would begin anew", {{"anew", true}});
   }
   document_changed(asked);
   return reply;
 }
 
-Json Session::look_request(ClientId client, const std::string& what, const Json& request) {
-  Page& page = pages_[client];
-  if (what == "state") {
-    Json state = state_json();
-    if (twin_) {
-      const std::uint64_t digest = twin_->simulation().digest();
-      state["digest"] = fmt::format("{:016x}", digest);
-      state["diagnoses"] = diagnoses_json(*twin_);
-      state["clicks"] = twin_->simulation().now();
-    }
-    return {{"ok", true}, {"state", state}};
+Json Session::edit(ClientId, const Json& request) {
+  const std::string before = document_.text().text();
+  const std::vector<int> fresh = document_.edit(request);
+  return changed(request,
+                 [&] {
+                   if (document_.text().text() != before) document_.take_back();
+                 },
+                 {{"thing", fresh.empty() ? 0 : fresh[0]}, {"things", fresh}});
+}
+
+Json Session::undo(ClientId, const Json& request) {
+  if (!document_.undo()) return {{"ok", true}, {"done", false}};
+  return changed(request, [&] { document_.redo(); }, {{"done", true}});
+}
+
+Json Session::redo(ClientId, const Json& request) {
+  if (!document_.redo()) return {{"ok", true}, {"done", false}};
+  return changed(request, [&] { document_.undo(); }, {{"done", true}});
+}
+
+Json Session::reload(ClientId, const Json& request) {
+  const std::string before = document_.text().text();
+  document_.reload();
+  return changed(request,
+                 [&] {
+                   if (document_.text().text() != before) document_.take_back();
+                 },
+                 {});
+}
+
+Json Session::text_of(ClientId, const Json& request) {
+  return {{"ok", true}, {"text", document_.text_of(request.at("things").get<std::vector<int>>())}};
+}
+
+Json Session::save(ClientId, const Json& request) {
+  document_.save(request.value("overwrite", false));
+  tell_state();
+  return {{"ok", true}, {"file", document_.file()}};
+}
+
+Json Session::save_as(ClientId, const Json& request) {
+  const std::string before = document_.file();
+  document_.save_as(home_, request.at("name").get<std::string>(), request.value("overwrite", false));
+  if (document_.file() != before) {
+    opening_.file = document_.file();
+    tell_world();
   }
-  if (what == "source") {
-    for (const Program& program : programs_)
-      if (program.name == request.at("program"))
-        return {{"ok", true}, {"text", program.sources.read(request.at("file").get<std::string>())}};
-    throw std::runtime_error("program: expected one that a robot runs");
-  }
-  if (what == "floor") {
-    const sim::LoadedWorld& loaded = document_.loaded();
-    const sim::FloorDesc& floor = (loaded.world ? *loaded.world : loaded.draft).floor;
-    return floor_json(floor);
-  }
-  if (!twin_) throw std::runtime_error("the world does not run: mend its problems first");
-  if (what == "look") {
-    page.looked_at = request.at("robot").get<std::string>();
-    if (!page.looked_at.empty()) robot_named(page.looked_at);
-    page.look_is_fresh = true;
-    next_look_ = {};
-    return {{"ok", true}};
-  }
-  if (what == "trace") {
-    const auto robot = request.at("robot").get<std::string>();
-    if (robot.empty())
-      trace_.reset();
-    else
-      trace(robot_named(robot), request.value("signals", std::vector<std::string>()));
-    return {{"ok", true}};
-  }
-  if (what == "rays") {
-    std::vector<int> robots;
-    for (const Json& name : request.at("robots")) robots.push_back(robot_named(name.get<std::string>()));
-    page.rays = robots;
-  } else {
-    const auto names = request.at("names").get<std::vector<std::string>>();
-    if (names.size() > kMostNames)
-      throw std::runtime_error(fmt::format("names: expected at most {}", kMostNames));
-    std::vector<Named> values;
-    std::vector<std::string> units;
-    for (const std::string& name : names) {
-      values.push_back(find_named(*twin_, name));
-      units.push_back(values.back().unit);
-    }
-    page.names = names;
-    page.values = std::move(values);
-    ++page.subscription;
-    page.fresh = true;
-    return {{"ok", true}, {"subscription", page.subscription}, {"units", units}};
-  }
-  page.fresh = true;
-  return {{"ok", true}};
+  tell_state();
+  return {{"ok", true}, {"file", document_.file()}};
+}
+
+Json Session::worlds(ClientId, const Json&) {
+  return {{"ok", true}, {"here", worlds_json(home_)}, {"examples", worlds_json(examples_folder())}};
+}
+
+/// The view shows another world from now on.
+void Session::open_document(const std::string& file, bool discard) {
+  if (!document_.is_saved() && !discard)
+    throw Refusal("the world has changes that are not saved", {{"unsaved", true}});
+  const auto bytes = bytes_at(file, sim::kLongestWorld);
+  if (!bytes) throw std::runtime_error("file: got '" + shown(file) + "', which cannot be read");
+  close_run();
+  replay_.reset();
+  document_ = Document(file, *bytes);
+  const sim::LoadedWorld& loaded = document_.loaded();
+  opening_.seed = (loaded.world ? *loaded.world : loaded.draft).seed;
+  opening_.file = file;
+  // programs that were chosen for robots of the other world
+  opening_.options.firmware.clear();
+  opening_.supervisors.clear();
+  pace_.play(false, 0);
+  begin_anew();
+}
+
+Json Session::open_world(ClientId, const Json& request) {
+  const auto file = request.at("file").get<std::string>();
+  for (const std::string& folder : {home_, examples_folder()})
+    for (const Json& world : worlds_json(folder))
+      if (world.at("file") == file) {
+        open_document(file, request.value("discard", false));
+        return kDone;
+      }
+  throw std::runtime_error("file: got '" + shown(file) + "', expected one of `worlds`");
+}
+
+Json Session::new_world(ClientId, const Json& request) {
+  if (!document_.is_saved() && !request.value("discard", false))
+    throw Refusal("the world has changes that are not saved", {{"unsaved", true}});
+  Document fresh((fs::path(home_) / "new").string(), kNewWorld);
+  fresh.save_as(home_, request.at("name").get<std::string>(), false);
+  open_document(fresh.file(), true);
+  return {{"ok", true}, {"file", fresh.file()}};
 }
 
 // --- programs
 
-Json Session::programs_json() const {
-  Json out = Json::array();
-  for (const Program& program : programs_) {
-    Json robots = Json::array();
-    for (int r : program.robots) robots.push_back(twin_->world().robots[static_cast<std::size_t>(r)].name);
-    out.push_back({{"name", program.name},
-                   {"robots", robots},
-                   {"folder", program.sources.folder()},
-                   {"files", program.sources.files()}});
-  }
-  return out;
+Json Session::source(ClientId, const Json& request) {
+  const Programs::Program* program = programs_.find(request.at("program").get<std::string>());
+  if (!program) throw std::runtime_error("program: expected one that a robot runs");
+  const SourceText source = program->sources.read(request.at("file").get<std::string>());
+  return {{"ok", true},
+          {"text", source.text},
+          {"base", source.base},
+          {"writable", source.writable},
+          {"encoding", source.is_latin ? "latin-1" : "utf-8"}};
 }
 
-Json Session::program_request(const std::string&, const Json& request) {
-  for (Program& program : programs_)
-    if (program.name == request.at("program")) {
-      program.sources.write(request.at("file").get<std::string>(), request.at("text").get<std::string>());
-      next_watch_ = {};  // at once
-      return {{"ok", true}};
-    }
-  throw std::runtime_error("program: expected one that a robot runs");
+Json Session::write_source(ClientId, const Json& request) {
+  Programs::Program* program = programs_.find(request.at("program").get<std::string>());
+  if (!program) throw std::runtime_error("program: expected one that a robot runs");
+  const std::string base =
+      program->sources.write(request.at("file").get<std::string>(), request.at("text").get<std::string>(),
+                             request.value("base", std::string()), request.value("overwrite", false));
+  next_watch_ = {};  // at once
+  return {{"ok", true}, {"base", base}};
 }
 
-void Session::watch_programs() {
-  if (Json diagnoses = twin_ ? diagnoses_json(*twin_) : Json::array(); diagnoses != diagnoses_told_) {
-    diagnoses_told_ = std::move(diagnoses);
-    tell_all({{"event", "diagnoses"}, {"diagnoses", diagnoses_told_}});
-  }
-  next_watch_ = Wall::now() + kWatchEvery;
-  if (build_.valid() && build_.wait_for(0s) == std::future_status::ready) finish_build();
-  for (Program& program : programs_) {
-    if (program.sources.has_changed()) program.stale |= !program.robots.empty();
-    if ((program.stale || !program.waiting.empty()) && !build_.valid()) build_program(program);
-  }
-  // a build that is under way is looked for more often
-  if (build_.valid()) next_watch_ = Wall::now() + 5ms;
+// --- debugging
+
+Json Session::debug(ClientId, const Json& request) {
+  running();
+  const auto name = request.at("robot").get<std::string>();
+  if (debugging_ && debugging_->robot() == name) return kDone;
+  const int robot = name.empty() ? -1 : robot_named(name);
+  if (debugging_) debug_no_more();
+  if (robot >= 0) debug_robot(robot);
+  return kDone;
 }
 
-void Session::build_program(Program& program) {
-  building_stale_ = program.stale;
-  building_for_ = std::move(program.waiting);
-  program.waiting.clear();
-  program.stale = false;
-  building_ = program.name;
-  tell_all({{"event", "building"}, {"program", program.name}});
-  twin::Options options = opening_.options;
-  options.world_folder = fs::path(opening_.file).parent_path().string();
-  const int robot = program.robots.empty() ? building_for_.front() : program.robots.front();
-  // with the HAL that it runs with
-  if (options.hal.empty() && twin_->hal(robot) != "own") options.hal = twin_->hal(robot);
-  options.webots_settings = twin::webots_settings_of(twin_->world());
-  build_ = std::async(std::launch::async, [options, name = program.name]() mutable {
-    Built built;
-    built.name = name;
-    const auto begin = Wall::now();
-    options.tell = [&built](const std::string& line) { built.warnings.push_back(line); };
-    built.path = twin::provide_image(name, options.world_folder, options, built.problems);
-    built.took_s = std::chrono::duration<double>(Wall::now() - begin).count();
-    return built;
-  });
-}
-
-/// The new program begins where its robots stand; one that does not compile leaves the old one running.
-void Session::finish_build() {
-  Built built = build_.get();
-  building_.clear();
-  const auto program = std::find_if(programs_.begin(), programs_.end(),
-                                    [&](const Program& p) { return p.name == built.name; });
-  if (built.problems.empty() && program != programs_.end() && twin_) {
-    try {
-      std::vector<int> robots = building_for_;
-      if (building_stale_) robots.insert(robots.end(), program->robots.begin(), program->robots.end());
-      if (!robots.empty()) input({{"do", "program"}, {"robots", robots}, {"image", built.path}});
-      for (const int robot : building_for_) {
-        for (Program& other : programs_)
-          other.robots.erase(std::remove(other.robots.begin(), other.robots.end(), robot),
-                             other.robots.end());
-        program->robots.push_back(robot);
-      }
-      if (!building_for_.empty()) tell_all({{"event", "programs"}, {"programs", programs_json()}});
-    } catch (const std::exception& e) {
-      built.problems.push_back(e.what());
-    }
-    resubscribe();
+Json Session::dap(ClientId, const Json& request) {
+  if (!debugging_) throw std::runtime_error("no robot is debugged; debug one first");
+  const Json& message = request.at("message");
+  if (!message.contains("command") || !message["command"].is_string())
+    throw std::runtime_error("message: got no command, expected one of the Debug Adapter Protocol");
+  const bool ran = debugging_->runs();
+  Json body = debugging_->ask(message);
+  if (debugging_->runs() != ran) {
+    pace_.begin(now());
+    tell_state();
   }
-  tell_all({{"event", "built"},
-            {"program", built.name},
-            {"ok", built.problems.empty()},
-            {"problems", built.problems},
-            {"warnings", built.warnings},
-            {"took_s", built.took_s}});
+  return {{"ok", true}, {"body", body}};
 }
 
 }  // namespace viewer

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "sim_core/base/input_file.h"
-#include "viewer/document.h"
+#include "viewer/text_file.h"
 
 namespace viewer {
 
@@ -24,6 +24,7 @@ Sources::Sources(std::string folder) : folder_(std::move(folder)) {
   std::error_code none;
   if (!fs::is_directory(folder_, none)) folder_.clear();
   stamps_ = stamps();
+  for (const auto& [name, stamp] : stamps_) seen_.insert(name);
 }
 
 std::vector<std::string> Sources::files() const {
@@ -44,21 +45,25 @@ std::vector<std::string> Sources::files() const {
 
 std::string Sources::path_of(const std::string& name) const {
   const std::vector<std::string> known = files();
-  if (!std::binary_search(known.begin(), known.end(), name))
+  if (!std::binary_search(known.begin(), known.end(), name) && seen_.count(name) == 0)
     throw std::runtime_error("file: got '" + name + "', expected one of the controller's sources");
   return (fs::path(folder_) / name).string();
 }
 
-std::string Sources::read(const std::string& name) const {
-  std::string text;
-  const std::string wrong = sim::read_input_file(path_of(name), kLongestSource, text);
+SourceText Sources::read(const std::string& name) const {
+  std::string bytes;
+  const std::string path = path_of(name), wrong = sim::read_input_file(path, kLongestSource, bytes);
   if (!wrong.empty()) throw std::runtime_error(name + ": " + wrong);
-  return text;
+  PlainText plain = plain_text(bytes);
+  return {std::move(plain.text), base_of(bytes), is_writable(path), plain.is_latin};
 }
 
-void Sources::write(const std::string& name, const std::string& text) {
-  const std::string wrong = replace_file(path_of(name), text);
-  if (!wrong.empty()) throw std::runtime_error(wrong);
+std::string Sources::write(const std::string& name, const std::string& text, const std::string& base,
+                           bool overwrite) {
+  const std::string path = path_of(name);
+  const std::string fresh = bytes_like(bytes_at(path, kLongestSource).value_or(""), text);
+  replace_known(path, fresh, base, overwrite);
+  return base_of(fresh);
 }
 
 std::map<std::string, std::pair<long long, long long>> Sources::stamps() const {
@@ -71,11 +76,23 @@ std::map<std::string, std::pair<long long, long long>> Sources::stamps() const {
   return out;
 }
 
-bool Sources::has_changed() {
+std::vector<std::pair<std::string, std::string>> Sources::changes() {
+  std::vector<std::pair<std::string, std::string>> out;
   auto now = stamps();
-  if (now == stamps_) return false;
+  const auto note = [&](const std::string& name) {
+    const auto bytes = bytes_at((fs::path(folder_) / name).string(), kLongestSource);
+    out.emplace_back(name, bytes ? base_of(*bytes) : "");
+  };
+  if (now == stamps_) return out;
+  for (const auto& [name, stamp] : now)
+    if (const auto was = stamps_.find(name); was == stamps_.end() || was->second != stamp) {
+      note(name);
+      seen_.insert(name);
+    }
+  for (const auto& [name, stamp] : stamps_)
+    if (now.find(name) == now.end()) note(name);
   stamps_ = std::move(now);
-  return true;
+  return out;
 }
 
 }  // namespace viewer

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One robot's time line and pins for the page: what its processor did, and when chosen signals changed, as
-// "trace" events (docs/control.md). Looking changes no course. It must go before the robot's program does.
+// "trace" events (docs/connecting.md). Looking changes no course. It must go before the robot's program does.
 #pragma once
 #include <map>
 #include <memory>
@@ -15,7 +15,7 @@ namespace viewer {
 
 class TraceFeed {
  public:
-  /// `signals`: names of docs/traces.md; empty: the usual ones. Throws std::runtime_error for a name that
+  /// `signals`: names of docs/looking.md; empty: the usual ones. Throws std::runtime_error for a name that
   /// nothing has.
   TraceFeed(twin::Twin& twin, int robot, const std::vector<std::string>& signals);
 

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/web_server.h"
 
+#include <arpa/inet.h>
 #include <civetweb.h>
 #include <fmt/format.h>
+#include <netinet/in.h>
 #include <sys/random.h>
+#include <sys/socket.h>
 
 #include <condition_variable>
 #include <cstring>
 #include <deque>
 #include <thread>
+#include <vector>
 
 #include "sim_core/base/input_file.h"
 
@@ -20,7 +24,23 @@ constexpr std::size_t kLongestMessage = 8u << 20;  // bytes of a request; a worl
 constexpr std::size_t kMostWaiting = 32u << 20;    // bytes of texts that a client has not read
 constexpr std::size_t kLargestFile = 64u << 20;    // bytes of the page's files
 constexpr std::size_t kMostClients = 32;
-constexpr const char* kThreads = "40";  // one a connection: clients, and what browsers open beside
+constexpr std::size_t kMostStrangers = 24;
+constexpr auto kLongestStrange = std::chrono::seconds(1);
+constexpr const char* kThreads = "80";  // one a connection: clients, strangers, and what browsers open beside
+constexpr int kMostOpen = 4096;         // open files, among which a connection's is looked for
+
+/// Hangs up on the connection from this port of this machine to that one, if it is still there.
+void hang_up(int their_port, int our_port) {
+  const auto port_of = [](int (*name)(int, sockaddr*, socklen_t*), int file) {
+    sockaddr_in address{};
+    socklen_t size = sizeof address;
+    const bool is_there = name(file, reinterpret_cast<sockaddr*>(&address), &size) == 0;
+    return is_there && address.sin_family == AF_INET ? ntohs(address.sin_port) : -1;
+  };
+  for (int file = 3; file < kMostOpen; ++file)
+    if (port_of(::getpeername, file) == their_port && port_of(::getsockname, file) == our_port)
+      ::shutdown(file, SHUT_RDWR);
+}
 
 std::string random_token() {
   unsigned char bytes[16];
@@ -103,8 +123,20 @@ struct WebServer::Calls {
 
   static int page(mg_connection* c, void* data) { return of(data).serve_file(c); }
 
+  static int came(const mg_connection* c, void**) {
+    const mg_request_info* info = mg_get_request_info(c);
+    if (info && info->user_data) of(info->user_data).came(info->remote_port);
+    return 0;
+  }
+
+  static void left(const mg_connection* c) {
+    const mg_request_info* info = mg_get_request_info(c);
+    if (info && info->user_data) of(info->user_data).is_known(c);
+  }
+
   static int connect(const mg_connection* c, void* data) {
     WebServer& me = of(data);
+    me.is_known(c);
     std::lock_guard<std::mutex> lock(me.clients_mutex_);
     return me.is_trusted(c) && me.clients_.size() < kMostClients ? 0 : 1;
   }
@@ -187,6 +219,8 @@ std::unique_ptr<WebServer> WebServer::open(int port, const std::string& page_fol
                            nullptr};
   mg_callbacks callbacks{};
   callbacks.log_message = Calls::log;
+  callbacks.init_connection = Calls::came;
+  callbacks.connection_close = Calls::left;
   static std::once_flag once;
   std::call_once(once, [] { mg_init_library(MG_FEATURES_WEBSOCKET); });
   server->context_ = mg_start(&callbacks, server.get(), options);
@@ -230,6 +264,33 @@ bool WebServer::is_trusted(const mg_connection* connection) const {
   return false;
 }
 
+void WebServer::came(int their_port) {
+  std::vector<int> gone;
+  {
+    std::lock_guard<std::mutex> lock(strangers_mutex_);
+    const auto now = std::chrono::steady_clock::now();
+    while (!strangers_.empty() &&
+           (strangers_.size() >= kMostStrangers || now - strangers_.front().second > kLongestStrange)) {
+      gone.push_back(strangers_.front().first);
+      strangers_.pop_front();
+    }
+    strangers_.emplace_back(their_port, now);
+  }
+  for (const int port : gone) hang_up(port, port_);
+}
+
+/// It has shown the token, or is gone.
+void WebServer::is_known(const mg_connection* connection) {
+  const mg_request_info* info = mg_get_request_info(connection);
+  if (!info) return;
+  std::lock_guard<std::mutex> lock(strangers_mutex_);
+  for (auto it = strangers_.begin(); it != strangers_.end(); ++it)
+    if (it->first == info->remote_port) {
+      strangers_.erase(it);
+      return;
+    }
+}
+
 int WebServer::serve_file(mg_connection* connection) {
   const mg_request_info* info = mg_get_request_info(connection);
   const auto refuse = [&](int code, const char* text) {
@@ -241,6 +302,7 @@ int WebServer::serve_file(mg_connection* connection) {
   if (!is_trusted(connection) || *path != '/' || !name ||
       !same(token_, path + 1, static_cast<std::size_t>(name - path - 1)))
     return refuse(403, "the address that twinpuck view printed opens this page, and no other does");
+  is_known(connection);
   if (std::strcmp(info->request_method, "GET") != 0) return refuse(405, "expected GET");
   ++name;
   for (const FileType& file : kFiles) {

@@ -6,10 +6,15 @@
 //   browser --- GET /TOKEN/            --> the page's files, from one folder, no other
 //           --- WebSocket /TOKEN/live  --> on_text() of whoever listens; send() goes back
 //
+// Who has not shown the token yet may be there for a second, and few may: of more the oldest goes, so nobody
+// keeps the page from opening by doing nothing.
+//
 // Nobody who sends waits for a slow reader: each client has a thread that writes, texts queue up to a limit,
 // and of binary frames only the newest is kept.
 #pragma once
+#include <chrono>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -67,6 +72,11 @@ class WebServer {
   std::mutex clients_mutex_;
   std::map<ClientId, std::shared_ptr<Client>> clients_;
   ClientId next_id_ = 1;
+  // --- connections that have not shown the token: port of their other end, and since when they are there
+  void came(int their_port);
+  void is_known(const mg_connection* connection);
+  std::mutex strangers_mutex_;
+  std::deque<std::pair<int, std::chrono::steady_clock::time_point>> strangers_;  // the oldest first
 };
 
 }  // namespace viewer

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/world_json.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal_sim/board/part.h"
@@ -89,11 +90,13 @@ const char* type_name(sim::ValueType type) {
 
 }  // namespace
 
-Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
+Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text, const std::string& base,
+                const twin::Twin* twin, const std::vector<int>& movable) {
   const sim::WorldDesc& world = loaded.world ? *loaded.world : loaded.draft;
   Json out{{"title", world.title},
            {"file", world.file},
            {"text", text.text()},
+           {"base", base},
            {"tick_s", 1.0 / world.physics_hz}};
   out["step_s"] = world.webots.time_step_s;
   if (world.arena) {
@@ -117,7 +120,10 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                       {"z", w.z_m},
                       {"colour", colour(w.material.colour)}});
   }
-  int body = static_cast<int>(world.robots.size());
+  const auto body_of_object = [&](int id) {
+    const auto at = std::find(movable.begin(), movable.end(), id);
+    return !twin || at == movable.end() ? -1 : twin->robots() + static_cast<int>(at - movable.begin());
+  };
   for (const sim::ObjectDesc& o : world.objects) {
     Json thing{{"id", id_at(text, o.line)},
                {"kind", kind_of(o.kind)},
@@ -128,7 +134,7 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                {"colour", colour(o.material.colour)},
                {"movable", o.movable}};
     for (const sim::Vec2& c : o.corners_m) thing["corners"].push_back(point(c));
-    if (o.movable) thing["body"] = body++;
+    if (o.movable) thing["body"] = body_of_object(thing["id"].get<int>());
     things.push_back(pose(std::move(thing), o.pose));
   }
   for (const sim::RampDesc& r : world.ramps)
@@ -175,7 +181,7 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
                            {"kind", "robot"},
                            {"name", r.name},
                            {"firmware", r.firmware},
-                           {"body", i},
+                           {"body", twin ? twin->find(r.name) : -1},
                            {"colour", colour(r.colour ? *r.colour : m->colour)},
                            {"radius", m->body_radius_m},
                            {"z0", m->body_z0_m},
@@ -192,7 +198,14 @@ Json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text) {
   for (const auto& e : text.elements()) {
     Json values = Json::object();
     for (const auto& [key, value] : text.values(e.id)) values[key] = value;
-    elements.push_back({{"id", e.id}, {"path", e.path}, {"line", e.first_line}, {"values", values}});
+    std::string name = text.value(e.id, "name");
+    if (name.size() > 1) name = name.substr(1, name.size() - 2);
+    elements.push_back({{"id", e.id},
+                        {"path", e.path},
+                        {"name", name},
+                        {"line", e.first_line},
+                        {"last_line", e.last_line},
+                        {"values", values}});
   }
   out["elements"] = std::move(elements);
   Json problems = Json::array();

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
 // A world as the page draws it and edits it: everything that stands in it, with the number of its piece of
-// the world file. docs/control.md, "world".
+// the world file. docs/connecting.md, "world".
 #pragma once
 #include <nlohmann/json.hpp>
+#include <string>
 #include <vector>
 
+#include "hal_sim/twin/twin.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/load/world_text.h"
 
 namespace viewer {
 
 /// `loaded`: what was made of `text`; with problems its draft is shown, and they stand beside what they are
-/// about.
-nlohmann::json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text);
+/// about. `base` names the text. `twin`: the world that runs, null: none does, and `movable` its movable
+/// objects' pieces: what is not in it has body -1.
+nlohmann::json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text, const std::string& base,
+                          const twin::Twin* twin, const std::vector<int>& movable);
 
 /// The picture on the floor: `width`, `height`, `rgb` in base64, rows from the north.
 nlohmann::json floor_json(const sim::FloorDesc& floor);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which variables an interrupt may change while other code reads them, by knowledge of the whole program.
-// The compiler tells of each file who takes whose address, stores where and calls whom (chip_shared.cpp);
+// The compiler tells of each file who takes whose address, stores where and calls whom (shared_reads.cpp);
 // here all files are put together. Handlers, and functions whose address is handed to somebody outside the
 // program (e_activate_agenda() of the library), may run between any two instructions of the rest; what they
 // or functions they call may write is shared. Pointers are followed by what they may point at, wherever they

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // From clang's syntax tree to the dsPIC30F's code generator (dspic30/llvm). Stages, in order:
 //
-//   chip_target.cpp        what clang must know of the chip; XC16's attributes
-//   chip_accumulators.cpp  built-in functions of the DSP unit
-//   chip_lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
-//                          takes
-//   chip_shared.cpp        loads of what an interrupt may change, done where they stand
-//   chip_checks.cpp        --sanitize: locals and failed checks are told
-//   chip_pipeline.cpp      the optimiser's passes, in our own order
-//   chip_emit.cpp          object, assembler text or IR
+//   target.cpp        what clang must know of the chip; XC16's attributes
+//   accumulators.cpp  built-in functions of the DSP unit
+//   lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
+//                     takes
+//   shared_reads.cpp  loads of what an interrupt may change, done where they stand
+//   checks.cpp        --sanitize: locals and failed checks are told
+//   pipeline.cpp      the optimiser's passes, in our own order
+//   emit.cpp          object, assembler text or IR
 #pragma once
 #include "frontend.h"
 
@@ -49,7 +49,7 @@ inline constexpr const char* kAccumulatorNote = "accumulator ";
 void lower_accumulators(Unit& unit);
 
 /// --sanitize: what a check of the program's memory must be told, and clang's own checks in a form that costs
-/// the chip little (chip_checks.cpp). Before the optimiser.
+/// the chip little (checks.cpp). Before the optimiser.
 void prepare_checks(Unit& unit);
 /// Before the optimiser; false after an error.
 bool lower_for_chip(Unit& unit);

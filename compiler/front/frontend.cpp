@@ -246,7 +246,7 @@ class RobotAction : public EmitLLVMOnlyAction {
   std::shared_ptr<AttributeFilter> filter_;
 };
 
-// another chip of 16 bits for the driver; chip_target.cpp is what the compiler itself gets. DWARF 3: its
+// another chip of 16 bits for the driver; target.cpp is what the compiler itself gets. DWARF 3: its
 // addresses are all absolute, so the linker can make program addresses of them
 const std::vector<const char*> kForChip = {"--target=msp430", "-ffreestanding", "-fno-builtin", "-gdwarf-3"};
 
@@ -295,7 +295,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
                                 "-Wno-error=return-type",
                                 "-Wno-gnu-designator"};
   a.insert(a.end(), kForChip.begin(), kForChip.end());
-  a.push_back("-funroll-loops");  // what the optimiser may, not what it does (chip_emit.cpp)
+  a.push_back("-funroll-loops");  // what the optimiser may, not what it does (emit.cpp)
   if (o.level == 0) a.insert(a.end(), {"-Xclang", "-disable-O0-optnone"});
   a.push_back("-fgnu89-inline");
   a.push_back(o.level == 0 ? "-O0" : o.for_size ? "-Os" : o.level == 1 ? "-O1" : "-O2");

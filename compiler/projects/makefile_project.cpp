@@ -12,20 +12,11 @@
 #include "library_copies.h"
 #include "program_files.h"
 #include "sim_core/base/pattern.h"
+#include "sim_core/base/words.h"
 
 namespace cc {
 namespace fs = std::filesystem;
 namespace {
-
-std::vector<std::string> words_of(const std::string& text, const std::string& separators = " \t") {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string::npos;) {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
 
 bool ends_with(const std::string& text, const char* tail) {
   const std::size_t length = std::char_traits<char>::length(tail);
@@ -48,7 +39,7 @@ class Makefile {
     for (const auto& [target, sources] : rules_) {
       const std::string made = expand(target, 0);
       const bool is_step = made.find('%') != std::string::npos || ends_with(made, ".o") || made[0] == '.';
-      if (!is_step) lists.push_back(words_of(expand(sources, 0)));
+      if (!is_step) lists.push_back(sim::words_of(expand(sources, 0)));
     }
     return lists;
   }
@@ -90,10 +81,11 @@ class Makefile {
         if (begin != std::string::npos)
           rules_.emplace_back(line.substr(0, colon), line.substr(begin, line.find_first_of(";|") - begin));
       } else if (line.rfind("vpath ", 0) == 0) {
-        const auto words = words_of(expand(line, 0));
+        const auto words = sim::words_of(expand(line, 0));
         for (std::size_t i = 2; i < words.size(); ++i) source_folders_ += words[i] + " ";
       } else if (line.rfind("include ", 0) == 0 || line.rfind("-include ", 0) == 0) {
-        for (const std::string& name : words_of(expand(line.substr(line.find(' ')), 0))) read(home_ / name);
+        for (const std::string& name : sim::words_of(expand(line.substr(line.find(' ')), 0)))
+          read(home_ / name);
       }
     }
   }
@@ -148,7 +140,7 @@ class Makefile {
   template <typename Act>
   std::string each(const std::string& words, const Act& act) const {
     std::string out;
-    for (const std::string& word : words_of(words)) {
+    for (const std::string& word : sim::words_of(words)) {
       if (grown_ > kMost) break;
       const std::string made = act(word);
       grown_ += made.size() + 1;
@@ -237,7 +229,8 @@ class Makefile {
     return each(words, [&](const std::string& word) {
       bool is_one = false;
       std::string stem;
-      for (const std::string& pattern : words_of(patterns)) is_one = is_one || matches(pattern, word, stem);
+      for (const std::string& pattern : sim::words_of(patterns))
+        is_one = is_one || matches(pattern, word, stem);
       return is_one == keeps ? word : std::string();
     });
   }
@@ -256,7 +249,7 @@ class Makefile {
   }
   std::string for_each_word(const std::vector<std::string>& parts, int depth) const {
     const std::string name =
-        words_of(expand(parts[0], depth)).empty() ? "" : words_of(expand(parts[0], depth))[0];
+        sim::words_of(expand(parts[0], depth)).empty() ? "" : sim::words_of(expand(parts[0], depth))[0];
     std::string body;
     for (std::size_t i = 2; i < parts.size(); ++i) body += (i > 2 ? "," : "") + parts[i];
     const auto before = variables_.find(name);
@@ -277,12 +270,12 @@ class Makefile {
   /// their sources were compiled.
   std::string wildcard(const std::string& patterns) const {
     std::string out;
-    for (const std::string& pattern : words_of(patterns)) {
+    for (const std::string& pattern : sim::words_of(patterns)) {
       if (pattern.size() > kLongestName) continue;
       if (ends_with(pattern, ".o")) {
         const std::string stem = pattern.substr(0, pattern.size() - 2);
         for (const char* kind : {".c", ".s"})
-          for (const std::string& source : words_of(wildcard(stem + kind)))
+          for (const std::string& source : sim::words_of(wildcard(stem + kind)))
             out += source.substr(0, source.size() - 2) + ".o ";
       }
       std::vector<fs::path> found = {""};
@@ -403,7 +396,7 @@ CompilerOptions options_in(const Makefile& makefile) {
   std::string options;
   for (const auto& [name, raw] : makefile.variables()) {
     if (std::regex_match(name, kFolders))
-      for (const std::string& word : words_of(makefile.value(name)))
+      for (const std::string& word : sim::words_of(makefile.value(name)))
         if (word[0] != '-') options += "-I" + word + " ";
     if (std::regex_match(name, kOptions)) options += makefile.value(name) + " ";
   }
@@ -431,7 +424,8 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   project.file = file;
 
   std::vector<fs::path> places = {home};
-  for (const std::string& name : words_of(makefile.value("VPATH") + " " + makefile.source_folders(), " \t:;"))
+  for (const std::string& name :
+       sim::words_of(makefile.value("VPATH") + " " + makefile.source_folders(), " \t:;"))
     if (const fs::path found = resolve_path(home, name).lexically_normal();
         fs::is_directory(found, ec) && std::find(places.begin(), places.end(), found) == places.end())
       places.push_back(found);
@@ -440,7 +434,7 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   std::vector<std::string> words;  // of all lists of sources
   for (const auto& [name, raw] : makefile.variables())
     if (std::regex_match(name, kSources))
-      for (const std::string& word : words_of(makefile.value(name))) words.push_back(word);
+      for (const std::string& word : sim::words_of(makefile.value(name))) words.push_back(word);
   NamedFiles listed(home, places);
   listed.add(words);
   // lists of any name that a target is linked of; of several programs the first one

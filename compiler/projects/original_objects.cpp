@@ -3,7 +3,8 @@
 #include "original_objects.h"
 
 #include <algorithm>
-#include <sstream>
+
+#include "sim_core/base/words.h"
 
 namespace cc {
 namespace {
@@ -26,7 +27,7 @@ struct OriginalObject {
   "e_start_agendas_processing e_end_agendas_processing e_activate_agenda e_destroy_agenda" \
   " e_set_agenda_cycle e_reset_agenda e_pause_agenda e_restart_agenda _T2Interrupt"
 
-// gctronic/e-puck-library 4cb85cb; what is later, by the copies that the survey of epuck-api.md counted
+// gctronic/e-puck-library 4cb85cb; what is later, by the copies that a survey counted
 constexpr OriginalObject kOriginals[] = {
     {"motor_led/e_init_port.c", "e_init_port", "isEpuckVersion1_3"},
     {"motor_led/e_led.c", TP_BASIC_LEDS},
@@ -91,13 +92,6 @@ constexpr OriginalObject kOriginals[] = {
      "getBatteryValueRaw getBatteryValuePercentage getDiffTimeMs getDiffTimeMsAndReset resetTime"},
 };
 
-std::vector<std::string> words_of(const char* list) {
-  std::istringstream in(list);
-  std::vector<std::string> words;
-  for (std::string word; in >> word;) words.push_back(word);
-  return words;
-}
-
 /// The first that the program calls and has not, and the file that does; null for none.
 const std::pair<const std::string, std::string>* needed_of(const std::vector<std::string>& names,
                                                            const FormOfSource& form,
@@ -120,12 +114,12 @@ std::vector<std::string> second_definitions(const ProgramFunctions& program,
   std::vector<std::string> messages;
   for (const OriginalObject& original : kOriginals) {
     const FormOfSource form = form_of_source(original.source, choices);
-    std::vector<std::string> all = words_of(original.functions);
+    std::vector<std::string> all = sim::words_of(original.functions);
     const auto twice = std::find_if(all.begin(), all.end(),
                                     [&](const std::string& name) { return program.own.count(name); });
     if (!form.is_linked || twice == all.end()) continue;
     const std::string name = *twice;
-    for (const std::string& later : words_of(original.later)) all.push_back(later);
+    for (const std::string& later : sim::words_of(original.later)) all.push_back(later);
     std::string needed;
     if (const auto* call = needed_of(all, form, program, needed))
       messages.push_back(program.own.at(name) + ": error: " + name +

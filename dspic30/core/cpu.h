@@ -10,7 +10,7 @@
 // time. Stalls are found when a word is decoded. Flags are kept as they fall out of an operation and put
 // together when SR is read.
 //
-// Modelled: see docs/chip-core.md. Source: [chip C2] to [chip C16].
+// Modelled: see docs/dev/chip.md. Source: [chip C2] to [chip C16].
 #pragma once
 #include <algorithm>
 #include <array>

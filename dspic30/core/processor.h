@@ -5,7 +5,7 @@
 //                            run(until) <--interrupts, resets--
 //
 // Deterministic: cycles depend on the program and the chip alone, not on how run() is called.
-// What is modelled and what is doubted: docs/chip-core.md.
+// What is modelled and what is doubted: docs/dev/chip.md.
 #pragma once
 #include <array>
 #include <cstdint>

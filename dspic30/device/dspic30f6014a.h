@@ -12,7 +12,7 @@
 //
 // Not modelled as a whole: the processor core, program memory, Sleep and Idle beyond the wake-up condition,
 // other clocks than the configured one. Each file of periph/ says what it leaves out. Source: [chip C],
-// [chip P], see docs/sources.md.
+// [chip P], see docs/dev/sources.md.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The linker: objects to an image of the chip.
 //
-//   link_read.cpp    objects and archives in; what is undefined is looked for in the libraries
-//   link_vendor.cpp  objects of XC16 and the older C30, made what ours are
-//   link_where.cpp   function and line of code, for messages
-//   link_place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
-//                    start-up table
-//   link_fill.cpp    addresses into instructions, data and debugging information; vectors
-//   link_host.cpp    what the host stands in for
-//   link_stack.cpp   how deep the stack can grow
-//   link_write.cpp   .elf, .hex; link_listing.cpp .lst; link_map.cpp .map
-//   link_report.cpp  sizes against the chip's
+//   read.cpp    objects and archives in; what is undefined is looked for in the libraries
+//   vendor.cpp  objects of XC16 and the older C30, made what ours are
+//   where.cpp   function and line of code, for messages
+//   place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
+//               start-up table
+//   fill.cpp    addresses into instructions, data and debugging information; vectors
+//   host.cpp    what the host stands in for
+//   stack.cpp   how deep the stack can grow
+//   write.cpp   .elf, .hex; listing.cpp .lst; map.cpp .map
+//   report.cpp  sizes against the chip's
 #pragma once
 #include <cstdint>
 #include <deque>

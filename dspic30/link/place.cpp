@@ -209,7 +209,7 @@ void place_ram(Program& program, const Options& options) {
   place_ram(program, options, 0u);
 }
 
-/// Data that must be set before main(): a table entry each (fill_dinit() in link_fill.cpp).
+/// Data that must be set before main(): a table entry each (fill_dinit() in fill.cpp).
 std::uint32_t dinit_words(const Program& program) {
   std::uint32_t words = 1;  // the end
   for (const Section& s : program.sections)

@@ -7,7 +7,7 @@
  *   selector 2    over Bluetooth, in the dialect that Webots expects of a real robot
  *   otherwise     commands come over Bluetooth (UART 1, 115,200 baud)
  *
- * docs/serial.md describes protocol and connection.
+ * docs/connecting.md describes protocol and connection.
  */
 #include <I2C/e_I2C_protocol.h>
 #include <a_d/advance_ad_scan/e_acc.h>

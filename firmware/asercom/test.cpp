@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The serial command program, byte by byte: start-up, framing, every text and every binary command, the
-// remote control. Expectations are the protocol's, worked out by hand; docs/serial.md says where they come
+// remote control. Expectations are the protocol's, worked out by hand; docs/connecting.md says where they come
 // from.
 #include <algorithm>
 #include <cstdio>

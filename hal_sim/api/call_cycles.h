@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the library's functions and handlers take that hal_sim knows by heart: processor cycles of hal_dspic's
 // own code, path by path, at each level of optimisation that it can be compiled at. call_cycles.inc is
-// written by `twinpuck timings` [measured: hal_dspic on the chip] and held by `make check`.
+// written by `twinpuck-dev timings` [measured: hal_dspic on the chip] and held by `make check`.
 #pragma once
 #include <cstdint>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Every number of the camera, each with one source (docs/sources.md). Register numbers stand in
+// Every number of the camera, each with one source (docs/dev/sources.md). Register numbers stand in
 // camera_sensor.cpp beside what they mean. [derived: ..] follows from the facts that it names.
 #pragma once
 #include "hal_sim/board/cycle.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Limits of the board's checks (docs/diagnoses.md).
+// Limits of the board's checks (docs/controllers.md).
 #pragma once
 #include "hal_sim/board/epuck_params.h"
 

@@ -11,7 +11,7 @@
 // Modelled: registers 1 to 9, software reset, sample rate by frames, and by bit clock, N1, M1 and divider.
 // Not modelled: the codec's filters and delays, loopbacks; its inputs, to which the robot connects nothing,
 // so that frames from the codec carry 0; a codec whose clocks disagree plays at the rate of the frames.
-// Source: register map of the Si3000 [SI3000], see docs/sources.md.
+// Source: register map of the Si3000 [SI3000], see docs/dev/sources.md.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What board and chip have to say about the program that uses them: one entry per cause and place.
-// docs/diagnoses.md is the list. A diagnosis never changes what the robot does.
+// docs/controllers.md is the list. A diagnosis never changes what the robot does.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -10,7 +10,7 @@
 namespace board {
 
 struct Diagnosis {
-  std::string cause;       ///< "lost steps", "UART overrun", ...: the first column of docs/diagnoses.md
+  std::string cause;       ///< "lost steps", "UART overrun", ...: the first column of docs/controllers.md
   std::string place;       ///< pins, register, bit or vector: "LATD0-3", "U1STA.OERR", "T2"
   std::string message;     ///< one sentence without a full stop
   std::string hint;        ///< what to do; empty when the sentence says it

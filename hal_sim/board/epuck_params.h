@@ -2,7 +2,7 @@
 // Every number of the e-puck that the board needs, each with one source:
 //   [DS70143 ..]   the dsPIC30F6014A data sheet
 //   [lib: path]    what the original library's source does (fact restated)
-//   [FRM A1]       the collected robot reference (docs/sources.md), section A1
+//   [FRM A1]       the collected robot reference (docs/dev/sources.md), section A1
 //   [measured ..]  measured by us or by a named page
 //   [assumed: ..]  chosen, with the reason
 #pragma once

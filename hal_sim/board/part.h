@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A part: something plugged into the robot's connectors, such as a turret or a sensor board. One C++ file
-// each in hal_sim/board/parts/; docs/parts.md shows how to add one.
+// each in hal_sim/board/parts/; docs/extending.md shows how to add one.
 //
 //   [[robot.part]] kind = "..."  ->  PartType of that file  ->  Part, hung on I2C, analogue inputs and pins
 //

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Numbers of the parts, each with one source (the tags are those of epuck_params.h). [SRF08], [SRF10],
-// [CMPS03] are the makers' manuals, [GP2D120] Sharp's data sheet (docs/sources.md).
+// [CMPS03] are the makers' manuals, [GP2D120] Sharp's data sheet (docs/dev/sources.md).
 #pragma once
 #include "hal_sim/board/epuck_params.h"
 

@@ -159,6 +159,7 @@ void ChipRunner::run_until(Cycle end) {
     return;
   }
   const bool passes = idle_until_ > end;
+  runs_ = true;  // who looks while somebody holds it up sees it where it is held
   if (processor_->now() < end) {
     if (!passes) ++turns_;
     if (!watches_.empty())
@@ -168,6 +169,7 @@ void ChipRunner::run_until(Cycle end) {
     else
       while (const auto kind = processor_->run(end)) reset(*kind);
   }
+  runs_ = false;
   end_ = std::max(end_, end);
   tell_asked(end_);
   chip_.end_window(std::max(end_, processor_->now()));
@@ -190,7 +192,7 @@ void ChipRunner::look_at_stack() {
 }
 
 void ChipRunner::pass_to(Cycle end) {
-  if (end <= end_) return;
+  if (runs_ || end <= end_) return;
   end_ = end;
   catch_up(end);
   chip_.end_window(end);

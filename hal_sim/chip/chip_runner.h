@@ -6,7 +6,7 @@
 //                                     api::HostLibrary, when it is linked with hal_sim: drivers known by
 //                                     heart
 //
-// Time is the chip's, exact to the cycle as far as docs/chip-core.md says. Traps and resets are the chip's
+// Time is the chip's, exact to the cycle as far as docs/dev/chip.md says. Traps and resets are the chip's
 // own: the program goes on at their vectors; a beginning that the program did not ask for is reported
 // (endings.h), and so is what it makes of the library (library_calls.h). Lines,
 // variables and types are those of the image's debug information; without it, functions and variables are
@@ -172,6 +172,7 @@ class ChipRunner final : public host::Runner,
   std::vector<StepWatch*> watches_;
   mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
+  bool runs_ = false;                // run_until() has begun and not ended
   std::set<std::uint32_t> agendas_;  // functions, and where they return to; of an observer's, with hal_dspic
   unsigned agenda_returns_to_ = 0;   // of the one that runs
   int open_handlers_ = 0, agenda_depth_ = 0;      // how many when it was called

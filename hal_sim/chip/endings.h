@@ -7,7 +7,7 @@
 //   address 0 by a pointer            a call through a null pointer; nothing is reset
 //
 // Any other RESET is the program's own wish. Recognised by structure, so it holds for images of others as
-// well: XC16's default handler and start-up code, with or without symbols. docs/diagnoses.md says the same.
+// well: XC16's default handler and start-up code, with or without symbols. docs/controllers.md says the same.
 #pragma once
 #include <map>
 #include <optional>

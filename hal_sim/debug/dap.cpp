@@ -23,12 +23,12 @@ std::string file_name(const std::string& path) { return path.substr(path.rfind('
 
 // --- the line
 
-bool DapServer::has_input() {
+bool DapLine::has_input() {
   pollfd one{in_, POLLIN, 0};
   return !buffer_.empty() || poll(&one, 1, 0) > 0;
 }
 
-bool DapServer::read_message(Json& message) {
+bool DapLine::read_message(nlohmann::json& message) {
   const auto more = [this] {
     char bytes[4096];
     const ssize_t n = ::read(in_, bytes, sizeof bytes);
@@ -46,17 +46,17 @@ bool DapServer::read_message(Json& message) {
   if (is_broken_) return false;
   while (buffer_.size() < end + 4 + length)
     if (!more()) return false;
-  message = Json::parse(buffer_.substr(end + 4, length), nullptr, false);
+  message = nlohmann::json::parse(buffer_.substr(end + 4, length), nullptr, false);
   buffer_.erase(0, end + 4 + length);
   is_broken_ = !message.is_object() || !message.contains("command") || !message["command"].is_string() ||
                !message.contains("seq") || !message["seq"].is_number_unsigned();
   return !is_broken_;
 }
 
-void DapServer::send(Json message) {
+void DapLine::send(nlohmann::json message) {
   const std::lock_guard<std::mutex> lock(writing_);
   message["seq"] = ++sequence_;
-  const std::string text = message.dump(-1, ' ', false, Json::error_handler_t::replace);
+  const std::string text = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   const std::string whole = fmt::format("Content-Length: {}\r\n\r\n{}", text.size(), text);
   for (std::size_t sent = 0; sent < whole.size();) {
     const ssize_t n = ::write(out_, whole.data() + sent, whole.size() - sent);
@@ -65,39 +65,46 @@ void DapServer::send(Json message) {
   }
 }
 
+bool DapLine::serve(DapServer::Open open) {
+  DapServer server([this](nlohmann::json message) { send(std::move(message)); },
+                   [this] { return has_input(); }, std::move(open));
+  nlohmann::json message;
+  while (!server.has_ended()) {
+    if (server.runs()) server.run_on();
+    // it has stopped, and somebody will ask something; or somebody has
+    if (!read_message(message)) return !is_broken_;
+    server.handle(message);
+  }
+  return true;
+}
+
 void DapServer::send_event(const std::string& event, Json body) {
-  send({{"type", "event"}, {"event", event}, {"body", std::move(body)}});
+  send_({{"type", "event"}, {"event", event}, {"body", std::move(body)}});
 }
 
 void DapServer::respond(const Json& request, Json body) {
-  send({{"type", "response"},
-        {"request_seq", request["seq"]},
-        {"command", request["command"]},
-        {"success", true},
-        {"body", std::move(body)}});
+  send_({{"type", "response"},
+         {"request_seq", request["seq"]},
+         {"command", request["command"]},
+         {"success", true},
+         {"body", std::move(body)}});
 }
 
 void DapServer::refuse(const Json& request, const std::string& why) {
-  send({{"type", "response"},
-        {"request_seq", request["seq"]},
-        {"command", request["command"]},
-        {"success", false},
-        {"message", why},
-        {"body", {{"error", {{"id", 1}, {"format", why}, {"showUser", true}}}}}});
+  send_({{"type", "response"},
+         {"request_seq", request["seq"]},
+         {"command", request["command"]},
+         {"success", false},
+         {"message", why},
+         {"body", {{"error", {{"id", 1}, {"format", why}, {"showUser", true}}}}}});
 }
 
-bool DapServer::serve() {
-  Json message;
-  while (!ended_) {
-    if (!read_message(message)) return !is_broken_;
-    try {
-      handle(message);
-    } catch (const Json::exception& e) {  // a field of the wrong kind
-      refuse(message, e.what());
-    }
-    if (runs_) go_on();
+void DapServer::handle(const Json& request) {
+  try {
+    answer(request);
+  } catch (const Json::exception& e) {  // a field of the wrong kind
+    refuse(request, e.what());
   }
-  return !is_broken_;
 }
 
 // --- running
@@ -107,35 +114,20 @@ void DapServer::begin_run(Plan plan) {
   runs_ = true;
 }
 
-void DapServer::go_on() {
-  while (runs_ && !ended_) {
-    const Stop stop = session_->run(plan_, [this] { return has_input(); });
-    if (stop.why == Stop::Why::Pause) {  // a message has come
-      Json message;
-      if (!read_message(message)) {
-        ended_ = true;
-        return;
-      }
-      pause_asked_ = false;
-      try {
-        handle(message);
-      } catch (const Json::exception& e) {
-        refuse(message, e.what());
-      }
-      if (!pause_asked_) continue;
-    }
-    runs_ = false;
-    if (stop.why == Stop::Why::End) return send_event("terminated");
-    static const std::map<Stop::Why, const char*> kReasons{
-        {Stop::Why::Entry, "entry"},           {Stop::Why::Step, "step"},
-        {Stop::Why::Breakpoint, "breakpoint"}, {Stop::Why::Pause, "pause"},
-        {Stop::Why::Trap, "exception"},        {Stop::Why::Watchpoint, "data breakpoint"},
-        {Stop::Why::Reset, "exception"}};
-    Json body{{"reason", kReasons.at(stop.why)}, {"threadId", 1}, {"allThreadsStopped", true}};
-    if (!stop.text.empty()) body["description"] = body["text"] = stop.text;
-    if (stop.id > 0) body["hitBreakpointIds"] = {stop.id};
-    send_event("stopped", body);
-  }
+void DapServer::run_on() {
+  const Stop stop = pause_asked_ ? Stop{Stop::Why::Pause, 0, "paused"} : session_->run(plan_, has_input_);
+  if (stop.why == Stop::Why::Pause && !pause_asked_) return;  // a message has come
+  runs_ = pause_asked_ = false;
+  if (stop.why == Stop::Why::End) return send_event("terminated");
+  static const std::map<Stop::Why, const char*> kReasons{
+      {Stop::Why::Entry, "entry"},           {Stop::Why::Step, "step"},
+      {Stop::Why::Breakpoint, "breakpoint"}, {Stop::Why::Pause, "pause"},
+      {Stop::Why::Trap, "exception"},        {Stop::Why::Watchpoint, "data breakpoint"},
+      {Stop::Why::Reset, "exception"}};
+  Json body{{"reason", kReasons.at(stop.why)}, {"threadId", 1}, {"allThreadsStopped", true}};
+  if (!stop.text.empty()) body["description"] = body["text"] = stop.text;
+  if (stop.id > 0) body["hitBreakpointIds"] = {stop.id};
+  send_event("stopped", body);
 }
 
 // --- requests
@@ -154,13 +146,13 @@ void DapServer::launch(const Json& request) {
     send_event("terminated");
     return;
   }
-  monitor_ = std::make_unique<Monitor>(*session_, [this] { return has_input(); });
+  monitor_ = std::make_unique<Monitor>(*session_, has_input_);
   stops_on_entry_ = arguments.value("stopOnEntry", false);
   respond(request);
   send_event("initialized");
 }
 
-void DapServer::handle(const Json& request) {
+void DapServer::answer(const Json& request) {
   const std::string command = request["command"];
   const Json arguments = request.value("arguments", Json::object());
   if (command == "initialize")
@@ -210,7 +202,7 @@ void DapServer::handle(const Json& request) {
     return begin_run(Plan::Continue);
   }
   if (command == "pause") {
-    pause_asked_ = true;
+    pause_asked_ = runs_;
     return respond(request);
   }
   const bool by_instruction = arguments.value("granularity", "") == "instruction";

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The debugger's face for editors: a server of the Debug Adapter Protocol on two file descriptors.
+// The debugger's face for editors and for the page: a server of the Debug Adapter Protocol.
 //
-//   editor --requests--> DapServer --> Session
+//   editor --Content-Length, requests--> DapLine --> DapServer --> Session
 //          <--responses, events--
+//   page ----requests of its own protocol----------------^
 //
 // One thread, one session, one thread of the program. A message that comes while the program runs pauses it,
 // is answered, and the program goes on, if it was not the pause itself. What is typed in the editor's console
@@ -28,22 +29,33 @@ class DapServer {
                                                       const std::function<void(const std::string&)>& output,
                                                       std::vector<std::string>& problems)>;
 
-  DapServer(int in, int out, Open open) : in_(in), out_(out), open_(std::move(open)) {}
-  /// Until the editor disconnects or closes the line. False: it sent what is no message.
-  bool serve();
+  /// Takes a response or an event, all but its "seq"; by any thread.
+  using Send = std::function<void(nlohmann::json)>;
+  /// Has a message come? Asked while the program runs, by the thread that runs it.
+  using HasInput = std::function<bool()>;
+
+  DapServer(Send send, HasInput has_input, Open open)
+      : send_(std::move(send)), has_input_(std::move(has_input)), open_(std::move(open)) {}
+
+  /// A request: an object with "seq" and "command". It is answered before this returns, by a response; one
+  /// that runs the program makes runs() true.
+  void handle(const nlohmann::json& request);
+  /// Does the program run on, as soon as run_on() is called?
+  bool runs() const { return runs_; }
+  /// Runs the program until it stops, which an event tells, or until a message has come; handle() that, and
+  /// call this again.
+  void run_on();
+  /// The editor has disconnected.
+  bool has_ended() const { return ended_; }
 
  private:
   using Json = nlohmann::json;
-  // --- the line
-  bool read_message(Json& message);
-  bool has_input();
-  void send(Json message);
   void send_event(const std::string& event, Json body = Json::object());
   void respond(const Json& request, Json body = Json::object());
   void refuse(const Json& request, const std::string& why);
 
   // --- requests
-  void handle(const Json& request);
+  void answer(const Json& request);
   void launch(const Json& request);
   void set_breakpoints(const Json& request);
   void set_function_breakpoints(const Json& request);
@@ -61,22 +73,38 @@ class DapServer {
   /// Name and path of a source, the path as the editor has it.
   Json told_source(std::size_t file) const;
   void begin_run(Plan plan);
-  void go_on();
   void replace(std::set<int>& old, std::set<int> now);
   Json told(const Breakpoint* b, const std::string& error);
 
-  int in_, out_;
+  Send send_;
+  HasInput has_input_;
   Open open_;
-  std::string buffer_;
-  std::mutex writing_;  // the world's thread sends text
-  int sequence_ = 0;
   std::unique_ptr<Session> session_;
   std::unique_ptr<Monitor> monitor_;
   std::map<std::string, std::set<int>> of_source_;
   std::map<std::size_t, std::string> paths_;  // of sources, as the editor named them
   std::set<int> of_functions_, of_data_, of_instructions_;
-  bool stops_on_entry_ = false, runs_ = false, pause_asked_ = false, ended_ = false, is_broken_ = false;
+  bool stops_on_entry_ = false, runs_ = false, pause_asked_ = false, ended_ = false;
   Plan plan_ = Plan::Continue;
+};
+
+/// The line that editors speak on: messages with their length before them, on two file descriptors.
+class DapLine {
+ public:
+  DapLine(int in, int out) : in_(in), out_(out) {}
+  /// Until the editor disconnects or closes the line. False: it sent what is no message.
+  bool serve(DapServer::Open open);
+
+ private:
+  bool read_message(nlohmann::json& message);
+  bool has_input();
+  void send(nlohmann::json message);
+
+  int in_, out_;
+  std::string buffer_;
+  std::mutex writing_;  // the world's thread sends text
+  int sequence_ = 0;
+  bool is_broken_ = false;
 };
 
 }  // namespace debug

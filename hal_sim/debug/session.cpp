@@ -45,6 +45,7 @@ std::unique_ptr<Session> Session::open(Setup setup, std::vector<std::string>& pr
 Session::~Session() { abandon(); }
 
 bool Session::open_world(std::vector<std::string>& problems) {
+  if (twin_ && setup_.closes) setup_.closes();
   machine_.reset();
   twin_.reset();  // the next world gets the addresses that this one had
   twin_ = twin::Twin::open(setup_.world, setup_.options, problems);
@@ -119,7 +120,10 @@ void Session::run_world() {
   while (!abandoned_ && simulation.now() < end) {
     if (machine_->watch(this, mind.cycle_at(simulation.now() + tick) + kLongestBlock >= quiet_until()))
       mind.wake();  // what it has passed over is to be seen
-    simulation.advance(simulation.now());
+    if (setup_.step)
+      setup_.step(*twin_);
+    else
+      simulation.step();
     if (setup_.ticked && !is_repeating_ && !abandoned_) setup_.ticked();
     std::as_const(mind).runner();  // a robot that is idle has come as far as the world
   }

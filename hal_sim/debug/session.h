@@ -66,6 +66,8 @@ class Session final : private chip::StepWatch {
     std::string robot;                        ///< empty: the first that has a program
     double seconds = 1e6;                     ///< the world ends
     std::function<void(twin::Twin&)> opened;  ///< told of each new world; this and the others may be empty
+    std::function<void()> closes;             ///< told before a world goes for another one
+    std::function<void(twin::Twin&)> step;    ///< steps it, a tick, also in a repetition; empty: that alone
     std::function<void()> ticked;             ///< after each tick that is not a repetition
     std::function<void()> repeated;           ///< after a repetition
   };
@@ -79,6 +81,8 @@ class Session final : private chip::StepWatch {
   /// Forwards or backwards to the first instruction at or after a cycle.
   Stop go_to(Cycle cycle, const std::function<bool()>& idle = nullptr);
   bool has_ended() const { return state_ == State::Ended; }
+  /// Its world goes no further, for good: what `step` and the others stand on may go.
+  void halt() { abandon(); }
 
   // --- where it stands
   Cycle now() const;

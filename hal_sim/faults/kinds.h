@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The one table of what a bench can do to a robot: faults, and stimuli such as a key or a byte. Files, the
-// command line, messages, lists and docs/faults.md are made from it.
+// command line, messages, lists and docs/testing.md are made from it.
 #pragma once
 #include <string>
 #include <vector>
@@ -38,7 +38,7 @@ const Kind* find_kind(const std::string& name);
 /// The names of all, for messages: "wheel_stuck" may have been meant by "wheel_stick".
 std::vector<std::string> kind_names();
 
-/// For the terminal, and docs/faults.md as a whole.
+/// For the terminal, and the tables in docs/testing.md.
 std::string text_table();
 std::string page();
 

@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "compiler/build/build.h"
-#include "hal_sim/twin/twin.h"
+#include "hal_sim/twin/firmware_store.h"
 #include "install/cache_bound.h"
 #include "install/places.h"
 #include "programs/build/build.h"

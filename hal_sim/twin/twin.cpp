@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <utility>
 
 #include "hal_sim/api/host_table.h"
 #include "hal_sim/board/bluetooth_module.h"
@@ -21,6 +22,17 @@
 #include "sim_core/world/variation.h"
 
 namespace twin {
+
+/// What a robot runs, loaded once for all that run it.
+struct Firmware {
+  std::shared_ptr<const chip::ChipImage> image;
+  std::shared_ptr<const programs::Launch> program;  // or a program of the PC
+  std::string hal = "";                             // of the image: sim, dspic or own
+  std::string path = "";
+  Program made_of = {};
+
+  bool is_open() const { return image || program; }
+};
 
 namespace {
 
@@ -96,15 +108,6 @@ board::BluetoothSetup bluetooth_of(const sim::WorldDesc& world, int index) {
 
 /// An image with its debug information takes some hundred KB.
 constexpr std::size_t kLongestImage = 256 << 20;  // bytes
-
-/// What a robot runs, loaded once for all that run it.
-struct Firmware {
-  std::shared_ptr<const chip::ChipImage> image;
-  std::shared_ptr<const programs::Launch> program;  // or a program of the PC
-  std::string hal = "";                             // of the image: sim, dspic or own
-
-  bool is_open() const { return image || program; }
-};
 
 Firmware open_firmware(const std::string& path, const Options& options, std::string& error) {
   if (programs::is_pc_program(path)) {
@@ -215,94 +218,123 @@ void press_keys(host::FirmwareMind& mind, std::vector<sim::KeyDesc> keys, double
   }
 }
 
+void check_choices(const sim::WorldDesc& world, const Options& options, std::vector<std::string>& problems) {
+  std::vector<Choice> externs;
+  for (const std::string& name : options.externs) externs.push_back({name, ""});
+  check_names(world, options.firmware, "--fw", problems);
+  check_names(world, options.uart1, "--uart", problems);
+  check_names(world, externs, "--extern", problems);
+  check_names(world, options.uart2, "--uart2", problems);
+}
+
+std::string chosen_firmware(const Options& options, const sim::RobotDesc& robot) {
+  for (const std::string& outside : options.externs)
+    if (outside == robot.name || outside == "*") return kExtern;
+  return chosen(options.firmware, robot.name, robot.firmware);
+}
+
+/// Every distinct firmware is found, built and loaded once.
+class FirmwareShelf {
+ public:
+  FirmwareShelf(const Options& options, std::vector<std::string>& problems)
+      : options_(options), problems_(problems) {}
+
+  /// What a robot runs; null for nothing, and with a line in the problems where it cannot be had.
+  const Firmware* find(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
+    if (robot.firmware.empty()) return nullptr;
+    Options of_robot = options_;
+    of_robot.webots_settings = webots_settings_of(world);
+    if (of_robot.hal.empty() && robot.own.count("hal")) of_robot.hal = own_settings(world, robot).text("hal");
+    const auto [at, is_new] = known_.try_emplace({of_robot.hal, robot.firmware});
+    if (is_new) load(robot, of_robot, at->second);
+    return &at->second;
+  }
+
+ private:
+  void load(const sim::RobotDesc& robot, const Options& options, Firmware& firmware) {
+    Program made_of;
+    const std::string path =
+        provide_image(robot.firmware, options.world_folder, options, problems_, &made_of);
+    if (path.empty()) return;
+    std::string error;
+    firmware = open_firmware(path, options_, error);
+    firmware.path = path;
+    if (!firmware.is_open())
+      problems_.push_back(error);
+    else if (firmware.hal == "sim" && hal_of(options, path) == "dspic")
+      problems_.push_back("robot '" + robot.name + "': hal: got dspic, but " + path +
+                          " was linked with hal_sim, expected an image of `twinpuck build DIR --hal dspic`");
+    else if (firmware.program)
+      made_of.files = firmware.program->files;
+    firmware.made_of = made_of;
+  }
+
+  const Options& options_;
+  std::vector<std::string>& problems_;
+  std::map<std::pair<std::string, std::string>, Firmware> known_;  // by HAL and name
+};
+
 }  // namespace
 
 std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
                                  std::vector<std::string>& problems) {
   const std::size_t problems_before = problems.size();
-  check_names(world, options.firmware, "--fw", problems);
-  check_names(world, options.uart1, "--uart", problems);
-  std::vector<Choice> externs;
-  for (const std::string& name : options.externs) externs.push_back({name, ""});
-  check_names(world, externs, "--extern", problems);
-  check_names(world, options.uart2, "--uart2", problems);
+  check_choices(world, options, problems);
   if (problems.size() != problems_before) return nullptr;
-
-  // every distinct firmware is found, built and loaded once
-  std::map<std::string, std::string> paths;
-  std::map<std::string, Program> programs;
-  std::map<std::string, Firmware> images;
-  std::vector<std::string> firmware;
+  FirmwareShelf shelf(options, problems);
+  std::vector<const Firmware*> firmware;
   for (auto& robot : world.robots) {
-    std::string name = chosen(options.firmware, robot.name, robot.firmware);
-    for (const std::string& outside : options.externs)
-      if (outside == robot.name || outside == "*") name = kExtern;
-    Options of_robot = options;
-    of_robot.webots_settings = webots_settings_of(world);
-    if (of_robot.hal.empty() && robot.own.count("hal")) of_robot.hal = own_settings(world, robot).text("hal");
-    const std::string key = name.empty() ? name : of_robot.hal + ":" + name;
-    firmware.push_back(key);
-    robot.firmware = name;  // what it runs, for pictures and supervisors
-    if (name.empty() || paths.count(key)) continue;
-    std::string& path = paths[key];
-    path = provide_image(name, options.world_folder, of_robot, problems, &programs[key]);
-    if (path.empty()) continue;
-    std::string error;
-    const Firmware& opened = images[key] = open_firmware(path, options, error);
-    if (!opened.is_open()) {
-      problems.push_back(error);
-    } else if (opened.hal == "sim" && hal_of(of_robot, path) == "dspic") {
-      problems.push_back("robot '" + robot.name + "': hal: got dspic, but " + path +
-                         " was linked with hal_sim, expected an image of `twinpuck build DIR --hal dspic`");
-    } else if (opened.program) {
-      programs[key].files = opened.program->files;
-    }
+    robot.firmware = chosen_firmware(options, robot);  // what it runs, for pictures and supervisors
+    firmware.push_back(shelf.find(world, robot));
   }
   if (problems.size() != problems_before) return nullptr;
 
-  std::unique_ptr<Twin> twin(new Twin);
-  twin->options_ = options;
-  const std::size_t n = world.robots.size();
+  std::unique_ptr<Twin> twin(new Twin(options));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto& robot = world.robots[i];
-    board::Setup setup = setup_of(world, static_cast<int>(i));
-    host::RunnerFactory make_runner;
-    twin->seats_.push_back(std::make_shared<programs::Seat>());
-    twin->launches_.push_back(firmware[i].empty() ? nullptr : images[firmware[i]].program);
-    if (!firmware[i].empty()) make_runner = runner_for(images[firmware[i]], setup, 0, twin->seats_.back());
-    auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
-    plug_in_parts(robot, mind->board(), problems);
-    twin->uart_choices_.push_back(
-        {chosen(options.uart1, robot.name, robot.uart1), chosen(options.uart2, robot.name, robot.uart2)});
-    for (int port = 1; port <= 2; ++port) {
-      std::string error;
-      auto end = board::open_uart_end(twin->uart_choice(static_cast<int>(i), port),
-                                      pty_link(robot.name, port), error);
-      if (!error.empty())
-        problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
-      if (port == 1) {
-        auto module = std::make_shared<board::BluetoothModule>(bluetooth_of(world, static_cast<int>(i)),
-                                                               mind->board().clock(), static_cast<int>(i),
-                                                               std::move(end));
-        module->wake = [awake = mind.get()] { awake->wake(); };
-        twin->bluetooth_.push_back(module);
-        mind->board().uart(1).connect(std::move(module));
-      } else if (end) {
-        mind->board().uart(port).connect(std::move(end));
-      }
-    }
-    press_keys(*mind, robot.keys);
-    twin->minds_.push_back(mind.get());
-    twin->hals_.push_back(firmware[i].empty() ? "" : images[firmware[i]].hal);
-    twin->image_paths_.push_back(firmware[i].empty() ? "" : paths[firmware[i]]);
-    twin->programs_.push_back(firmware[i].empty() ? Program{} : programs[firmware[i]]);
-    minds.push_back(std::move(mind));
-  }
+  for (std::size_t i = 0; i < world.robots.size(); ++i)
+    minds.push_back(twin->add_robot(world, static_cast<int>(i), firmware[i], problems));
   if (problems.size() != problems_before) return nullptr;
   twin->simulation_ = std::make_unique<sim::Simulation>(std::move(world), std::move(minds), options.threads);
   twin->add_media();
   return twin;
+}
+
+/// A robot as it is switched on: its board with parts, lines and program. `firmware`: null for none.
+std::unique_ptr<host::FirmwareMind> Twin::add_robot(const sim::WorldDesc& world, int index,
+                                                    const Firmware* firmware,
+                                                    std::vector<std::string>& problems) {
+  const sim::RobotDesc& robot = world.robots[static_cast<std::size_t>(index)];
+  Place& place = places_.emplace_back();
+  place.uart_choices = {chosen(options_.uart1, robot.name, robot.uart1),
+                        chosen(options_.uart2, robot.name, robot.uart2)};
+  board::Setup setup = setup_of(world, index);
+  host::RunnerFactory make_runner;
+  if (firmware) {
+    make_runner = runner_for(*firmware, setup, 0, place.seat);
+    place.program = firmware->made_of;
+    place.image_path = firmware->path;
+    place.hal = firmware->hal;
+    place.launch = firmware->program;
+  }
+  auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
+  place.mind = mind.get();
+  plug_in_parts(robot, mind->board(), problems);
+
+  // UART 1 goes through the Bluetooth module to its other end, UART 2 there at once
+  const auto other_end = [&](int port) {
+    std::string error;
+    auto end = board::open_uart_end(uart_choice(index, port), pty_link(robot.name, port), error);
+    if (!error.empty())
+      problems.push_back("robot '" + robot.name + "': uart" + std::to_string(port) + ": " + error);
+    return end;
+  };
+  place.bluetooth = std::make_shared<board::BluetoothModule>(bluetooth_of(world, index),
+                                                             mind->board().clock(), index, other_end(1));
+  place.bluetooth->wake = [awake = mind.get()] { awake->wake(); };
+  mind->board().uart(1).connect(place.bluetooth);
+  if (auto end = other_end(2)) mind->board().uart(2).connect(std::move(end));
+  press_keys(*mind, robot.keys);
+  return mind;
 }
 
 std::string Twin::flash(const std::vector<int>& robots, const std::string& path) {
@@ -310,29 +342,29 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
   const Firmware program = open_firmware(path, options_, error);
   if (!error.empty()) return error;
   for (int robot : robots) {
-    const auto r = static_cast<std::size_t>(robot);
-    const std::string where = "robot '" + world().robots[r].name + "': ";
-    if (!minds_[r]->runner()) return where + "got one that is switched off";
+    Place& place = at(robot);
+    const std::string where = "robot '" + world().robots[static_cast<std::size_t>(robot)].name + "': ";
+    if (!place.mind->runner()) return where + "got one that is switched off";
     // whoever gives programs of the PC their turns knows them from the beginning
-    if ((program.program != nullptr) != (launches_[r] != nullptr))
+    if ((program.program != nullptr) != (place.launch != nullptr))
       return where + (program.program ? "got a program of the PC in firmware's place; restart the run"
                                       : "got firmware in the place of a program of the PC; restart the run");
     board::Setup setup = setup_of(world(), robot);
-    const auto make_runner = runner_for(program, setup, minds_[r]->now(), seats_[r]);
-    if (setup.clock_ppm != minds_[r]->board().setup().clock_ppm)
+    const auto make_runner = runner_for(program, setup, place.mind->now(), place.seat);
+    if (setup.clock_ppm != place.mind->board().setup().clock_ppm)
       return where + "got a program with another clock in its configuration words; restart the run";
-    minds_[r]->flash(make_runner);
-    image_paths_[r] = path;
-    hals_[r] = program.hal;
-    launches_[r] = program.program;
-    programs_[r] = {path, "", 0};
-    simulation_->note_intervention(r);
+    place.mind->flash(make_runner);
+    place.image_path = path;
+    place.hal = program.hal;
+    place.launch = program.program;
+    place.program = {path, "", 0};
+    simulation_->note_intervention(static_cast<std::size_t>(robot));
   }
   return "";
 }
 
 void Twin::begin_again(int robot) {
-  host::FirmwareMind& mind = *minds_[static_cast<std::size_t>(robot)];
+  host::FirmwareMind& mind = *at(robot).mind;
   const sim::Clicks now = simulation_->now();
   mind.begin_again(now);
   mind.board().remote().forget();
@@ -344,8 +376,8 @@ void Twin::begin_again(int robot) {
 // what passes between robots; a world whose robots have nothing of the kind gets nothing
 void Twin::add_media() {
   std::vector<sim::RadioPort*> radios;
-  for (const auto* mind : minds_)
-    for (board::I2cDevice* device : mind->board().i2c().devices())
+  for (const Place& place : places_)
+    for (board::I2cDevice* device : place.mind->board().i2c().devices())
       if (auto* port = dynamic_cast<sim::RadioPort*>(device)) radios.push_back(port);
   if (!radios.empty()) {
     auto radio = std::make_unique<sim::RadioMedium>(world().radio, world().seed, std::move(radios));
@@ -354,8 +386,8 @@ void Twin::add_media() {
   }
   std::vector<sim::LinkPort*> ends;
   std::vector<std::vector<sim::Dropout>> dropouts;
-  for (std::size_t i = 0; i < bluetooth_.size(); ++i) {
-    ends.push_back(bluetooth_[i].get());
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    ends.push_back(places_[i].bluetooth.get());
     dropouts.push_back(world().robots[i].link.dropouts);
   }
   if (!ends.empty())
@@ -363,9 +395,9 @@ void Twin::add_media() {
         std::make_unique<sim::LinkMedium>(world().link, world().seed, std::move(ends), std::move(dropouts)));
   auto packets = std::make_unique<sim::PacketMedium>();
   std::vector<board::VirtualDevices*> consoles;
-  for (host::FirmwareMind* mind : minds_) {
-    packets->add(mind->board().packets());
-    consoles.push_back(&mind->board().virtual_devices());
+  for (const Place& place : places_) {
+    packets->add(place.mind->board().packets());
+    consoles.push_back(&place.mind->board().virtual_devices());
   }
   packets_ = packets.get();
   simulation_->add(std::move(packets));
@@ -373,7 +405,7 @@ void Twin::add_media() {
 }
 
 void Twin::flush_console() {
-  for (host::FirmwareMind* mind : minds_) mind->board().virtual_devices().deliver_rest();
+  for (const Place& place : places_) place.mind->board().virtual_devices().deliver_rest();
 }
 
 int Twin::find(const std::string& name) const {
@@ -385,8 +417,9 @@ int Twin::find(const std::string& name) const {
 
 std::vector<host::TrapReport> Twin::traps() const {
   std::vector<host::TrapReport> all;
-  for (const auto* mind : minds_)
-    if (mind->runner()) all.insert(all.end(), mind->runner()->traps().begin(), mind->runner()->traps().end());
+  for (const Place& place : places_)
+    if (const auto* runner = place.mind->runner())
+      all.insert(all.end(), runner->traps().begin(), runner->traps().end());
   return all;
 }
 

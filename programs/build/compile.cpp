@@ -21,6 +21,7 @@
 #include "install/places.h"
 #include "makefile.h"
 #include "sim_core/base/pattern.h"
+#include "sim_core/base/words.h"
 #include "sources.h"
 
 namespace programs {
@@ -469,7 +470,7 @@ Compiled compile(const Found& found, const std::string& said, const fs::path& ca
   const auto program_of = [&](const Words& needs) {
     return home / fmt::format("{}-{:016x}", stem, hash_of_needs(key, needs));
   };
-  Words needs = words_of(text_of(list_file), "\n");
+  Words needs = sim::words_of(text_of(list_file), "\n");
   if (!needs.empty()) {
     made.files = std::atoi(needs[0].c_str());
     needs.erase(needs.begin());

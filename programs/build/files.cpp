@@ -12,6 +12,7 @@
 #include <set>
 
 #include "sim_core/base/hash.h"
+#include "sim_core/base/words.h"
 
 namespace programs {
 
@@ -185,7 +186,7 @@ fs::path on_path(const std::string& name) {
   if (name.empty()) return {};
   if (name.find('/') != std::string::npos) return can_run(name) ? fs::absolute(name, none) : fs::path();
   const char* path = std::getenv("PATH");
-  for (const std::string& folder : words_of(path ? path : "/usr/bin:/bin", ":"))
+  for (const std::string& folder : sim::words_of(path ? path : "/usr/bin:/bin", ":"))
     if (can_run(fs::path(folder) / name)) return fs::absolute(fs::path(folder) / name, none);
   return {};
 }
@@ -198,16 +199,6 @@ std::vector<std::string> names_of(const fs::path& folder) {
   const std::string real = fs::weakly_canonical(whole, none).filename().string();
   if (real != names[0]) names.push_back(real);
   return names;
-}
-
-std::vector<std::string> words_of(const std::string& text, const char* separators) {
-  std::vector<std::string> words;
-  for (std::size_t at = 0; (at = text.find_first_not_of(separators, at)) != std::string::npos;) {
-    const std::size_t end = std::min(text.find_first_of(separators, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
 }
 
 std::uint64_t hash_of(std::uint64_t h, const std::string& bytes) {

@@ -41,7 +41,6 @@ fs::path on_path(const std::string& name);
 /// Names that a controller's folder has: as it is called, and where it really lies.
 std::vector<std::string> names_of(const fs::path& folder);
 
-std::vector<std::string> words_of(const std::string& text, const char* separators = " \t\r\n");
 std::uint64_t hash_of(std::uint64_t h, const std::string& bytes);
 
 }  // namespace programs

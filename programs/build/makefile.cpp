@@ -11,6 +11,7 @@
 #include "compiler/cache/child_process.h"
 #include "containment.h"
 #include "kinds.h"
+#include "sim_core/base/words.h"
 
 namespace programs {
 namespace {
@@ -74,7 +75,7 @@ void add_rule_libraries(const std::string& text, std::vector<std::string>& libra
   std::istringstream lines(text);
   for (std::string line; std::getline(lines, line);)
     if (!line.empty() && line[0] == '\t')
-      for (const std::string& word : words_of(line))
+      for (const std::string& word : sim::words_of(line))
         if (word.rfind("-l", 0) == 0 && word.size() > 2 && word.find('$') == std::string::npos)
           libraries.push_back(word);
 }

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "sim_core/base/words.h"
+
 namespace programs {
 namespace {
 
@@ -42,7 +44,7 @@ std::string replaced(const std::string& text, const RuntimeIni& known) {
 /// "lib::../../library" with its parts absolute; empty ones, of a variable that nobody set, are left out.
 std::string absolute_paths(const std::string& text, const fs::path& folder) {
   std::string out;
-  for (const std::string& part : words_of(text, ":"))
+  for (const std::string& part : sim::words_of(text, ":"))
     out += (out.empty() ? "" : ":") + (folder / trimmed(part)).lexically_normal().string();
   return out;
 }
@@ -85,7 +87,7 @@ RuntimeIni read_runtime_ini(const fs::path& folder, std::vector<std::string>& wa
       if (name == "COMMAND")
         ini.commands[section] = replaced(value, ini);
       else if (name == "OPTIONS")
-        ini.options[section] = words_of(replaced(value, ini));
+        ini.options[section] = sim::words_of(replaced(value, ini));
       else
         warn("got " + name + ", expected COMMAND or OPTIONS");
     }

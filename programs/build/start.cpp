@@ -12,6 +12,7 @@
 #include "containment.h"
 #include "install/places.h"
 #include "runtime_ini.h"
+#include "sim_core/base/words.h"
 
 namespace programs {
 namespace {
@@ -150,7 +151,7 @@ class Starter {
     }
     // a script says by which program it is read
     const std::string text = text_of(found_.main);
-    const std::vector<std::string> words = words_of(text.substr(2, text.find('\n') - 2));
+    const std::vector<std::string> words = sim::words_of(text.substr(2, text.find('\n') - 2));
     if (words.empty()) return fail("got a script with an empty #! line, expected an interpreter");
     std::vector<std::string> command = words;
     if (fs::path(words[0]).filename() == "env") command.erase(command.begin());
@@ -183,7 +184,7 @@ class Starter {
       }
     const std::string text = text_of(found_.main);
     if (text.rfind("#!", 0) == 0)
-      for (const std::string& word : words_of(text.substr(2, text.find('\n') - 2)))
+      for (const std::string& word : sim::words_of(text.substr(2, text.find('\n') - 2)))
         if (fs::path(word).filename().string().rfind("python3", 0) == 0)
           if (const fs::path file = on_path(word); !file.empty()) return file;
     return on_path("python3");
@@ -247,7 +248,7 @@ class Starter {
     const cc::ProcessResult done = cc::run_process(command);
     if (done.status != 0) {
       fail("does not compile:");
-      for (const std::string& line : words_of(done.output, "\n")) problems_.push_back(line);
+      for (const std::string& line : sim::words_of(done.output, "\n")) problems_.push_back(line);
       fs::remove_all(draft, none);
       return {};
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What supervisors may ask of robots here beyond Webots' own fields: counts, motors, LEDs, power, the
-// firmware's variables, sensors that a supervisor makes up. docs/supervisor.md lists them.
+// firmware's variables, sensors that a supervisor makes up. docs/connecting.md lists them.
 #pragma once
 #include <string>
 #include <vector>

@@ -330,8 +330,8 @@ std::string why_of(Handle& handle, int robot) { return machine_of(handle, robot)
 /// A line of commands from Python as an input's object.
 void apply(Handle& handle, const std::string& json) {
   try {
-    handle.world().apply(viewer::Json::parse(json));
-  } catch (const viewer::Json::exception& e) {
+    handle.world().apply(inputs::Json::parse(json));
+  } catch (const inputs::Json::exception& e) {
     throw std::invalid_argument(e.what());
   }
 }
@@ -492,7 +492,14 @@ PYBIND11_MODULE(_core, module) {
     if (!wrong.empty()) throw std::invalid_argument(path + ": " + wrong);
     return text;
   });
+  module.def("find_world", [](const std::string& name) {
+    std::vector<std::string> problems;
+    const twin::FoundWorld found = twin::find_world(name, problems);
+    if (!problems.empty()) throw std::invalid_argument(joined(problems));
+    return found.file;
+  });
   module.def("project_root", [] { return places::share_root().string(); });
+  module.def("command_file", [] { return places::command_file().string(); });
   bind_arrays(module);
   module.def("signals", &signal_table);
   module.def("fault_kinds", [] { return faults::kind_names(); });

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <filesystem>
 
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/twin/world_file.h"
@@ -32,27 +31,19 @@ bool World::begin(std::vector<std::string>& problems) {
   if (opening_.seed) loaded.world->seed = *opening_.seed;
   opening_.seed = loaded.world->seed;
   twin::Options& options = opening_.options;
-  options.world_folder = std::filesystem::path(opening_.file).parent_path().string();
   options.tell = [this](const std::string& line) { notices_.push_back(line); };
-  twin_ = twin::Twin::open(std::move(*loaded.world), options, problems);
-  if (!twin_) return false;
-  team_ = programs::Team::open(*twin_, options, opening_.supervisors, problems);
-  if (!team_) return false;
-  team_->say = [this](const std::string& line) { consoles_[-1].push_back(line); };
-  team_->should_give_up = [this] { return should_stop && should_stop(); };
-  if (!options.coverage.empty()) {
-    coverage_ = twin::CoverageRun::open(*twin_, options.coverage, problems);
-    if (!coverage_) return false;
-  }
+  run_ = runs::Run::open(std::move(*loaded.world), options, opening_.supervisors, problems);
+  if (!run_) return false;
+  run_->team().say = [this](const std::string& line) { consoles_[-1].push_back(line); };
+  run_->team().should_give_up = [this] { return should_stop && should_stop(); };
   for (const std::string& name : opening_.measured)
-    if (name != "*" && twin_->find(name) < 0) {
+    if (name != "*" && twin().find(name) < 0) {
       problems.push_back("measured: got '" + name + "', expected a robot of the world, or *");
       return false;
     }
-  inputs_ = std::make_unique<viewer::Inputs>(*twin_);
-  ways_ = std::make_unique<sim::Trajectories>(twin_->robots());
+  ways_ = std::make_unique<sim::Trajectories>(twin().robots());
   listen();
-  team_->before_first_tick();
+  run_->team().before_first_tick();
   sample();
   return true;
 }
@@ -65,9 +56,9 @@ World::~World() {
 }
 
 void World::listen() {
-  heard_.resize(static_cast<std::size_t>(twin_->robots()));
-  for (int robot = 0; robot < twin_->robots(); ++robot) {
-    host::FirmwareMind& mind = twin_->mind(robot);
+  heard_.resize(static_cast<std::size_t>(twin().robots()));
+  for (int robot = 0; robot < twin().robots(); ++robot) {
+    host::FirmwareMind& mind = twin().mind(robot);
     for (int port = 1; port <= 2; ++port)
       mind.board().uart(port).listen(
           &heard_[static_cast<std::size_t>(robot)][static_cast<std::size_t>(port - 1)]);
@@ -80,7 +71,7 @@ void World::listen() {
         pictures_.at(robot) = p;
       };
     pictures_[robot];
-    const std::string& name = twin_->world().robots[static_cast<std::size_t>(robot)].name;
+    const std::string& name = twin().world().robots[static_cast<std::size_t>(robot)].name;
     const bool is_measured = std::any_of(opening_.measured.begin(), opening_.measured.end(),
                                          [&](const std::string& m) { return m == "*" || m == name; });
     auto* const runner = is_measured ? dynamic_cast<chip::ChipRunner*>(mind.runner()) : nullptr;
@@ -102,23 +93,23 @@ debug::Machine* World::machine(int robot) {
 // --- running
 
 sim::Clicks World::next_look() const {
-  sim::Clicks next = twin_->simulation().now() + kLook;
+  sim::Clicks next = simulation().now() + kLook;
   for (const auto& record : records_) next = std::min(next, record->next);
   return next;
 }
 
 World::Why World::run(sim::Clicks end, const std::function<bool()>& each_tick, bool stops_at_traps) {
   using Wall = std::chrono::steady_clock;
-  sim::Simulation& simulation = twin_->simulation();
+  sim::Simulation& simulation = run_->simulation();
   if (stops_at_traps && traps_ < 0) traps_ = traps_seen();
   if (!stops_at_traps) traps_ = -1;
   auto asked = Wall::now();
   while (simulation.now() < end) {
-    if (team_->has_ended()) return Why::Ended;
+    if (run_->team().has_ended()) return Why::Ended;
     if (each_tick)
-      inputs_->step();
+      run_->inputs().step();
     else
-      inputs_->faults().advance(std::min(end, next_look()));
+      run_->inputs().faults().advance(std::min(end, next_look()));
     sample();
     if (stops_at_traps)
       if (const std::int64_t traps = traps_seen(); traps != traps_) {
@@ -132,30 +123,30 @@ World::Why World::run(sim::Clicks end, const std::function<bool()>& each_tick, b
       if (should_stop()) return Why::Stopped;
     }
   }
-  return team_->has_ended() ? Why::Ended : Why::Time;
+  return run_->team().has_ended() ? Why::Ended : Why::Time;
 }
 
 void World::finish(std::vector<std::string>& problems) {
-  if (is_finished_ || !twin_ || !team_) return;
+  if (is_finished_ || !run_) return;
   is_finished_ = true;
-  team_->finish();
-  if (coverage_) coverage_->finish(problems);
+  run_->team().finish();
+  if (auto* coverage = run_->coverage()) coverage->finish(problems);
 }
 
 std::int64_t World::traps_seen() const {
   std::int64_t sum = 0;
-  for (int robot = 0; robot < twin_->robots(); ++robot)
+  for (int robot = 0; robot < twin().robots(); ++robot)
     if (const host::Runner* program = runner(robot))
       for (const auto& trap : program->traps()) sum += trap.count;
   return sum;
 }
 
 void World::sample() {
-  const sim::Clicks now = twin_->simulation().now();
+  const sim::Clicks now = simulation().now();
   if (sampled_ < 0 || now - sampled_ >= kLook) {
     sampled_ = now;
-    ways_->sample(twin_->simulation().scene());
-    if (coverage_) coverage_->look();
+    ways_->sample(simulation().scene());
+    if (auto* coverage = run_->coverage()) coverage->look();
   }
   for (const auto& record : records_)
     if (now >= record->next) write_row(*record);
@@ -163,20 +154,20 @@ void World::sample() {
 
 // --- touching
 
-void World::apply(const viewer::Json& input) {
-  inputs_->apply(input);
-  viewer::Json line = input;
-  line["at"] = twin_->simulation().now();
+void World::apply(const inputs::Json& input) {
+  run_->inputs().apply(input);
+  inputs::Json line = input;
+  line["at"] = simulation().now();
   touches_.push_back(std::move(line));
   // whatever changed the place of something breaks its way
   if (input.at("do") == "move" && input.contains("robot"))
-    ways_->lift_pen(twin_->find(input.at("robot").get<std::string>()));
+    ways_->lift_pen(twin().find(input.at("robot").get<std::string>()));
 }
 
 std::string World::recording() const {
-  viewer::Opening opening{opening_.file, opening_.text, *opening_.seed, opening_.options,
+  inputs::Opening opening{opening_.file, opening_.text, *opening_.seed, opening_.options,
                           opening_.supervisors};
-  return viewer::recording_text(opening, touches_, twin_->simulation().now(), twin_->simulation().digest());
+  return inputs::recording_text(opening, touches_, simulation().now(), simulation().digest());
 }
 
 // --- asking
@@ -211,16 +202,15 @@ std::string World::draw(const std::string& file, const std::string& caption, boo
   options.caption = caption;
   options.sensor_rays = rays;
   options.width_px = width_px;
-  options.labels = team_->labels();
-  ways_->sample(twin_->simulation().scene());
-  return sim::write_picture(file, twin_->simulation().scene(), twin_->simulation().minds(), ways_.get(),
-                            options);
+  options.labels = run_->team().labels();
+  ways_->sample(simulation().scene());
+  return sim::write_picture(file, simulation().scene(), simulation().minds(), ways_.get(), options);
 }
 
 void World::refresh(Arrays& arrays, bool poses, bool proximity, bool others) {
-  const sim::Simulation& simulation = twin_->simulation();
+  const sim::Simulation& simulation = run_->simulation();
   const sim::Scene& scene = simulation.scene();
-  for (int robot = 0; robot < twin_->robots(); ++robot) {
+  for (int robot = 0; robot < twin().robots(); ++robot) {
     const auto r = static_cast<std::size_t>(robot);
     if (poses) {
       const sim::Pose2 pose = simulation.pose(robot);
@@ -240,7 +230,7 @@ void World::refresh(Arrays& arrays, bool poses, bool proximity, bool others) {
     for (std::size_t i = 0; i < 10; ++i) arrays.leds[10 * r + i] = report.leds >> i & 1;
     arrays.steps[2 * r] = report.left_steps;
     arrays.steps[2 * r + 1] = report.right_steps;
-    const auto& firmware = static_cast<const twin::Twin&>(*twin_).mind(robot);
+    const auto& firmware = static_cast<const twin::Twin&>(twin()).mind(robot);
     arrays.battery_v[r] = firmware.board().battery().voltage(firmware.now());
   }
 }
@@ -254,10 +244,10 @@ std::shared_ptr<Record> World::record(double every_s) {
 }
 
 void World::write_row(Record& record) {
-  const sim::Clicks now = twin_->simulation().now();
+  const sim::Clicks now = simulation().now();
   const sim::Clicks every = std::max<sim::Clicks>(1, sim::from_seconds(record.every_s));
   record.next = (now / every + 1) * every;
-  const auto robots = static_cast<std::size_t>(twin_->robots());
+  const auto robots = static_cast<std::size_t>(twin().robots());
   Arrays arrays(robots);
   refresh(arrays, true, true, true);
   for (std::size_t r = 0; r < robots; ++r) {

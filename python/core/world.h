@@ -2,8 +2,8 @@
 // A world as Python has it: opened from text, run for so long or until somebody says so, asked and touched
 // between ticks, with a recording of every touch, so that a run can be shown again.
 //
-//   module.cpp (Python's types) --> World --> twin::Twin, programs::Team
-//                                   touches --> viewer::Inputs, and into the recording
+//   module.cpp (Python's types) --> World --> runs::Run
+//                                   touches --> inputs::Inputs, and into the recording
 //
 // Knows nothing of Python. Threads: one at a time; run() may be left to another one while nobody else asks.
 #pragma once
@@ -19,11 +19,9 @@
 #include "hal_sim/board/camera.h"
 #include "hal_sim/chip/call_cost.h"
 #include "hal_sim/debug/machine.h"
-#include "hal_sim/twin/coverage_run.h"
-#include "hal_sim/twin/twin.h"
-#include "programs/team/team.h"
+#include "hal_sim/inputs/recording.h"
+#include "hal_sim/runs/run.h"
 #include "sim_core/record/trajectories.h"
-#include "viewer/inputs.h"
 
 namespace python {
 
@@ -64,16 +62,16 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  twin::Twin& twin() { return *twin_; }
-  sim::Simulation& simulation() { return twin_->simulation(); }
-  host::FirmwareMind& mind(int robot) { return twin_->mind(robot); }
+  twin::Twin& twin() const { return run_->twin(); }
+  sim::Simulation& simulation() const { return run_->simulation(); }
+  host::FirmwareMind& mind(int robot) { return run_->twin().mind(robot); }
   /// Null: the robot runs no program.
   const host::Runner* runner(int robot) const {
-    return static_cast<const twin::Twin&>(*twin_).mind(robot).runner();
+    return static_cast<const twin::Twin&>(run_->twin()).mind(robot).runner();
   }
   /// Null: it runs no program of the chip.
   debug::Machine* machine(int robot);
-  const programs::Outcome& outcome() const { return team_->outcome(); }
+  const programs::Outcome& outcome() const { return run_->team().outcome(); }
 
   // --- running
   enum class Why {
@@ -92,12 +90,12 @@ class World {
   void finish(std::vector<std::string>& problems);
 
   // --- touching
-  /// An input of docs/control.md; throws as viewer::Inputs does.
-  void apply(const viewer::Json& input);
+  /// An input of docs/connecting.md; throws as inputs::Inputs does.
+  void apply(const inputs::Json& input);
   /// The run so far, for `twinpuck run --replay`.
   std::string recording() const;
 
-  faults::Injector& faults() { return inputs_->faults(); }
+  faults::Injector& faults() { return run_->inputs().faults(); }
 
   // --- asking
   /// All that a robot has sent over UART 1 or 2.
@@ -133,13 +131,10 @@ class World {
   std::map<int, std::vector<std::string>> consoles_;
   std::vector<std::array<std::string, 2>> heard_;  // UARTs keep pointers to them
   std::map<int, board::CameraPicture> pictures_;
-  std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<programs::Team> team_;
-  std::unique_ptr<twin::CoverageRun> coverage_;
-  std::unique_ptr<viewer::Inputs> inputs_;
+  std::unique_ptr<runs::Run> run_;
   std::map<int, std::unique_ptr<debug::Machine>> machines_;
   std::map<int, std::unique_ptr<chip::Profile>> profiles_;
-  std::vector<viewer::Json> touches_;
+  std::vector<inputs::Json> touches_;
   std::unique_ptr<sim::Trajectories> ways_;
   sim::Clicks sampled_ = -1;
   std::vector<std::shared_ptr<Record>> records_;

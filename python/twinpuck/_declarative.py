@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Tests without a program: *.test.toml files. One table of keys gives checks, messages and docs/test-format.md."""
+"""Tests without a program: *.test.toml files. One table of keys gives checks, messages and a part of docs/testing.md."""
 from __future__ import annotations
 
 import collections.abc
@@ -8,6 +8,7 @@ import difflib
 import math
 import pathlib
 import re
+import sys
 import tomllib
 import typing
 
@@ -328,14 +329,10 @@ def _because(table: dict[str, typing.Any]) -> str:
 
 
 def page() -> str:
-    """docs/test-format.md."""
-    text = ["# Test files", "", "<!-- Made by `python3 -m twinpuck._declarative` from its table of keys; do not edit. -->",
-            "", "A file `NAME.test.toml` is a test: a world, what is done to a robot, and what must be so. `twinpuck test` "
-            "runs it, pytest", "with the plug-in finds it. Times are simulated. Conditions are over signals "
-            "([faults.md](faults.md), `twinpuck list signals`):", "names, numbers and C's operators; `$state` is a variable of the "
-            "program, `left.x_m` a signal of the robot `left`.", "", "```toml", *EXAMPLE.strip().splitlines(), "```", ""]
+    """The keys of a test file as docs/testing.md has them."""
+    text = [""]
     for name, (does, keys) in TABLES.items():
-        text += [f"## {f'`[[{name}]]`' if name else 'Top of the file'}", "", does, "",
+        text += [f"### {f'`[[{name}]]`' if name else 'Top of a test file'}", "", does, "",
                  "| key | value | unit | range | default | meaning |", "|---|---|---|---|---|---|"]
         for key in keys:
             limits = f"{key.least:g} to {key.most:g}" if math.isfinite(key.least) and key.kind != "numbers" else ""
@@ -346,31 +343,19 @@ def page() -> str:
                 kind += ", or number (s)"
             text.append(f"| `{key.name}` | {kind} | {key.unit} | {limits} | {usual} | {key.does} |")
         text.append("")
-    text += ["## `[[fault]]` and `[[stimulus]]`", "", "What befalls the robots meanwhile, with the keys of a file of faults "
-             "([faults.md](faults.md)). A test whose faults", "never took effect does not pass.", ""]
+    text += ["`[[fault]]` and `[[stimulus]]` are those of a file of faults. A test whose faults never took effect does not pass.", ""]
     return "\n".join(text)
 
 
-EXAMPLE = """
-world = "world.toml"
-at_most_s = 10
-
-[[step]]
-expect = "ready"                    # UART 1
-[[step]]
-send = "D,300,300\\r"               # a command of the program's
-[[step]]
-wait = "distance_m > 0.1"
-within_s = 3
-
-[[always]]
-that = "collisions == 0"
-because = "it must not bump into walls"
-
-[[finally]]
-that = "distance_m > 0.1 && traps == 0"
-"""
+def with_page(text: str) -> str:
+    """A page with these keys as its part "test keys"; ValueError: it has no such part."""
+    begin = text.index("\n", text.index("<!-- test keys: ")) + 1
+    return text[:begin] + page() + text[text.index("<!-- end -->", begin):]
 
 
 if __name__ == "__main__":
-    print(page(), end="")
+    if len(sys.argv) > 1:
+        file = pathlib.Path(sys.argv[1])
+        file.write_text(with_page(file.read_text()))
+    else:
+        print(page(), end="")

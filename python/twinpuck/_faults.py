@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Faults and stimuli of a run (docs/faults.md, `twinpuck list faults`)."""
+"""Faults and stimuli of a run (docs/testing.md, `twinpuck list faults`)."""
 from __future__ import annotations
 
 import typing

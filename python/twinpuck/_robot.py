@@ -56,7 +56,7 @@ class Trap:
 
 @dataclasses.dataclass(frozen=True)
 class Diagnosis:
-    """What board or chip has to say about a program (docs/diagnoses.md).
+    """What board or chip has to say about a program (docs/controllers.md).
 
     time_s: when first (s); count: how often since power-up
     """
@@ -104,7 +104,7 @@ class Interrupt:
 
 @dataclasses.dataclass(frozen=True)
 class Profile:
-    """Where a measured robot's time went, exact to the cycle (docs/profile.md).
+    """Where a measured robot's time went, exact to the cycle (docs/time.md).
 
     functions: by name, callees included, handlers not; own: cycles of a function's own code, all calls together;
     interrupts: by name ("T1"); load: share of the time neither asleep nor waiting, 0 to 1; turn: of the main loop;

@@ -302,7 +302,7 @@ class World:
         return self._add_faults("[[fault]]\n" + text)[0]
 
     def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
-        """Faults and stimuli of a file (docs/faults.md). Raises OSError, or ValueError with all that is wrong."""
+        """Faults and stimuli of a file (docs/testing.md). Raises OSError, or ValueError with all that is wrong."""
         return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"))
 
     def _add_faults(self, text: str) -> list[Fault]:
@@ -439,16 +439,14 @@ def _read(source: Source) -> tuple[str, str]:
     name = os.fspath(source)
     if isinstance(source, str) and "\n" in source:
         return source, os.path.join(os.getcwd(), "world.toml")
-    for path in (name, name + ".toml", os.path.join(_core.project_root(), "worlds", name + ".toml")):
-        if os.path.isfile(path):
-            try:
-                return _core.read_world(path), os.path.abspath(path)
-            except ValueError as wrong:
-                raise OSError(str(wrong)) from None
-    worlds = [p.stem for p in pathlib.Path(_core.project_root(), "worlds").glob("*.toml")]
-    near = difflib.get_close_matches(name, worlds, 1)
-    raise WorldError(f"{name}: world: got no such file, expected a .toml file or the name of one in worlds/" +
-                     (f"; did you mean {near[0]!r}?" if near else ""))
+    try:
+        path = _core.find_world(name)
+    except ValueError as wrong:
+        raise WorldError(str(wrong)) from None
+    try:
+        return _core.read_world(path), os.path.abspath(path)
+    except ValueError as wrong:
+        raise OSError(str(wrong)) from None
 
 
 def _choices(firmware: Firmware, folder: pathlib.Path) -> list[tuple[str, str]]:

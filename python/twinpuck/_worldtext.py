@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Worlds that are built in code: a dict with the keys of a world file (docs/world-format.md), as its text."""
+"""Worlds that are built in code: a dict with the keys of a world file (docs/worlds.md), as its text."""
 from __future__ import annotations
 
 import collections.abc

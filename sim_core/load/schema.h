@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The one table of everything a world file may say: key, type, unit, range, default, meaning, and where the
-// value goes. The parser, its messages and docs/world-format.md are all made from it.
+// value goes. The parser, its messages and docs/worlds.md are all made from it.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -77,7 +77,7 @@ SectionSpec part_section(const PartKind& kind);
 /// `[[robot]]` of one model, its own keys last. Points into `model`, which must outlive it.
 SectionSpec robot_section(const RobotModel& model);
 
-/// docs/world-format.md, whole. `models`, `part_kinds`: the kinds of robot and part to describe.
+/// The tables of keys in docs/worlds.md. `models`, `part_kinds`: the kinds of robot and part to describe.
 std::string world_format_page(const std::vector<RobotModel>& models, const std::vector<PartKind>& part_kinds);
 
 }  // namespace sim

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // [sky]: keys of the world file that only cameras care for.
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
 

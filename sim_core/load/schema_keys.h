@@ -30,9 +30,6 @@ Setter checked(F assign) {
   };
 }
 
-/// Sections of other files, in the order of the document.
-std::vector<SectionSpec> sound_sections();
-
 /// The second name of robots and objects.
 template <typename T>
 KeySpec def_key() {
@@ -101,14 +98,45 @@ inline std::vector<Vec2> points_of(const Value& v) {
   return points;
 }
 
-/// schema_camera.cpp: [sky]
-std::vector<SectionSpec> camera_sections();
-/// Sections with a file of their own.
-SectionSpec remote_key_section();
-/// schema_webots.cpp
-SectionSpec webots_section();
-SectionSpec robot_device_section();
-SectionSpec supervisor_device_section();
-SectionSpec supervisor_section();  ///< schema_supervisor.cpp
+/// The keys of one list, then those of the other.
+inline std::vector<KeySpec> joined(std::vector<KeySpec> keys, const std::vector<KeySpec>& more) {
+  keys.insert(keys.end(), more.begin(), more.end());
+  return keys;
+}
+
+/// The material named, or what to say when there is none.
+std::string find_material(const WorldDesc& draft, const std::string& name, Material& out);
+
+/// What a surface is made of.
+template <typename T>
+std::vector<KeySpec> material_keys() {
+  return {
+      {"material", ValueType::Text, "", 0, 0, "", "",
+       "name of a `[[material]]`; without it a white one is used",
+       checked<T>(
+           [](T& t, const Value& v, const WorldDesc& d) { return find_material(d, v.text, t.material); })},
+      {"colour", ValueType::Colour, "", 0, 1, "", "", "red, green, blue; overrides the material's colour",
+       into<T>([](T& t, const Value& v) { t.material.colour = colour_of(v); })},
+  };
+}
+
+/// What robots have for themselves or from the world.
+template <typename T>
+std::vector<KeySpec> wheel_keys(const char* none, const char* usual_law) {
+  return {
+      {"wheel_noise", ValueType::Number, "", 0, 0.5, "", none,
+       "random part of each wheel's travel, drawn anew every 1/32 s; a robot without one has the "
+       "world's",
+       into<T>([](T& t, const Value& v) { t.wheels.noise = v.number; })},
+      {"wheel_noise_law", ValueType::Choice, "", 0, 0, "uniform|gaussian", usual_law,
+       "what `wheel_noise` is: half width (factors of 1 - n to 1 + n) or standard deviation",
+       into<T>([](T& t, const Value& v) {
+         t.wheels.noise_law = v.text == "uniform" ? NoiseLaw::Uniform : NoiseLaw::Gaussian;
+       })},
+      {"slip", ValueType::Number, "", 0, 1, "", none,
+       "part of the wheels' travel that is lost on the floor; a robot without one has the world's",
+       into<T>([](T& t, const Value& v) { t.wheels.slip = v.number; })},
+  };
+}
 
 }  // namespace sim

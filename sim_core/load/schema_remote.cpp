@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // [[robot.key]]: presses of a remote control that this robot receives.
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
 

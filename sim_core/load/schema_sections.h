@@ -1,15 +1,52 @@
 // SPDX-License-Identifier: MIT
-// Sections of the schema that stand in files of their own, and what these share with the table in schema.cpp.
+// The sections of a world file, each a table of its own: schema_<room>.cpp.
 #pragma once
-#include <string>
+#include <vector>
 
 #include "sim_core/load/schema.h"
 
 namespace sim {
 
-/// The material named, or what to say when there is none.
-std::string find_material(const WorldDesc& draft, const std::string& name, Material& out);
+// schema_world.cpp
+SectionSpec file_section();
+SectionSpec world_section();
+SectionSpec material_section();
+SectionSpec arena_section();
+SectionSpec floor_section();
+SectionSpec wall_section();
 
-SectionSpec ramp_section();  ///< schema_ground.cpp
+std::vector<SectionSpec> camera_sections();  ///< schema_camera.cpp
+SectionSpec ramp_section();                  ///< schema_ground.cpp
+
+// schema_objects.cpp
+SectionSpec box_section();
+SectionSpec cylinder_section();
+SectionSpec ball_section();
+SectionSpec polygon_section();
+
+std::vector<SectionSpec> sound_sections();  ///< schema_sound.cpp
+
+// schema_light.cpp
+SectionSpec lamp_section();
+SectionSpec proximity_section();
+SectionSpec robot_proximity_section();
+SectionSpec robot_sensor_section();
+
+// schema_radio.cpp
+SectionSpec radio_section();
+SectionSpec bluetooth_section();
+SectionSpec robot_bluetooth_section();
+
+// schema_robot.cpp
+SectionSpec robot_section();
+SectionSpec robot_variation_section();
+SectionSpec robot_part_section();
+SectionSpec remote_key_section();  ///< schema_remote.cpp
+
+// schema_webots.cpp
+SectionSpec webots_section();
+SectionSpec robot_device_section();
+SectionSpec supervisor_device_section();
+SectionSpec supervisor_section();  ///< schema_supervisor.cpp
 
 }  // namespace sim

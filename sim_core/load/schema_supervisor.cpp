@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // [[supervisor]]: programs attached to the world.
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
 
@@ -8,7 +9,7 @@ SectionSpec supervisor_section() {
   using S = SupervisorDesc;
   return {"supervisor",
           true,
-          "A program of the PC that watches and changes the world between ticks (docs/supervisor.md). "
+          "A program of the PC that watches and changes the world between ticks (docs/connecting.md). "
           "Several run "
           "in the order of the file.",
           {

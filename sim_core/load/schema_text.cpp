@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Words made from the schema: what a message says was expected, and the whole of docs/world-format.md.
+// Words made from the schema: what a message says was expected, and the tables of keys in docs/worlds.md.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -76,7 +76,7 @@ std::string part_pages(const std::vector<PartKind>& kinds) {
   std::string out;
   for (const PartKind& kind : kinds) {
     const SectionSpec spec = part_section(kind);
-    out += fmt::format("\n### `kind = \"{}\"`\n\n{}\n", kind.name, kind.doc);
+    out += fmt::format("\n#### `kind = \"{}\"`\n\n{}\n", kind.name, kind.doc);
     if (spec.keys.size() > 1) out += std::string("\n") + kKeyTable;
     for (std::size_t i = 1; i < spec.keys.size(); ++i) out += key_row(spec.keys[i]);
   }
@@ -109,27 +109,10 @@ std::string expected_text(const KeySpec& k) {
 
 std::string world_format_page(const std::vector<RobotModel>& models,
                               const std::vector<PartKind>& part_kinds) {
-  std::string out =
-      "# World files\n\n"
-      "<!-- Made by build/world_format_doc from sim_core/load/schema.cpp; do not edit. -->\n\n"
-      "A world is a TOML file. Lengths are metres, angles degrees, times seconds, everything else SI. x "
-      "points east,\n"
-      "y north, z up; headings turn counter-clockwise from x. File names are relative to the world file. A "
-      "key that is\n"
-      "not listed here is an error, and `twinpuck check WORLD` reports all errors at once with line and "
-      "column.\n\n"
-      "```toml\n"
-      "twinpuck = 1\n"
-      "title = \"two robots and a crate\"\n\n"
-      "[arena]\nsize = [1.0, 0.8]\n\n"
-      "[[box]]\nposition = [0.2, 0.1]\nsize = [0.06, 0.06, 0.05]\nmovable = true\nmass = 0.05\n\n"
-      "[[robot]]\nname = \"left\"\nfirmware = \"obstacle\"\nposition = [-0.3, 0.1]\n\n"
-      "[[robot]]\nname = \"right\"\nfirmware = \"obstacle\"\nposition = [0.3, -0.2]\nheading = 90\n"
-      "[robot.proximity]\nprofile = \"webots-old\"\nnoise_scale = 0\n"
-      "```\n";
+  std::string out;
   for (const SectionSpec& s : world_schema()) {
     const std::string path = s.path;
-    out += "\n## " +
+    out += "\n### " +
            (path.empty() ? std::string("Top of the file")
                          : (s.many ? "`[[" : "`[") + path + (s.many ? "]]`" : "]`")) +
            "\n\n" + s.doc + "\n\n";
@@ -141,7 +124,8 @@ std::string world_format_page(const std::vector<RobotModel>& models,
     if (path == "robot.part") out += part_pages(part_kinds);
   }
   out +=
-      "\n## Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule | "
+      "\n### Proximity profiles\n\n| name | rows | range (m) | rays | aperture (deg) | layout | colour rule "
+      "| "
       "noise |\n"
       "|---|---|---|---|---|---|---|---|\n";
   for (const ProximityProfile& p : proximity_profiles()) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "sim_core/load/schema_keys.h"
+#include "sim_core/load/schema_sections.h"
 
 namespace sim {
 

@@ -100,6 +100,7 @@ std::string number_like(std::string_view old, std::string_view fresh) {
     return out;
   const std::size_t has = decimals(out), wanted = decimals(old);
   if (has < wanted) out += (has == 0 ? "." : "") + std::string(wanted - has, '0');
+  if (old[0] == '+' && out[0] != '-') out.insert(0, 1, '+');
   return out;
 }
 
@@ -272,9 +273,23 @@ bool WorldText::remove(int id) {
   return true;
 }
 
-int WorldText::add(const std::string& path, const Values& values) {
-  std::string table = fmt::format("[[{}]]\n", path);
+int WorldText::add(const std::string& path, const Values& values, bool many) {
+  std::string table = fmt::format(many ? "[[{}]]\n" : "[{}]\n", path);
   for (const auto& [key, value] : values) table += fmt::format("{} = {}\n", key, value);
+  return insert(path, table);
+}
+
+int WorldText::append(const std::string& element) {
+  const WorldText alone(element);
+  std::string path;
+  for (const Element& e : alone.elements_)
+    if (path.empty()) path = e.path;
+  std::string table = element;
+  while (!table.empty() && table.back() == '\n') table.pop_back();
+  return insert(path, table + "\n");
+}
+
+int WorldText::insert(const std::string& path, const std::string& table) {
   int after = -1;
   for (std::size_t i = 0; i < elements_.size(); ++i)
     if (elements_[i].path == path) after = static_cast<int>(i);
@@ -296,11 +311,13 @@ int WorldText::add(const std::string& path, const Values& values) {
   return id;
 }
 
-std::string WorldText::text_of(int id) const {
+std::string WorldText::text_of(int id, bool commented) const {
   std::string out;
   for (const Table& t : tables_)
-    if (elements_[static_cast<std::size_t>(t.element)].id == id)
-      out += text_.substr(t.begin, t.end - t.begin);
+    if (elements_[static_cast<std::size_t>(t.element)].id == id) {
+      const std::size_t begin = commented || !out.empty() ? t.top : t.begin;
+      out += text_.substr(begin, t.end - begin);
+    }
   return out;
 }
 
@@ -353,7 +370,7 @@ int WorldText::copy(int id) {
   std::size_t at = 0;
   for (const Table& t : tables_)
     if (t.element == index) at = t.end;
-  std::string table = text_of(id);
+  std::string table = text_of(id, true);
   while (table.size() > 1 && table[table.size() - 1] == '\n' && table[table.size() - 2] == '\n')
     table.pop_back();
   if (table.back() != '\n') table += '\n';

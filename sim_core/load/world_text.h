@@ -38,8 +38,8 @@ class WorldText {
 
   /// The keys of an element's own table, as they are written.
   Values values(int id) const;
-  /// All of an element as it is written, without the comment above it.
-  std::string text_of(int id) const;
+  /// All of an element as it is written; `commented`: with the comment above it.
+  std::string text_of(int id, bool commented = false) const;
   /// Its tables below its own, likewise.
   std::string inner_text(int id) const;
 
@@ -47,9 +47,13 @@ class WorldText {
   /// Changes, adds or, with an empty `value`, takes away a key of the element's own table.
   bool set(int id, const std::string& key, const std::string& value);
   bool remove(int id);
-  /// Below the last element of that path, or at the end. Returns its id.
-  int add(const std::string& path, const Values& values);
-  /// The same once more, right below; returns the new one's id, 0: nothing to copy.
+  /// Below the last element of that path, or at the end; `many`: as [[path]], otherwise as [path]. Returns
+  /// its id.
+  int add(const std::string& path, const Values& values, bool many = true);
+  /// An element as text_of() gives it, below the last one of its path, or at the end. Returns its id.
+  int append(const std::string& element);
+  /// The same once more, right below, with the comment above it; returns the new one's id, 0: nothing to
+  /// copy.
   int copy(int id);
   /// Adds a table such as [[robot.part]] at the end of an element.
   bool add_inner(int id, const std::string& path, const Values& values);
@@ -73,6 +77,7 @@ class WorldText {
   void scan(const std::vector<int>& ids);
   std::vector<int> ids() const;
   int index_of(int id) const;
+  int insert(const std::string& path, const std::string& element);
   const Table* own_table(int id) const;
   std::string text_;
   std::vector<Element> elements_;

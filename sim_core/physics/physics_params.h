@@ -6,7 +6,7 @@ namespace sim {
 
 /// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would stop 10 mm from a
 /// wall.
-inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: docs/design.md, gap 0.05 mm for a disc]
+inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: docs/dev/inside.md, gap 0.05 mm for a disc]
 /// A robot that is nearer than this to a body that moves takes part in the solver, m.
 inline constexpr double kMeetingM = 0.0002;  // [measured: Box2D sees contacts up to its skin of 0.1 mm]
 /// A robot whose free room falls below this looks at every tick what it may meet, m.

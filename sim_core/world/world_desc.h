@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A world as pure data: what a world file says, in SI units and radians, ready to be built. Made by load/, or
 // in a few lines of C++. Every field's key, unit, range and default stand once, in load/schema.cpp and
-// docs/world-format.md.
+// docs/worlds.md.
 #pragma once
 #include <array>
 #include <cstdint>

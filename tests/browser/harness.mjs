@@ -49,7 +49,7 @@ export const launch = () =>
     args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"] });
 
 /** A page of the view, once it has the world. Errors of its script fail the test. */
-export async function open(browser, live, size = { width: 1280, height: 720 }, scheme = "light") {
+export async function open(browser, live, size = { width: 1280, height: 720 }, scheme = "light", runs = true) {
   const context = await browser.newContext({ viewport: size, colorScheme: scheme });
   const page = await context.newPage();
   page.errors = [];
@@ -57,7 +57,7 @@ export async function open(browser, live, size = { width: 1280, height: 720 }, s
   page.on("pageerror", (e) => page.errors.push(String(e)));
   await page.goto(live.address);
   await page.waitForFunction(() => document.body.dataset.ready === "yes", undefined, { timeout: 30000 }).catch((e) => { throw new Error(`${e.message}\n${page.errors.join("\n")}`); });
-  await page.waitForFunction(() => window.twinpuck.frames > 0);
+  if (runs) await page.waitForFunction(() => window.twinpuck.frames > 0);
   return page;
 }
 
@@ -79,4 +79,34 @@ export async function drag(page, from, to, steps = 12) {
     await page.waitForTimeout(15);
   }
   await page.mouse.up();
+}
+
+/** The scene is not drawn: what a test looks at is elsewhere, and the processor is needed there. */
+export const blind = (page) => ask(page, "(app) => app.scene.setDrawing(false)");
+/** A picture of the page, for people: build/browser/NAME.png. */
+export async function picture(page, name) {
+  fs.mkdirSync(path.join(root, "build/browser"), { recursive: true });
+  // a busy machine that draws by its processor has no time for a picture while a run goes on
+  const played = await ask(page, "(app) => app.state.playing");
+  await ask(page, "(app) => { app.scene.setDrawing(true); if (app.state.playing) app.do('pause'); }");
+  await until(page, "(app) => !app.state.playing");
+  await page.waitForTimeout(300);
+  await page.screenshot({ path: path.join(root, "build/browser", `${name}.png`) });
+  if (!played) return;
+  await ask(page, "(app) => app.do('play')");
+  await until(page, "(app) => app.state.playing");
+}
+/** Puts something between page and server: `change` gets each message of the page's and either answers it itself
+ * (returns an object) or lets it pass (undefined). Called before the page is opened. */
+export async function between(page, change) {
+  await page.routeWebSocket(/\/live$/, (socket) => {
+    const server = socket.connectToServer();
+    const tell = (event) => socket.send(JSON.stringify(event));
+    socket.onMessage(async (message) => {
+      const request = JSON.parse(message);
+      const answer = await change(request, tell);
+      if (answer === undefined) server.send(message);
+      else tell({ answer: request.id, ...answer });
+    });
+  });
 }

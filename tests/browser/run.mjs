@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Runs the browser tests one after the other: a line each, then "N passed, N failed". An argument selects by name.
+// Runs the browser tests one after the other: a line each, then "N passed, N failed". An argument selects by name, of
+// the file (`lab.`) or the test.
+import fs from "node:fs";
+import path from "node:path";
+import { fileURLToPath } from "node:url";
 import { launch } from "./harness.mjs";
-import { tests } from "./tests.mjs";
-import { webots } from "./webots.mjs";
 
+const here = path.dirname(fileURLToPath(import.meta.url));
 const filter = process.argv[2] ?? "";
+const all = [];
+for (const file of fs.readdirSync(here).filter((f) => f.endsWith(".tests.mjs")).sort())
+  for (const [name, test] of Object.entries((await import(`./${file}`)).tests))
+    if (name.includes(filter) || file.startsWith(filter)) all.push([name, test]);
 const browser = await launch();
 let passed = 0, failed = 0;
-for (const [name, test] of Object.entries({ ...tests, ...webots })) {
-  if (!name.includes(filter)) continue;
+for (const [name, test] of all) {
   const begin = Date.now();
   const live = [];
   try {

@@ -110,7 +110,7 @@ TEST(libc, mathematics_is_single_precision_under_both_names) {
             "-2.0 2.0 2.5 1.5 5.00 3");
 }
 
-// a program that has given up starts anew; the simulator tells why (tests/chip/endings)
+// a program that has given up starts anew; the simulator tells why (tests/chip/endings_test.cpp)
 TEST(libc, leaving_is_a_reset) {
   for (const char* last : {"exit(0);", "exit(3);", "abort();"})
     EXPECT_EQ(printed("printf(\"on\"); " + std::string(last) + " printf(\"off\");"), "on") << last;

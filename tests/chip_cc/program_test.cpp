@@ -152,7 +152,7 @@ TEST(ChipPrograms, public_functions_are_hardly_larger_than_xc16s) {
 }
 
 TEST(ChipPrograms, public_functions_are_right_at_the_other_levels) {
-  // one level each, in turns; docs/chip-compiler.md has all of them
+  // one level each, in turns; docs/dev/chip.md sums them up
   const char* const levels[] = {"-O0", "-Os", "-O2"};
   int n = 0;
   for (const auto& row : rows_of(kCycles / "results.csv")) {

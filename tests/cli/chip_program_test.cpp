@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// twinpuck asm and dis, and a run of what they made: docs/chip-core.md's sample blinks.
+// twinpuck asm and dis, and a run of what they made: the sample of docs/controllers.md blinks.
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <sstream>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // --vcd and --trace of registers, their fields and flags at the cycles at which
-// they change. Expectations are worked out by hand from periods, docs/chip-timing.md.
+// they change. Expectations are worked out by hand from periods, tests/dspic30/timing_cases.cpp.
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -187,7 +187,7 @@ TEST_P(RegisterTraces, the_time_line_knows_how_long_a_flag_waited) {
     const auto& args = e["args"];
     ASSERT_LT(seen, flags.size());
     EXPECT_EQ(event_ns(args["flag_us"]), std::llround(flags[seen]));
-    // the flag is accepted a cycle later at the earliest, and entry takes 3 cycles more [core.md]
+    // the flag is accepted a cycle later at the earliest, and entry takes 3 cycles more
     EXPECT_GE(args["latency_cycles"].get<int>(), 4);
     EXPECT_LT(args["latency_cycles"].get<int>(), 100);
     EXPECT_NEAR(static_cast<double>(event_ns(args["first_instruction_us"])) - flags[seen],

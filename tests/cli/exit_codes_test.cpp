@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One exit code for each ending: docs/design.md, "Exit codes", is the table; each row is tried here.
+// One exit code for each ending: docs/start.md, "Exit codes", is the table; each row is tried here.
 #include <map>
 #include <sstream>
 
@@ -19,7 +19,7 @@ class ExitCodes : public CommandTest {
   }
   /// The codes of the table.
   static std::map<int, std::string> table() {
-    std::istringstream lines(read(TWINPUCK_SOURCE_DIR "/docs/design.md"));
+    std::istringstream lines(read(TWINPUCK_SOURCE_DIR "/docs/start.md"));
     std::map<int, std::string> rows;
     bool is_inside = false;
     for (std::string line; std::getline(lines, line);) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // run --save-images: one PNG for each picture that a program got, pixels as its bytes say.
+#include "outputs/saved_images.h"
 #include "tests/cli/command.h"
-#include "tools/saved_images.h"
 
 using namespace cli_test;
 

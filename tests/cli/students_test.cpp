@@ -54,7 +54,7 @@ TEST_F(Students, no_line_of_a_solution_is_in_the_edition) {
                            "programs/supervisors/soccer_drop", "tests", ".git"})
     EXPECT_FALSE(fs::exists(edition / gone)) << gone;
   for (const char* there :
-       {"firmware/braitenberg/main.c", "docs/lab.md", "docs/lab.toml", "worlds/u_obstacle.toml",
+       {"firmware/braitenberg/main.c", "docs/start.md", "docs/lab.toml", "worlds/u_obstacle.toml",
         "programs/supervisors/soccer/soccer.c", "tools/templates/project/main.c"})
     EXPECT_TRUE(fs::exists(edition / there)) << there;
   // what solutions share with every program of the robot is no solution
@@ -79,10 +79,10 @@ TEST_F(Students, no_line_of_a_solution_is_in_the_edition) {
   }
   EXPECT_GT(files, 1000);
   // pages lead nowhere that is gone
-  const std::string lab = text_in(edition / "docs/lab.md");
+  const std::string lab = text_in(edition / "docs/start.md");
   for (const char* word : {"](lab-answers", "](../firmware/lab", "<!-- ", "wobbles"})
     EXPECT_EQ(lab.find(word), std::string::npos) << word;
-  EXPECT_NE(lab.find("### I1: obstacle.c"), std::string::npos);
+  EXPECT_NE(lab.find("#### I1: obstacle.c"), std::string::npos);
 }
 
 TEST_F(Students, what_students_do_works_there) {
@@ -130,14 +130,14 @@ TEST_F(Students, an_installed_product_loses_its_solutions) {
   write("usr/share/twinpuck/firmware/lab/obstacle/main.c", "solution\n");
   write("usr/share/twinpuck/docs/lab-answers.md", "answer\n");
   write("usr/share/doc/twinpuck/lab-answers.md", "answer\n");
-  write("usr/share/doc/twinpuck/lab.md",
+  write("usr/share/doc/twinpuck/start.md",
         "a\n<!-- solution -->\nhow\n<!-- /solution -->\nb [Answer](lab-answers.md#s2).\n");
   ASSERT_EQ(students("--prune " + path("usr")).exit_code, 0);
   std::set<std::string> left;
   for (const auto& entry : fs::recursive_directory_iterator(folder / "usr"))
     if (entry.is_regular_file()) left.insert(entry.path().lexically_relative(folder).string());
-  EXPECT_EQ(left, (std::set<std::string>{"usr/share/doc/twinpuck/lab.md"}));
-  EXPECT_EQ(read(path("usr/share/doc/twinpuck/lab.md")), "a\nb\n");
+  EXPECT_EQ(left, (std::set<std::string>{"usr/share/doc/twinpuck/start.md"}));
+  EXPECT_EQ(read(path("usr/share/doc/twinpuck/start.md")), "a\nb\n");
   EXPECT_TRUE(fs::exists(folder / "usr/share/twinpuck/firmware/include"));
   const Said none = students("--prune " + path("nowhere"));
   EXPECT_NE(none.exit_code, 0);

@@ -4,8 +4,8 @@
 #include <map>
 
 #include "hal_sim/twin/world_file.h"
+#include "outputs/terminal_view.h"
 #include "tests/cli/command.h"
-#include "tools/terminal_view.h"
 
 namespace {
 
@@ -97,7 +97,7 @@ TEST_F(Live, a_frame_shows_arena_robot_and_text) {
   std::vector<std::string> problems;
   auto twin = twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), {}, problems);
   ASSERT_TRUE(twin) << problems.front();
-  tools::TerminalView view(*twin);
+  outputs::TerminalView view(*twin);
   Terminal terminal;
   terminal.show(view.frame(1));
   // 2.02 m on 78 pixels: 38.6 a metre; the middle of the picture is the arena's
@@ -140,7 +140,7 @@ int main(void) {
   auto twin = twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), options, problems);
   ASSERT_TRUE(twin) << problems.front();
   twin->simulation().run_until(sim::from_seconds(0.05));
-  tools::TerminalView view(*twin);
+  outputs::TerminalView view(*twin);
   Terminal terminal;
   terminal.show(view.frame(1));
   EXPECT_EQ(terminal.spot(kLed).count, 1);

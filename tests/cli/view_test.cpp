@@ -9,7 +9,7 @@ using namespace cli_test;
 
 class View : public CommandTest {
  protected:
-  /// A view of the maze, stepped by the example client of docs/control.md, then ended by a signal.
+  /// A view of the maze, stepped by the example client of docs/connecting.md, then ended by a signal.
   Said stepped() {
     const std::string line = "sh -c '\"$@\" >" + path("out") +
                              " & p=$!; n=0; until [ $n = 200 ] || grep -q ^open " + path("out") +

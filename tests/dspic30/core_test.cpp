@@ -46,7 +46,7 @@ TEST(Core, bits_where_no_register_is_are_told_and_ignored) {
   b.chip->state_hash(b.cpu->now());
 }
 
-// --- stalls: the table of core.md, section 6 -------------------------------------------------------------
+// --- stalls: [chip C6] -------------------------------------------------------------
 
 TEST(Stall, direct_write_before_indirect_source) {
   EXPECT_EQ(cycles_of("inc2 w4, w1\n mov [w3], w5"), 2);

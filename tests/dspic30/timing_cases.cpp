@@ -260,8 +260,9 @@ std::string document() {
       "manual DS70046,\n"
       "which were not read again for this page; nothing here has been measured on a chip. Rows without a "
       "doubt are\n"
-      "those that the notes give without one. Written by `build/tests/chip_timing_doc docs/chip-timing.md`;\n"
-      "`dspic30_test` compares every row and this file. Owner: whoever changes a model.\n";
+      "those that the notes give without one. `make chip-tables` writes this file; `dspic30_test` compares "
+      "every "
+      "row.\n";
   std::string part;
   for (const Case& c : cases()) {
     if (c.part != part) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every timing of the chip that the notes on the chip give as a number, and how the models are asked for
-// theirs. One list for the test and for docs/chip-timing.md.
+// theirs. One list for the test and for build/chip-timing.md.
 #pragma once
 #include <functional>
 #include <string>
@@ -20,7 +20,7 @@ struct Case {
 };
 
 const std::vector<Case>& cases();
-/// docs/chip-timing.md, with what the models measure now.
+/// The file build/chip-timing.md, with what the models measure now.
 std::string document();
 
 }  // namespace timing

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Writes docs/chip-timing.md: chip_timing_doc FILE
+// Writes build/chip-timing.md: chip_timing_doc FILE
 #include <cstdio>
 #include <fstream>
 

@@ -5,6 +5,7 @@
 
 #include "hal_sim/faults/kinds.h"
 #include "tests/faults/looker.h"
+#include "tools/dev/doc_part.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -135,10 +136,11 @@ TEST(FaultLine, is_said_again_as_it_was_meant) {
 }
 
 TEST(FaultPage, the_page_in_docs_is_the_one_the_table_makes) {
-  std::ifstream in(TWINPUCK_SOURCE_DIR "/docs/faults.md", std::ios::binary);
+  std::ifstream in(TWINPUCK_SOURCE_DIR "/docs/testing.md", std::ios::binary);
   std::ostringstream text;
   text << in.rdbuf();
-  EXPECT_EQ(text.str(), faults::page()) << "run build/faults_doc docs/faults.md";
+  EXPECT_EQ(text.str(), dev::with_doc_part(text.str(), "faults", faults::page()))
+      << "run build/twinpuck-dev page docs/testing.md";
 }
 
 TEST(FaultPage, every_kind_says_what_it_means) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the library does something else with than its name says is told, once (docs/diagnoses.md).
+// What the library does something else with than its name says is told, once (docs/controllers.md).
 #include "tests/support/firmware_test.h"
 
 namespace {

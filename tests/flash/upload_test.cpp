@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // twinpuck flash against a simulated robot that runs hal_dspic/bootloader: what was said to be good drives,
 // on any line.
-#include "tools/upload.h"
+#include "flash/upload.h"
 
 #include <cstdlib>
 #include <random>
@@ -14,7 +14,7 @@
 namespace {
 
 using firmware_test::Robot;
-using State = tools::Upload::State;
+using State = flash::Upload::State;
 
 // says its name and steps both motors, 500 steps/s; 12 rows of other words lie about in flash, as a larger
 // program's
@@ -65,7 +65,7 @@ dspic::FirmwareFile assembled(const std::string& text) {
 class UploadTest : public chip_test::ChipTest {
  protected:
   // the robot's line in virtual time. Bytes of both directions are lost or garbled
-  struct Line : tools::SerialLine {
+  struct Line : flash::SerialLine {
     Line(UploadTest& test, Robot& robot, double bad_share, unsigned seed)
         : test(test), robot(robot), bad_share(bad_share), random(seed) {}
 
@@ -114,22 +114,22 @@ class UploadTest : public chip_test::ChipTest {
     text << in.rdbuf();
     bootloader_ = text.str();
   }
-  tools::UploadPlan plan(char name) {
-    tools::UploadPlan result;
+  flash::UploadPlan plan(char name) {
+    flash::UploadPlan result;
     std::string error;
-    EXPECT_TRUE(tools::plan_upload(assembled(program(name)), "p.hex", result, error)) << error;
+    EXPECT_TRUE(flash::plan_upload(assembled(program(name)), "p.hex", result, error)) << error;
     return result;
   }
-  tools::Upload upload(Line& line, char name, tools::UploadSettings settings = {}) {
-    return tools::upload(line, plan(name), settings, [](const char*, int, int) {});
+  flash::Upload upload(Line& line, char name, flash::UploadSettings settings = {}) {
+    return flash::upload(line, plan(name), settings, [](const char*, int, int) {});
   }
   std::uint32_t flash(std::uint32_t address) { return runner().program().read(address); }
-  bool holds(const tools::UploadPlan& plan) {
+  bool holds(const flash::UploadPlan& plan) {
     for (const auto& [address, row] : plan.rows)
       for (std::uint32_t i = 0; i < 32; ++i) {
         const std::uint32_t at = address + 2 * i;
-        const std::uint32_t wanted = at >= tools::kBootloaderUser && at < tools::kBootloaderEntry
-                                         ? plan.way_in[(at - tools::kBootloaderUser) / 2]
+        const std::uint32_t wanted = at >= flash::kBootloaderUser && at < flash::kBootloaderEntry
+                                         ? plan.way_in[(at - flash::kBootloaderUser) / 2]
                                          : row[i];
         if (flash(at) != wanted) return false;
       }
@@ -141,7 +141,7 @@ class UploadTest : public chip_test::ChipTest {
 TEST_F(UploadTest, a_program_is_written_read_back_and_drives) {
   Robot& robot = add_robot(hex(bootloader_));
   Line line(*this, robot, 0, 1);
-  const tools::Upload result = upload(line, 'A');
+  const flash::Upload result = upload(line, 'A');
   EXPECT_EQ(result.state, State::Verified) << result.why;
   EXPECT_EQ(result.repeated, 0);
   EXPECT_TRUE(holds(plan('A')));
@@ -165,7 +165,7 @@ TEST_F(UploadTest, a_line_that_dies_leaves_no_half_program) {
     runner().restart();
     Line line(*this, robot, 0, 2);
     line.cut_after = bytes;
-    const tools::Upload result = upload(line, 'B');
+    const flash::Upload result = upload(line, 'B');
     EXPECT_TRUE(result.state == State::Refused || result.state == State::Unknown) << bytes;
     EXPECT_EQ(result.why, "the serial line is gone");
     runner().restart();
@@ -194,7 +194,7 @@ TEST_F(UploadTest, bad_lines_are_repeated_until_all_is_right) {
     runner().restart();
     Line line(*this, robot, 0.01, static_cast<unsigned>(seed));
     const char name = static_cast<char>('A' + seed % 26);
-    const tools::Upload result = upload(line, name);
+    const flash::Upload result = upload(line, name);
     spoiled += line.spoiled;
     verified += result.state == State::Verified;
     if (result.state == State::Verified) {
@@ -224,9 +224,9 @@ TEST_F(UploadTest, bad_lines_are_repeated_until_all_is_right) {
 TEST_F(UploadTest, a_line_that_is_too_bad_is_refused_and_the_robot_waits) {
   Robot& robot = add_robot(hex(bootloader_));
   Line line(*this, robot, 0.2, 1);
-  tools::UploadSettings settings;
+  flash::UploadSettings settings;
   settings.tries = 3;
-  const tools::Upload result = upload(line, 'A', settings);
+  const flash::Upload result = upload(line, 'A', settings);
   EXPECT_NE(result.state, State::Verified);
   EXPECT_NE(result.state, State::Written);
   EXPECT_NE(result.why, "");
@@ -238,22 +238,22 @@ TEST_F(UploadTest, a_line_that_is_too_bad_is_refused_and_the_robot_waits) {
 TEST_F(UploadTest, the_bootloader_keeps_its_own_rows) {
   Robot& robot = add_robot(hex(bootloader_));
   run_for(0.01);
-  const std::uint32_t entry = flash(tools::kBootloaderEntry), extension = flash(0x17EC0);
+  const std::uint32_t entry = flash(flash::kBootloaderEntry), extension = flash(0x17EC0);
   for (const std::uint32_t row : {0x17EC0u, 0x17F40u, 0x17F80u, 0x17FC0u}) {
     runner().restart();
-    tools::UploadPlan p = plan('A');
+    flash::UploadPlan p = plan('A');
     p.rows[row].fill(0x123456);
     Line line(*this, robot, 0, 1);
-    tools::UploadSettings settings;
+    flash::UploadSettings settings;
     settings.tries = 5;
-    const tools::Upload result = tools::upload(line, p, settings, [](const char*, int, int) {});
+    const flash::Upload result = flash::upload(line, p, settings, [](const char*, int, int) {});
     EXPECT_EQ(result.state, State::Refused);
     EXPECT_NE(
         result.why.find("was not taken in 5 tries, 5 of them answered 'N'; the bootloader protects this row"),
         std::string::npos)
         << result.why;
   }
-  EXPECT_EQ(flash(tools::kBootloaderEntry), entry);
+  EXPECT_EQ(flash(flash::kBootloaderEntry), entry);
   EXPECT_EQ(flash(0x17EC0), extension);
 }
 
@@ -303,7 +303,7 @@ struct OfPeople {
   }
 
   /// False: a row was not taken.
-  bool send(tools::SerialLine& line) const {
+  bool send(flash::SerialLine& line) const {
     bool is_there = false;
     for (int i = 0; i < 100 && !is_there; ++i) {
       line.write({0xC1});
@@ -390,9 +390,9 @@ TEST_F(UploadTest, uploaders_that_people_have_write_our_hex_whole) {
 TEST_F(UploadTest, silence_is_told) {
   Robot& robot = add_robot(hex("__reset: bra __reset\n"));
   Line line(*this, robot, 0, 1);
-  tools::UploadSettings settings;
+  flash::UploadSettings settings;
   settings.wait_s = 2;
-  const tools::Upload result = upload(line, 'A', settings);
+  const flash::Upload result = upload(line, 'A', settings);
   EXPECT_EQ(result.state, State::Untouched);
   EXPECT_EQ(result.why, "got no answer for 2 s, expected a bootloader's answer (0x71 0x4B)");
 }
@@ -400,18 +400,18 @@ TEST_F(UploadTest, silence_is_told) {
 // --- what goes into the robot, and what does not
 
 std::string problem_of(const dspic::FirmwareFile& file) {
-  tools::UploadPlan plan;
+  flash::UploadPlan plan;
   std::string error;
-  EXPECT_FALSE(tools::plan_upload(file, "p.hex", plan, error));
+  EXPECT_FALSE(flash::plan_upload(file, "p.hex", plan, error));
   return error;
 }
 
 TEST(UploadPlan, the_way_in_is_the_programs_and_the_reset_vector_the_bootloaders) {
   dspic::FirmwareFile file;
   file.words = {{0, 0x040200}, {2, 0}, {0x200, 0x37FFFF}, {0x7FF000, 0xFF1234}, {0xF80000, 0xFFE6}};
-  tools::UploadPlan plan;
+  flash::UploadPlan plan;
   std::string error;
-  ASSERT_TRUE(tools::plan_upload(file, "p.hex", plan, error)) << error;
+  ASSERT_TRUE(flash::plan_upload(file, "p.hex", plan, error)) << error;
   ASSERT_EQ(plan.rows.size(), 3u);
   EXPECT_EQ(plan.rows[0][0], 0x047F40u);
   EXPECT_EQ(plan.rows[0][1], 0x000001u);
@@ -427,9 +427,9 @@ TEST(UploadPlan, a_file_with_a_bootloader_in_it_brings_its_program_only) {
   dspic::FirmwareFile file;
   file.words = {{0, 0x047F40},       {2, 1},       {0x200, 0x37FFFF},
                 {0x17F38, 0x040200}, {0x17F3A, 0}, {0x17F40, 0x123456}};
-  tools::UploadPlan plan;
+  flash::UploadPlan plan;
   std::string error;
-  ASSERT_TRUE(tools::plan_upload(file, "p.hex", plan, error)) << error;
+  ASSERT_TRUE(flash::plan_upload(file, "p.hex", plan, error)) << error;
   EXPECT_EQ(plan.way_in[0], 0x040200u);
   EXPECT_EQ(plan.rows.count(0x17F40), 0u);
   file.words.erase(0x17F38);

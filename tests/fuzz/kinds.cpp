@@ -24,12 +24,12 @@
 #include "import/import.h"
 #include "import/picture.h"
 #include "import/wbt_reader.h"
+#include "lab/table.h"
 #include "sim_core/load/floor_image.h"
 #include "sim_core/load/world_loader.h"
 #include "sim_core/simulation.h"
 #include "sim_core/sound/wav_file.h"
 #include "tests/sim_core/fixture.h"
-#include "tools/lab_table.h"
 #include "tools/verbs.h"
 
 namespace fuzz {
@@ -104,7 +104,7 @@ void proto(std::string_view bytes) {
 
 void lab(std::string_view bytes) {
   std::vector<std::string> problems;
-  const auto table = tools::parse_lab_table(std::string(bytes), "lab.toml", problems);
+  const auto table = lab::parse_table(std::string(bytes), "lab.toml", problems);
   require(table.empty() == !problems.empty(), "neither a table nor a problem");
 }
 

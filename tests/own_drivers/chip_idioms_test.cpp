@@ -338,7 +338,7 @@ int main(void)
   run_for(2);
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   EXPECT_EQ(robot.variable("changes"), 0);
-  EXPECT_LT(took_s, 2);  // 37 s with them
+  EXPECT_LT(took_s, 20);  // 37 s with them
   expect_no_traps();
 }
 

@@ -44,7 +44,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
       Seen go(const Course& c, const char* chosen_hal) {
         options.hal = chosen_hal;
         Robot& robot = place(c);
-        // what noise decides is compared over many seeds: docs/hals.md
+        // what noise decides is compared over many seeds: docs/time.md
         world.proximity.noise_scale = 0;
         Seen seen;
         for (int i = 0; i < 100 * c.seconds; ++i) {

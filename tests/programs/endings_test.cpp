@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How programs of the PC end, hostile ones among them: what the run says and does then, its exit code
-// (docs/design.md), its records, and that no process of theirs is left. All against the shipped command.
+// (docs/start.md), its records, and that no process of theirs is left. All against the shipped command.
 #include <atomic>
 #include <mutex>
 

@@ -19,7 +19,7 @@ def has_numpy(interpreter):
 class Examples(unittest.TestCase):
     def run_world(self, name, seconds):
         run = subprocess.run([BUILD + "/twinpuck", "run", "%s/%s/%s.toml" % (EXAMPLES, name, name), "--for", str(seconds)],
-                             capture_output=True, text=True, timeout=120)
+                             capture_output=True, text=True, timeout=900)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
         return run.stdout + run.stderr
 
@@ -42,7 +42,7 @@ class Examples(unittest.TestCase):
         best = EXAMPLES + "/evolve/best.npy"
         had = os.path.exists(best)
         run = subprocess.run(["python3", EXAMPLES + "/evolve/evolve.py", "--twinpuck", BUILD + "/twinpuck", "--generations", "3",
-                              "--population", "8", "--cores", "2"], capture_output=True, text=True, timeout=120)
+                              "--population", "8", "--cores", "2"], capture_output=True, text=True, timeout=900)
         if not had and os.path.exists(best):
             os.remove(best)
         self.assertEqual(run.returncode, 0, run.stdout + run.stderr)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The example of docs/supervisor.md, as it stands there.
+// The example of a supervisor in docs/connecting.md, as it stands there.
 #include <filesystem>
 
 #include "tests/programs/process_watch.h"
@@ -10,10 +10,10 @@ using namespace programs_test;
 
 class Guide : public WatchedRuns {
  protected:
-  /// What stands between the first fences of this kind.
+  /// What stands between the first fences of this kind in the page's section.
   static std::string block(const std::string& kind) {
-    const std::string page = read(TWINPUCK_SOURCE_DIR "/docs/supervisor.md"), fence = "```" + kind + "\n";
-    const std::size_t begin = page.find(fence);
+    const std::string page = read(TWINPUCK_SOURCE_DIR "/docs/connecting.md"), fence = "```" + kind + "\n";
+    const std::size_t begin = page.find(fence, page.find("\n## Supervisors\n"));
     if (begin == std::string::npos) return "";
     return page.substr(begin + fence.size(), page.find("```", begin + 3) - begin - fence.size());
   }

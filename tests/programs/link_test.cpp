@@ -12,7 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/link_doc.h"
+#include "tools/dev/doc_part.h"
+#include "tools/dev/link_doc.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -114,11 +115,11 @@ TEST(Link, rows_are_in_their_order_and_read_back) {
 }
 
 TEST(Link, the_page_has_the_table) {
-  std::ifstream in(std::string(TWINPUCK_SOURCE_DIR) + "/docs/control.md");
+  std::ifstream in(std::string(TWINPUCK_SOURCE_DIR) + "/docs/connecting.md");
   std::ostringstream page;
   page << in.rdbuf();
-  EXPECT_EQ(tools::with_link_table(page.str(), tools::link_table()), page.str())
-      << "run build/link_doc docs/control.md";
+  EXPECT_EQ(dev::with_doc_part(page.str(), "records", dev::link_table()), page.str())
+      << "run build/twinpuck-dev page docs/connecting.md";
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ TEST_F(Sensing, ground_sensors_tell_white_from_black) {
   add_part(with, "ground-sensors");
   run_for(0.5);
   EXPECT_EQ(value(with, "fs"), 1) << "the older name";
-  for (const double v : told(with, "gs")) EXPECT_NEAR(v, 856, 100);  // white [docs/parts.md]
+  for (const double v : told(with, "gs")) EXPECT_NEAR(v, 856, 100);  // white [docs/extending.md]
 }
 
 // --- motion and truth -------------------------------------------------------------------------------------

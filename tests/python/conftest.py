@@ -54,7 +54,7 @@ def opened(programs):
 @pytest.fixture
 def command():
     """command(*words, cwd=, env=): runs `twinpuck WORDS`; a CompletedProcess with text."""
-    def run(*words, cwd=None, env=None, timeout=60):
+    def run(*words, cwd=None, env=None, timeout=900):
         return subprocess.run([TWINPUCK, *map(str, words)], cwd=cwd, env={**os.environ, **(env or {})}, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=timeout, check=False)
 

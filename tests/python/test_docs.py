@@ -1,12 +1,22 @@
 # SPDX-License-Identifier: MIT
-"""What docs/testing.md shows runs: each example is a file, and passes."""
+"""What README.md and docs/testing.md show runs: each example is a file, and passes."""
 import pathlib
 import re
 
 import pytest
 
-PAGE = (pathlib.Path(__file__).parents[2] / "docs" / "testing.md").read_text()
+ROOT = pathlib.Path(__file__).parents[2]
+PAGE = (ROOT / "docs" / "testing.md").read_text()
 EXAMPLES = re.findall(r"\*\*(\d+)\. ([^*]+?)\.?\*\*.*?```python\n(.*?)```", PAGE, re.S)
+
+
+def test_the_example_of_the_front_page_passes(tmp_path, command):
+    page, folder = (ROOT / "README.md").read_text(), tmp_path / "stop"
+    folder.mkdir()
+    for language, file in (("c", "main.c"), ("python", "test_stop.py")):
+        (folder / file).write_text(re.search(rf"```{language}\n(.*?)```", page, re.S).group(1))
+    done = command("test", "-q", "stop", cwd=tmp_path)
+    assert done.returncode == 0 and "1 passed" in done.stdout, done.stdout + done.stderr
 
 
 def test_there_are_ten():

@@ -139,7 +139,7 @@ FirmwareTest::FirmwareTest() {
 }
 FirmwareTest::~FirmwareTest() {
   std::vector<std::string> problems;
-  if (coverage_) coverage_->finish(problems);
+  if (run_ && run_->coverage()) run_->coverage()->finish(problems);
   for (const std::string& problem : problems) ADD_FAILURE() << problem;
 }
 
@@ -212,12 +212,9 @@ void FirmwareTest::start(const Caller& caller) {
   world.robots.clear();
   for (const auto& r : robots_) world.robots.push_back(r->desc_);
   std::vector<std::string> problems;
-  twin_ = twin::Twin::open(world, options, problems);
-  if (!twin_) throw std::runtime_error(where + "the test's world cannot start:\n" + all_lines(problems));
-  if (!options.coverage.empty()) {
-    coverage_ = twin::CoverageRun::open(*twin_, options.coverage, problems);
-    if (!coverage_) throw std::runtime_error(where + "coverage:\n" + all_lines(problems));
-  }
+  run_ = runs::Run::open(world, options, {}, problems);
+  if (!run_) throw std::runtime_error(where + "the test's world cannot start:\n" + all_lines(problems));
+  twin_ = &run_->twin();
   for (auto& r : robots_) {
     auto* const runner = r->is_measured_ ? dynamic_cast<chip::ChipRunner*>(r->mind().runner()) : nullptr;
     if (!runner) continue;
@@ -230,8 +227,6 @@ void FirmwareTest::start(const Caller& caller) {
       robot->console_.push_back(line);
     };
   }
-  team_ = programs::Team::open(*twin_, options, {}, problems);
-  if (!team_) throw std::runtime_error(where + "the test's programs cannot start:\n" + all_lines(problems));
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<MemoryEnd>();
@@ -249,36 +244,30 @@ twin::Twin& FirmwareTest::twin(Caller caller) {
 void FirmwareTest::run_for(double seconds, Caller caller) {
   auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(seconds);
-  while (s.now() < end && !(team_ && team_->has_ended())) step();
-  if (faults_) faults_->look();
+  while (s.now() < end && !run_->team().has_ended()) step();
+  run_->inputs().faults().look();
 }
 
 bool FirmwareTest::run_until(const std::function<bool()>& done, double at_most_s, Caller caller) {
   auto& s = twin(caller).simulation();
   const sim::Clicks end = s.now() + sim::from_seconds(at_most_s);
   while (!done()) {
-    if (s.now() >= end || (team_ && team_->has_ended())) return false;
+    if (s.now() >= end || run_->team().has_ended()) return false;
     step();
   }
   return true;
 }
 
-void FirmwareTest::step() {
-  auto& s = twin_->simulation();
-  if (faults_)
-    faults_->advance(s.now());
-  else
-    s.step();
-}
+void FirmwareTest::step() { run_->inputs().step(); }
 
 faults::Injector& FirmwareTest::faults(Caller caller) {
-  if (!faults_) faults_ = std::make_unique<faults::Injector>(twin(caller));
-  return *faults_;
+  twin(caller);
+  return run_->inputs().faults();
 }
 
 programs::Team& FirmwareTest::team() {
   twin();
-  return *team_;
+  return run_->team();
 }
 
 const programs::Outcome& FirmwareTest::finish() {

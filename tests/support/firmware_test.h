@@ -19,13 +19,7 @@
 #include <vector>
 
 #include "hal_sim/chip/call_cost.h"
-#include "hal_sim/twin/coverage_run.h"
-#include "hal_sim/twin/twin.h"
-#include "programs/team/team.h"
-
-namespace faults {
-class Injector;
-}
+#include "hal_sim/runs/run.h"
 
 namespace firmware_test {
 
@@ -102,11 +96,11 @@ class Robot {
   }
 
   /// Exact cycles of a call of a function of the firmware on the chip, callees included, handlers not
-  /// (docs/profile.md): in the run so far, if the robot is measured() and has called it, else by its code.
+  /// (docs/time.md): in the run so far, if the robot is measured() and has called it, else by its code.
   Cost cost_of(const std::string& function, Caller caller = Caller::here()) const;
 
   const std::vector<host::TrapReport>& traps() const { return mind().runner()->traps(); }
-  /// What board and chip have to say about the firmware so far (docs/diagnoses.md).
+  /// What board and chip have to say about the firmware so far (docs/controllers.md).
   std::vector<board::Diagnosis> diagnoses() const { return mind().runner()->diagnoses(); }
   /// The same, a line each: "place: cause: message; hint".
   std::string diagnoses_text() const;
@@ -148,7 +142,7 @@ class FirmwareTest : public ::testing::Test {
   Robot& add_robot(const std::string& firmware, const std::string& name = "");
   /// A robot with a controller written in the test itself.
   Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
-  /// A supervisor: a name under supervisor/programs/, a file or a folder (docs/supervisor.md). Runs stop when
+  /// A supervisor: a name under supervisor/programs/, a file or a folder (docs/connecting.md). Runs stop when
   /// it ends them.
   void add_supervisor(const std::string& program, double period_s = 0);
   /// A supervisor written in the test itself; "cpp" or "c".
@@ -182,10 +176,8 @@ class FirmwareTest : public ::testing::Test {
   void step();
 
   std::vector<std::unique_ptr<Robot>> robots_;
-  std::unique_ptr<twin::Twin> twin_;
-  std::unique_ptr<programs::Team> team_;
-  std::unique_ptr<faults::Injector> faults_;
-  std::unique_ptr<twin::CoverageRun> coverage_;
+  std::unique_ptr<runs::Run> run_;
+  twin::Twin* twin_ = nullptr;  // the run's
 };
 
 }  // namespace firmware_test

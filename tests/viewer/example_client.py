@@ -28,7 +28,7 @@ def receive():
     return json.loads(body) if kind & 15 == 1 else body
 
 
-assert receive()["version"] == 1  # hello
+assert receive()["version"] == 2  # hello
 send({"id": 0, "do": "steer"})
 last_s = 0
 for step in range(1, 21):

@@ -188,7 +188,7 @@ std::string ViewTest::read(const std::string& name) const {
 }
 
 viewer::LiveView& ViewTest::open(const std::string& name, const std::string& record) {
-  viewer::Opening opening;
+  inputs::Opening opening;
   opening.file = path(name);
   opening.text = read(name);
   view_ = viewer::LiveView::open(std::move(opening), record, 0, path("page"), problems_);

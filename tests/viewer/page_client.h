@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A page without a browser: speaks HTTP and the protocol of docs/control.md to a live view in this process.
+// A page without a browser: speaks HTTP and the protocol of docs/connecting.md to a live view of this PC.
 #pragma once
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ struct mg_connection;
 namespace viewer_test {
 
 using viewer::Json;
-constexpr double kPatience_s = 20;  // of the machine's time, before a test gives up
+constexpr double kPatience_s = 120;  // of the machine's time, before a test gives up
 
 /// What a frame says (viewer/frame.h), read back.
 struct Frame {

@@ -2,6 +2,7 @@
 // Who is let in, and that nobody who is can harm the run.
 #include <arpa/inet.h>
 #include <civetweb.h>
+#include <fmt/format.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -104,9 +105,45 @@ TEST_F(Server, waits_for_no_slow_page) {
   ::close(s);
 }
 
+// who connects and says nothing keeps nobody from opening the page
+TEST_F(Server, idle_connections_do_not_keep_the_page_from_opening) {
+  sockaddr_in to{};
+  to.sin_family = AF_INET;
+  to.sin_port = htons(static_cast<std::uint16_t>(port()));
+  to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  std::vector<int> idle;
+  for (int i = 0; i < 300; ++i) {
+    idle.push_back(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    ASSERT_EQ(::connect(idle.back(), reinterpret_cast<sockaddr*>(&to), sizeof to), 0);
+  }
+  const auto begin = std::chrono::steady_clock::now();
+  EXPECT_EQ(get_status(port(), own(""), host()), 200);
+  Page page(view());
+  EXPECT_TRUE(page.is_open());
+  page.event("hello");
+  // 10 s is when the library itself would have hung up on the first of them
+  EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 9);
+  for (const int s : idle) ::close(s);
+}
+
+TEST_F(Server, listens_on_the_loopback_alone) {
+  std::ifstream table("/proc/net/tcp");
+  const std::string own_port = fmt::format(":{:04X}", port());
+  int listening = 0;
+  for (std::string line; std::getline(table, line);) {
+    std::istringstream words(line);
+    std::string number, local, remote, state;
+    words >> number >> local >> remote >> state;
+    if (state != "0A" || local.size() < 5 || local.substr(local.size() - 5) != own_port) continue;
+    EXPECT_EQ(local, "0100007F" + own_port) << "127.0.0.1";
+    ++listening;
+  }
+  EXPECT_EQ(listening, 1);
+}
+
 TEST_F(Server, a_port_that_is_taken_is_told) {
   std::vector<std::string> problems;
-  viewer::Opening opening;
+  inputs::Opening opening;
   opening.file = path("world.toml");
   opening.text = read("world.toml");
   EXPECT_FALSE(viewer::LiveView::open(opening, "", port(), path("page"), problems));

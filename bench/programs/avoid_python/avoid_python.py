@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Steps of 32 ms, eight sensors: what a program of the PC costs (docs/performance.md)."""
+"""Steps of 32 ms, eight sensors: what a program of the PC costs (docs/dev/performance.md)."""
 from controller import Robot
 
 STEP_MS = 32

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT
- * Sensors that no robot has and that a supervisor program defines (docs/supervisor.md), for firmware on the
+ * Sensors that no robot has and that a supervisor program defines (docs/connecting.md), for firmware on the
  * e-puck's own library; programs for Webots' interfaces find them as distance sensors. On a robot
  * nobody could define them, so there are none, and there is no console.
  */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Compass, a device of kind "compass" that the world file adds ([[robot.device]]). It tells the truth,
- * without noise. In the simulator only; the module that the robot can carry is a part (docs/parts.md).
+ * without noise. In the simulator only; the module that the robot can carry is a part (docs/extending.md).
  */
 #ifndef WB_COMPASS_H
 #define WB_COMPASS_H

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The example of docs/parts.md: a colour sensor under the robot's middle, at I2C address 0x52.
+// The example of docs/extending.md: a colour sensor under the robot's middle, at I2C address 0x52.
 //
 //   register 0 red   1 green   2 blue, 0 to 255        register 3 gain, 1 to 16, may be written
 //
@@ -55,7 +55,7 @@ class FloorColour final : public Part, public I2cRegisters {
 const PartType& part_floor_colour() {
   static const PartType type{
       {"floor-colour",
-       "Example of docs/parts.md: the colour of the floor under the robot, I2C address 0x52.",
+       "Example of docs/extending.md: the colour of the floor under the robot, I2C address 0x52.",
        {{"forward", sim::OwnKeyType::Number, "m", -0.03, 0.03, "", "0", "where it sits, from the middle"},
         {"noise", sim::OwnKeyType::Number, "", 0, 50, "", "1", "standard deviation of a reading"}}},
       make_part<FloorColour>};

@@ -7,7 +7,7 @@
 // Modelled: place, the lookup table of the published model with its colour rule (white 856, black 300), the
 // spot's mean over five points, noise, floor colour and floor image, objects under the robot are not. A low
 // byte belongs to the high byte read before it. Other registers read 0. Writing does nothing. Source: [FRM
-// A5] (docs/sources.md); registers from programs that read the board.
+// A5] (docs/dev/sources.md); registers from programs that read the board.
 #include <algorithm>
 #include <cmath>
 

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 """@NAME@: ends the run once every robot has driven half a metre, or as failed when one has touched something. A start
-for your own supervisor; docs/supervisor.md is the guide."""
+for your own supervisor; docs/connecting.md is the guide."""
 import sys
 
 from controller import Supervisor

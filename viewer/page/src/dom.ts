@@ -17,6 +17,11 @@ export function h<K extends keyof HTMLElementTagNameMap>(
   return element;
 }
 const kIcons: Record<string, string> = {
+  over: '<path d="M2 8a6 6 0 0111-3V2h2v7H8V7h3.600A4 4 0 004 8zM7 12h3v3H7z"/>',
+  in: '<path d="M7 1h2v6h3l-4 5-4-5h3zM3 13h10v2H3z"/>',
+  out: '<path d="M8 1l4 5H9v6H7V6H4zM3 13h10v2H3z"/>',
+  back: '<path d="M14 8A6 6 0 003 5V2H1v7h7V7H4.400A4 4 0 0112 8zM6 12h3v3H6z"/>',
+  reverse: '<path d="M12 2.500v11L3 8z"/>',
   restart: '<path d="M3 3h2v10H3zM13 3v10L6 8z"/>',
   play: '<path d="M4 2.5v11L13 8z"/>',
   pause: '<path d="M4 3h3v10H4zM9 3h3v10H9z"/>',

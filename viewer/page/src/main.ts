@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The page put together: a bar with time, a palette, the scene, an inspector beside it, a dock below.
 import "uplot/dist/uPlot.min.css";
+import "./panes/panes.css";
 import "./frame/page.css";
 import { h } from "./dom";
 import { showBadges } from "./frame/badges";

@@ -89,7 +89,10 @@ export class Bar {
         "Take the wheel",
       ),
       button("theme", "theme", "Dark or light", () => setTheme(store, !store.dark)),
-      button("help", "?", "Keys", () => byId("keys").toggleAttribute("hidden")),
+      button("help", "?", "Keys", () => {
+        byId("keys").hidden = !byId("keys").hidden;
+        if (!byId("keys").hidden) byId("keys").focus();
+      }),
       foldButton("side"),
     );
     byId("trails").classList.add("on");

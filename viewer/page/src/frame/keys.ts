@@ -49,7 +49,7 @@ export function listenToKeys(hands: Hands) {
   byId("stage").append(
     h(
       "div",
-      { id: "keys", hidden: true },
+      { id: "keys", hidden: true, role: "dialog", "aria-label": "Keys", tabIndex: -1 },
       h("h3", {}, "Keys"),
       ...kKeys.map(([k, text]) => h("div", {}, h("kbd", {}, k), text)),
     ),
@@ -92,7 +92,10 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch,
     if (keys[key]) act(keys[key]);
     return;
   }
-  if (key === "Escape") dismiss();
+  if (key === "Escape") {
+    dismiss();
+    byId("keys").hidden = true;
+  }
   if (!isForScene(target)) {
     if (key === "Escape") target.blur();
     return;

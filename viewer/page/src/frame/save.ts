@@ -105,6 +105,7 @@ export class WorldFile {
       ]);
       if (!yes || !(await this.client.do("save_as", { name: full, overwrite: true }))) return false;
     }
+    this.store.rename(full);
     notice(`saved as ${full}`);
     return true;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The page's end of docs/control.md: one WebSocket, requests with answers, events.
+// The page's end of docs/connecting.md: one WebSocket, requests with answers, events.
 import { readFrame } from "./protocol";
 import type { Frame } from "./protocol";
 
@@ -21,6 +21,8 @@ export abstract class Link {
   abstract ask(what: string, more?: Record<string, unknown>): Promise<Answer>;
 }
 
+const kGone = "twinpuck view has ended: nothing was done";
+
 /** What start.ts has opened, and heard since then. */
 export interface Early {
   socket: WebSocket;
@@ -36,7 +38,7 @@ export class Connection extends Link {
     super();
     const { socket, heard }: Early = (window as any).early;
     this.socket = socket;
-    socket.onclose = () => this.onClose();
+    socket.onclose = () => this.end();
     const hear = (message: string | ArrayBuffer) => {
       if (typeof message !== "string") return this.onFrame(readFrame(message), message);
       const data = JSON.parse(message);
@@ -50,10 +52,17 @@ export class Connection extends Link {
     // once who listens is there
     queueMicrotask(() => {
       heard.forEach(hear);
-      if (socket.readyState > WebSocket.OPEN) this.onClose();
+      if (socket.readyState > WebSocket.OPEN) this.end();
     });
   }
+  /** Nobody answers any more. */
+  private end() {
+    for (const { fail } of this.waiting.values()) fail(new Error(kGone));
+    this.waiting.clear();
+    this.onClose();
+  }
   ask(what: string, more: Record<string, unknown> = {}): Promise<Answer> {
+    if (this.socket.readyState > WebSocket.OPEN) return Promise.reject(new Error(kGone));
     const id = this.next++;
     this.socket.send(JSON.stringify({ id, do: what, ...more }));
     return new Promise((done, fail) => this.waiting.set(id, { done, fail }));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The shapes of docs/control.md: what events and answers hold, and frames.
+// The shapes of docs/connecting.md: what events and answers hold, and frames.
 
 export type Vec = number[];
 export interface Thing {

@@ -15,7 +15,8 @@ class Mark extends GutterMarker {
   }
   toDOM() {
     const dot = document.createElement("span"),
-      { condition, verified, message } = this.of;
+      { line, condition, verified, message } = this.of;
+    if (!line) return dot; // only room for one
     dot.className = `breakpoint${condition ? " conditional" : ""}${verified === false ? " unmet" : ""}`;
     dot.textContent = condition ? "◆" : "●";
     dot.title = [condition && `if ${condition}`, message].filter(Boolean).join("; ") || "Breakpoint";
@@ -51,6 +52,7 @@ export function breakpoints(hands: BreakpointHands): Extension {
     marks,
     gutter({
       class: "cm-breakpoints",
+      renderEmptyElements: true,
       markers: (view) => view.state.field(marks),
       initialSpacer: () => new Mark({ line: 0, condition: "" }),
       domEventHandlers: {

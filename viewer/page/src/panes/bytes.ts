@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Bytes of a serial line as text that people read, and text that people type as bytes. A byte is a character up to
-// U+00FF, as in docs/control.md.
+// U+00FF, as in docs/connecting.md.
 
 const kHex = (byte: number) => `\\x${byte.toString(16).padStart(2, "0")}`;
 const kShort: Record<number, string> = { 0: "\\0", 7: "\\a", 8: "\\b", 11: "\\v", 12: "\\f" };

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Beside the program, while a robot is debugged: steps, calls, variables, what is watched, registers, and the monitor's commands.
-import { h } from "../dom";
+import { h, icon } from "../dom";
 import { askText } from "../frame/notices";
 import type { Debugging, Scope, Step, Variable, Watch } from "../store/debugging";
 import type { Store } from "../store/store";
 
 const kSteps: [Step, string, string, string][] = [
-  ["continue", "▶", "Go on", "F5"],
-  ["pause", "⏸", "Pause", "F6"],
-  ["next", "↷", "Step over: to the next line", "F10"],
-  ["stepIn", "↓", "Step in: into a function", "F11"],
-  ["stepOut", "↑", "Step out: to the function's end", "Shift F11"],
-  ["stepBack", "↶", "Step back: to the line before", "Alt F10"],
-  ["reverseContinue", "◀", "Back to the breakpoint before", "Alt F5"],
+  ["continue", "play", "Go on", "F5"],
+  ["pause", "pause", "Pause", "F6"],
+  ["next", "over", "Step over: to the next line", "F10"],
+  ["stepIn", "in", "Step in: into a function", "F11"],
+  ["stepOut", "out", "Step out: to the function's end", "Shift F11"],
+  ["stepBack", "back", "Step back: to the line before", "Alt F10"],
+  ["reverseContinue", "reverse", "Back to the breakpoint before", "Alt F5"],
 ];
 const kKeys: Record<string, Step> = {
   F5: "continue",
@@ -44,7 +44,7 @@ export class DebuggerPane {
         "aria-label": title,
         onclick: () => void this.debug.step(step),
       },
-      sign,
+      icon(sign),
     ),
   );
   private why = h(
@@ -95,8 +95,8 @@ export class DebuggerPane {
       h(
         "div",
         { className: "parts" },
-        this.variables,
         part("Watched", true, watch, this.watches),
+        this.variables,
         part("Calls", true, this.calls),
         part("Breakpoints", true, this.points),
         part("What the debugger says", true, this.output, ask),
@@ -135,6 +135,7 @@ export class DebuggerPane {
     if (this.output.textContent !== text) {
       this.output.textContent = text;
       this.output.scrollTop = this.output.scrollHeight;
+      this.output.scrollIntoView?.({ block: "nearest" });
     }
   }
   private showState() {

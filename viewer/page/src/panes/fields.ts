@@ -55,29 +55,32 @@ export class Fields {
     const written = section.keys.filter((k) => k.key in values),
       rest = section.keys.filter((k) => !(k.key in values));
     const row = (k: KeySpec) => this.row(path, element?.id, k, values[k.key]);
-    const more = rest.length > 0 && h("details", {}, h("summary", {}, `${rest.length} more keys`), ...rest.map(row));
+    const more = rest.length > 0 && this.details(`${path} more`, false, `${rest.length} more keys`, rest.map(row));
     if (id) return [h("h3", {}, "In the world file"), ...written.map(row), ...(more ? [more] : [])];
-    const details = h(
-      "details",
-      { className: "section", title: section.doc },
-      h("summary", {}, `[${path}]`, h("small", {}, element ? ` line ${element.line}` : " not in the file")),
+    const title = [`[${path}]`, h("small", {}, element ? ` line ${element.line}` : " not in the file")];
+    const inside = [
       h("p", { className: "dim" }, section.doc),
       ...written.map(row),
-      ...(written.length ? [more] : rest.map(row)),
-    );
-    details.open = this.opened.has(path) || (!!element && kOpenAtFirst.includes(path) && !this.closed.has(path));
-    details.addEventListener("toggle", () => {
-      this.opened[details.open ? "add" : "delete"](path);
-      this.closed[details.open ? "delete" : "add"](path);
-    });
-    return [details];
+      ...(written.length ? (more ? [more] : []) : rest.map(row)),
+    ];
+    const box = this.details(path, !!element && kOpenAtFirst.includes(path), title, inside);
+    box.classList.add("section");
+    box.title = section.doc;
+    return [box];
   }
-  private opened = new Set<string>();
-  private closed = new Set<string>();
+  /** Open as a person has left it, also when all is shown anew. */
+  private details(name: string, open: boolean, title: string | (string | HTMLElement)[], inside: HTMLElement[]) {
+    const box = h("details", { open: this.opened.get(name) ?? open }, h("summary", {}, ...[title].flat()), ...inside);
+    box.addEventListener("toggle", () => this.opened.set(name, box.open));
+    return box;
+  }
+  private opened = new Map<string, boolean>();
 
   private send(path: string, id: number | undefined, key: string, value: unknown) {
     if (id) return this.client.set(id, { [key]: value });
     if (value === null) return undefined;
+    // what could be typed in a section without a line goes on being there
+    this.opened.set(`${path} more`, true);
     return this.client.edit({ op: "add", path, values: { [key]: value } });
   }
   private row(path: string, id: number | undefined, k: KeySpec, literal?: string): HTMLElement {

@@ -35,6 +35,11 @@ export class ProgramPane {
   private locked = h("span", { className: "bad", hidden: true }, "read-only");
   private messages = h("div", { id: "build-messages", role: "status" });
   private told = h("div", { id: "source-conflict" });
+  private empty = h(
+    "p",
+    { className: "dim pad hint", hidden: true },
+    "No robot has a program whose source is here. Write the name of a controller into a robot's firmware; `twinpuck new NAME` makes one.",
+  );
 
   constructor(
     private store: Store,
@@ -63,6 +68,7 @@ export class ProgramPane {
       { className: "pane column" },
       h("div", { className: "toolbar wide" }, this.file, this.button, this.beside?.begin, this.locked, this.messages),
       this.told,
+      this.empty,
       h("div", { className: "beside" }, this.editor.element, this.beside?.pane),
     );
     store.on("theme", (dark) => this.editor.setDark(dark));
@@ -96,6 +102,7 @@ export class ProgramPane {
       ...left.map((b) => h("option", { value: b.key }, `${b.name} (not used)`)),
     );
     if ([...this.file.options].some((o) => o.value === was)) this.file.value = was;
+    this.empty.hidden = this.file.options.length > 0;
     this.dots();
     if (this.file.value !== was) void this.open();
     this.findings();

@@ -118,6 +118,7 @@ export class RobotSheet {
     this.gauges.clear();
     this.parts.dataset.said = "";
     this.place.textContent = "";
+    this.fan = this.ears = undefined;
     const program = store.programOf(robot);
     const wrong = store.world.problems.find((p) => p.id === robot.id);
     return [
@@ -152,12 +153,19 @@ export class RobotSheet {
         h("button", { onclick: () => pieces.copy(), title: "Copy (Ctrl D)" }, "Copy"),
         h("button", { onclick: () => pieces.remove(), title: "Delete (Del)" }, "Delete"),
       ),
+      ...(robot.body < 0 ? [h("p", { className: "dim" }, "It is in the file, and not in the run.")] : this.live(robot)),
+      ...this.fields.of("robot", robot.id),
+    ];
+  }
+
+  /** What only a robot of the run has. */
+  private live(robot: Robot) {
+    return [
       ...this.senses(),
       ...kGauges.map(([name, least, most]) => this.gauge(robot, name, least, most)),
       h("h3", {}, "Variables, registers, pins"),
       ...this.watches(robot),
       this.hands(robot),
-      ...this.fields.of("robot", robot.id),
     ];
   }
 
@@ -446,7 +454,7 @@ export class RobotSheet {
     for (const [name, g] of this.gauges) {
       const v = this.store.values.get(name);
       if (v === undefined) continue;
-      const unit = this.store.units.get(name) ?? unitOf(name);
+      const unit = this.store.units.get(name) || unitOf(name);
       g.text.textContent = format(v, unit);
       if (g.unit.textContent !== unit) g.unit.textContent = unit;
       const share = g.most > g.least ? Math.min(1, Math.max(0, (v - g.least) / (g.most - g.least))) : 0;

@@ -72,8 +72,9 @@ export class TimeLine {
   private said = h("output", { className: "dim number" });
   private signals = h("input", {
     id: "signals",
+    "aria-label": "Signals to show",
     placeholder: "LED0, RA6, left_coils, TX1, T2, a variable; empty: the usual",
-    title: "Signals to show; names of docs/traces.md. Enter takes them",
+    title: "Signals to show; names of docs/looking.md. Enter takes them",
     onchange: () => this.ask(),
   }) as HTMLInputElement;
   private robot = "";

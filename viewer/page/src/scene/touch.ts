@@ -73,6 +73,12 @@ export class Touch {
       if (began) outline();
     });
     const canvas = scene.renderer.domElement;
+    canvas.tabIndex = 0;
+    canvas.setAttribute("role", "application");
+    canvas.setAttribute(
+      "aria-label",
+      "Scene. Arrows move what is selected, Q and E turn it, Delete removes it; the list of pieces selects",
+    );
     canvas.addEventListener("pointerdown", (e) => this.down(e), { capture: true });
     canvas.addEventListener("pointermove", (e) => this.moved(e));
     for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (e) => this.up(e as PointerEvent));

@@ -13,6 +13,7 @@ export class Client {
   /** Milliseconds of script that the last frames took: scene, inspector, plots, but not the drawing of the scene. */
   readonly work: number[] = [];
   private fresh = true;
+  private recordingWrong?: string;
   private told = false; // what compilers say comes with the programs
 
   constructor(
@@ -72,7 +73,8 @@ export class Client {
     store.on("selection", ({ changed }) => {
       if (!changed) return;
       this.subscribe().catch(() => {});
-      if (!store.recorded) this.do("look", { robot: store.selectedRobot()?.name ?? "" });
+      const robot = store.selectedRobot();
+      if (!store.recorded) this.do("look", { robot: robot && robot.body >= 0 ? robot.name : "" });
     });
   }
 
@@ -85,6 +87,9 @@ export class Client {
     if (!store.recorded && (state.time_s < store.state.time_s || this.fresh)) store.forget();
     this.fresh = false;
     store.takeState(state);
+    const wrong: string | undefined = state.recording?.error;
+    if (wrong && wrong !== this.recordingWrong) notice(`The recording ${state.recording.file}: ${wrong}`, true, true);
+    this.recordingWrong = wrong;
     if (state.ended && state.outcome)
       notice(state.outcome.text || "The supervisor has ended the run", state.outcome.code !== 0);
   }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One robot's program, debugged: breakpoints by file, where it stands, calls, variables, expressions that are watched.
-// The server speaks the Debug Adapter Protocol, as it does with editors (docs/debug.md).
+// The server speaks the Debug Adapter Protocol, as it does with editors (docs/looking.md).
 import type { Answer } from "../link/connection";
 import { keyOf } from "./buffer";
 import type { Client } from "./client";

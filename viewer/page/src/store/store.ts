@@ -204,6 +204,11 @@ export class Store {
     this.tell("selection", { changed: false });
     this.tell("problems");
   }
+  /** The world is saved under another name, in the same folder. */
+  rename(name: string) {
+    this.world = { ...this.world, file: this.world.file.replace(/[^/]*$/, name) };
+    this.tell("state", this.state);
+  }
   takeState(state: State) {
     this.state = state;
     this.tell("state", state);

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/inputs/inputs.h"
+
+#include <fmt/format.h>
+
+#include <deque>
+#include <stdexcept>
+
+#include "hal_sim/board/bluetooth_module.h"
+#include "hal_sim/board/uart_end.h"
+#include "hal_sim/host/variables.h"
+#include "hal_sim/twin/world_file.h"
+#include "sim_core/base/hash.h"
+#include "sim_core/load/world_loader.h"
+
+namespace inputs {
+
+namespace {
+
+[[noreturn]] void refuse_input(const std::string& what) { throw std::runtime_error(what); }
+
+int whole(const Json& input, const char* key, int least, int most) {
+  const double value = input.at(key).get<double>();
+  if (!(value >= least && value <= most) || value != static_cast<int>(value))
+    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+  return static_cast<int>(value);
+}
+
+double number(const Json& input, const char* key, double least, double most) {
+  const double value = input.at(key).get<double>();
+  if (!(value >= least && value <= most))
+    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+  return value;
+}
+
+/// Without what is of the request, or of its place in a recording.
+Json bare(Json input) {
+  for (const char* other : {"id", "at"}) input.erase(other);
+  return input;
+}
+
+/// Bytes of a text in which each character stands for one.
+std::string bytes_of(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto first = static_cast<unsigned char>(text[i]);
+    if (first < 0x80) {
+      bytes += text[i];
+    } else if ((first == 0xC2 || first == 0xC3) && i + 1 < text.size()) {
+      bytes += static_cast<char>((first & 3) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3F));
+    } else {
+      refuse_input("bytes: got a character above U+00FF, expected one byte a character");
+    }
+  }
+  return bytes;
+}
+
+}  // namespace
+
+/// The far end of a serial line on which somebody types. What the robot sends is heard elsewhere.
+class TypedLine final : public board::UartEnd {
+ public:
+  void type(const std::string& bytes) {
+    waiting_.insert(waiting_.end(), bytes.begin(), bytes.end());
+    set_idle(waiting_.empty());
+  }
+  void deliver(const std::uint8_t*, const board::Cycle*, std::size_t) override {}
+  std::size_t collect(std::uint8_t* bytes, std::size_t room, board::Cycle) override {
+    std::size_t count = 0;
+    for (; count < room && !waiting_.empty(); ++count) {
+      bytes[count] = static_cast<std::uint8_t>(waiting_.front());
+      waiting_.pop_front();
+    }
+    set_idle(waiting_.empty());
+    return count;
+  }
+  std::string name() const override { return {}; }
+
+ private:
+  std::deque<char> waiting_;
+};
+
+Inputs::~Inputs() = default;
+
+bool Inputs::is_input(const std::string& what) {
+  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp",
+                            "write", "faults", "end_fault", "world"})
+    if (what == known) return true;
+  return false;
+}
+
+int Inputs::robot_of(const Json& input) const {
+  const auto name = input.at("robot").get<std::string>();
+  const int robot = twin_.find(name);
+  if (robot < 0) refuse_input(fmt::format("robot: got '{}', expected a robot of the world", name));
+  return robot;
+}
+
+host::Runner& Inputs::program_of(const Json& input, int robot) {
+  host::Runner* program = twin_.mind(robot).runner();
+  if (!program) refuse_input(fmt::format("robot: got {}, which runs no program", input.at("robot").dump()));
+  return *program;
+}
+
+/// A line gets its far end when somebody types for the first time: a run with a page is one without.
+TypedLine& Inputs::line(int robot, int port) {
+  auto& line = lines_[robot * 2 + port - 1];
+  if (line) return *line;
+  if (twin_.uart_choice(robot, port) != "-" && twin_.uart_choice(robot, port) != "none")
+    refuse_input(fmt::format("port: got {}, whose other end is {}", port, twin_.uart_choice(robot, port)));
+  line = std::make_shared<TypedLine>();
+  if (port == 1)
+    twin_.bluetooth(robot).connect_computer(line);
+  else
+    twin_.mind(robot).board().uart(port).connect(line);
+  return *line;
+}
+
+void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
+  const auto what = input.at("do").get<std::string>();
+  sim::Simulation& simulation = twin_.simulation();
+  if (what == "world") {
+    sim::LoadedWorld loaded;
+    if (parsed)
+      loaded.world = *parsed;
+    else
+      loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
+    if (!loaded.world) refuse_input(loaded.report("world"));
+    if (loaded.world->robots.size() != twin_.world().robots.size() ||
+        loaded.world->physics_hz != twin_.world().physics_hz)
+      refuse_input("text: got other robots or another tick, expected the same");
+    std::size_t movable = 0;
+    for (const auto& object : loaded.world->objects) movable += object.movable;
+    const auto before = input.at("before").get<std::vector<int>>();
+    if (before.size() != movable) refuse_input("before: expected one number for each movable object");
+    for (int body : before)
+      if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
+        refuse_input(fmt::format("before: got {}, expected a movable object or -1", body));
+    loaded.world->seed = twin_.world().seed;
+    for (std::size_t i = 0; i < twin_.world().robots.size(); ++i)
+      loaded.world->robots[i].firmware = twin_.world().robots[i].firmware;
+    simulation.refurnish(*loaded.world, before);
+    return;
+  }
+  if (what == "program") {
+    const std::string wrong =
+        twin_.flash(input.at("robots").get<std::vector<int>>(), input.at("image").get<std::string>());
+    if (!wrong.empty()) refuse_input(wrong);
+    return;
+  }
+  if (what == "move") {
+    const int body =
+        input.contains("body") ? whole(input, "body", 0, simulation.scene().bodies() - 1) : robot_of(input);
+    simulation.move(body,
+                    {number(input, "x", -1000, 1000), number(input, "y", -1000, 1000),
+                     number(input, "heading", -1e6, 1e6)},
+                    simulation.scene().z_m(body));
+    return;
+  }
+  if (what == "faults") {
+    const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
+    if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
+    for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+    return;
+  }
+  if (what == "end_fault") {
+    faults_.end(whole(input, "fault", 0, static_cast<int>(faults_.statuses().size()) - 1));
+    return;
+  }
+  if (what == "lamp") {
+    const auto& lamps = twin_.world().lamps;
+    const int lamp = whole(input, "lamp", 0, static_cast<int>(lamps.size()) - 1);
+    const auto& desc = lamps[static_cast<std::size_t>(lamp)];
+    const double intensity_w_m2 =
+        input.contains("intensity") ? number(input, "intensity", 0, 1e4) : desc.intensity_w_m2;
+    simulation.set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
+    return;
+  }
+  const int robot = robot_of(input);
+  host::FirmwareMind& mind = twin_.mind(robot);
+  if (what == "sensor") {
+    mind.board().virtual_devices().set(input.at("name").get<std::string>(), input.at("value").get<double>());
+  } else if (what == "selector") {
+    mind.board().turn_selector(whole(input, "position", 0, 15));
+  } else if (what == "battery") {
+    mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
+  } else if (what == "type") {
+    line(robot, whole(input, "port", 1, 2)).type(bytes_of(input.at("bytes").get<std::string>()));
+  } else if (what == "key") {
+    const double hold_s = input.value("hold", 0.1);
+    if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
+    mind.press_key({whole(input, "key", 0, 63), sim::to_seconds(simulation.now()), hold_s,
+                    input.value("address", 0) & 31});
+  } else if (what == "reset") {
+    program_of(input, robot).restart();
+  } else if (what == "set") {
+    host::Runner& program = program_of(input, robot);
+    const auto expression = input.at("variable").get<std::string>();
+    std::string error;
+    const host::Variable* v = program.find_variable(expression, error);
+    if (!v) refuse_input(error);
+    if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
+      refuse_input(
+          fmt::format("variable: got '{}', expected a number; name a member or element", expression));
+    char bytes[8] = {};
+    program.read_memory(v->address, bytes, v->bytes);
+    host::set_variable_value(*v, bytes, input.at("value").get<double>());
+    program.write_memory(v->address, bytes, v->bytes);
+  } else if (what == "write") {
+    const int bytes = whole(input, "bytes", 1, 8);
+    const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
+    const auto value = input.at("value").get<std::uint64_t>();
+    program_of(input, robot)
+        .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
+  } else {
+    refuse_input(fmt::format("do: got '{}', expected an input", what));
+  }
+  if (mind.runner()) mind.runner()->wake();
+  std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
+  for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
+  simulation.note_intervention(hash);
+}
+
+void Inputs::step() {
+  faults_.look();
+  twin_.simulation().step();
+  faults_.look();
+}
+
+}  // namespace inputs

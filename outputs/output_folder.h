@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Where a run leaves things behind: folders with a file for each robot, and whether a file can be written.
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim_core/world/world_desc.h"
+
+namespace outputs {
+
+/// Makes the folder, and those above it, where it does not exist. False and a line in `problems`, which names
+/// the option, when that fails.
+bool make_output_folder(const std::string& folder, const char* option, std::vector<std::string>& problems);
+
+/// Whether a file can be written, found out before the run and without a trace; an empty path can. Otherwise
+/// a line in `problems`.
+bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems);
+
+/// Files and what names each ("--record", "the world"): no file twice, or a line in `problems`.
+void check_files_differ(std::vector<std::pair<std::string, std::string>> files,
+                        std::vector<std::string>& problems);
+
+/// FOLDER/NAME of a robot, without an ending: its name, '/' replaced by '_'; names that had one, or begin
+/// with a dot, get the robot's number before them, so that no two robots share a file.
+std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot);
+
+}  // namespace outputs
