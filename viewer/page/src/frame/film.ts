@@ -7,7 +7,8 @@ import { notice } from "./notices";
 
 const kFramesPerSecond = 30;
 const kBitsPerSecond = 8e6;
-const kTypes = ["video/webm;codecs=vp9", "video/webm;codecs=vp8", "video/webm"];
+// VP8 before VP9: the processor simulates, too
+const kTypes = ["video/webm;codecs=vp8", "video/webm;codecs=vp9", "video/webm"];
 
 function download(blob: Blob, name: string) {
   const href = URL.createObjectURL(blob);
