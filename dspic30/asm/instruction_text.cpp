@@ -22,7 +22,7 @@ std::string hex(std::int64_t value) {
   return text;
 }
 
-// --- reading operands -----------------------------------------------------------------------------------
+// --- reading operands
 
 // "w12" -> 12; -1: no register
 int register_number(const std::string& text) {
@@ -103,7 +103,7 @@ Written read_operand(const std::string& text) {
   return out;
 }
 
-// --- does an operand look like what the row wants? ------------------------------------------------------
+// --- does an operand look like what the row wants?
 
 bool is_accumulator(const Written& o) {
   return o.kind == Written::Plain && (lower(o.text) == "a" || lower(o.text) == "b");
@@ -277,7 +277,7 @@ bool fits_row(const Row& row, const std::vector<Written>& all, Choice& choice) {
   return at == all.size() && (!row.legal || row.legal(f));
 }
 
-// --- mnemonics ------------------------------------------------------------------------------------------
+// --- mnemonics
 
 bool takes_byte(const Row& row) {
   for (const Operand kind : row.kinds)
@@ -416,7 +416,7 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
   return {};
 }
 
-// --- values ---------------------------------------------------------------------------------------------
+// --- values
 
 namespace {
 

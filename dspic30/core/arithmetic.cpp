@@ -8,7 +8,7 @@ namespace {
 
 using namespace operands;
 
-// --- what is done with two operands ---------------------------------------------------------------------
+// --- what is done with two operands
 
 template <bool Byte>
 unsigned inverse(unsigned x) {
@@ -73,7 +73,7 @@ struct Ior {
   }
 };
 
-// --- what is done with one ------------------------------------------------------------------------------
+// --- what is done with one
 
 template <int Step>
 struct Inc {
@@ -161,7 +161,7 @@ struct Same {  // MOV f
   }
 };
 
-// --- instructions ---------------------------------------------------------------------------------------
+// --- instructions
 
 template <class Op, bool Byte, class A, class B, class To>
 const Decoded* binary(Cpu& cpu, const Decoded* d) {

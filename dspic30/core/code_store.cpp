@@ -79,7 +79,7 @@ Decoded& Decoded::operator=(const Decoded& o) {
   return *this;
 }
 
-// --- one table ------------------------------------------------------------------------------------------
+// --- one table
 
 CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told,
                      std::shared_ptr<const KnownCalls> known)
@@ -194,7 +194,7 @@ void CodeTable::forget() {
   translated_ = 0;
 }
 
-// --- all of an image ------------------------------------------------------------------------------------
+// --- all of an image
 
 bool CodeStore::tell(const std::vector<std::uint32_t>& addresses) {
   const std::lock_guard lock(mutex_);

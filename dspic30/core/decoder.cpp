@@ -20,7 +20,7 @@ void pointer_steps(unsigned mode, int step, std::int8_t& pre, std::int8_t& post)
   post = static_cast<std::int8_t>(mode == 2 ? -step : mode == 3 ? step : 0);
 }
 
-// --- registers of a word, for stalls and for pointers never written --------------------------------------
+// --- registers of a word, for stalls and for pointers never written
 
 struct Registers {
   std::uint16_t written = 0;       // as a destination, directly
@@ -199,7 +199,7 @@ Run choose(Insn id, const Fields& f) {
   return nullptr;
 }
 
-// --- operands of a Decoded ------------------------------------------------------------------------------
+// --- operands of a Decoded
 
 void fill_registers(Decoded& d, const Row& row, const Fields& f) {
   d.s = static_cast<std::uint8_t>(f.s);

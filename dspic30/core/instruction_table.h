@@ -100,7 +100,7 @@ constexpr int sign_extend(unsigned value, int bits) {
   return static_cast<int>((value & (2 * sign - 1)) ^ sign) - static_cast<int>(sign);
 }
 
-// --- DSP prefetch -----------------------------------------------------------------------------------------
+// --- DSP prefetch
 
 /// What i or j of a MAC-class instruction says.
 struct PrefetchMode {

@@ -36,7 +36,7 @@ const Decoded* multiply_file_byte(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- division -------------------------------------------------------------------------------------------
+// --- division
 
 constexpr int kIterations = 18;
 

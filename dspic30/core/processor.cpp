@@ -60,7 +60,7 @@ void Processor::power_up(Cycle at) {
 Cycle Processor::still_since() const { return cpu_->still_since; }
 bool Processor::still_reads() const { return cpu_->still_reads; }
 
-// --- the loop -------------------------------------------------------------------------------------------
+// --- the loop
 
 // straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
@@ -196,7 +196,7 @@ void Processor::sleep(Cycle until) {
   if (cpu.course) cpu.course->waited(began, cpu.true_now());
 }
 
-// --- whoever plays the library --------------------------------------------------------------------------
+// --- whoever plays the library
 
 /// Of the handlers known by heart, a bit each: which ones the program holds off, by its level, DISI, their
 /// IEC bits, or by what goes before them; asleep all are, and beside the vectors of the other table, which
@@ -413,7 +413,7 @@ void Processor::enter_interrupt(int vector) {
   cpu.next = cpu.jump(cpu.program.read(entry.address) & 0x7FFFFE, cpu.next);
 }
 
-// --- what others look at --------------------------------------------------------------------------------
+// --- what others look at
 
 const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
 Cycle Processor::idle(Cycle at) const {

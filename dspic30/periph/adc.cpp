@@ -57,7 +57,7 @@ void Adc::set_times() {
   conversion_time_ = kConversionTads * tad_;
 }
 
-// --- the sequence -----------------------------------------------------------------------------------------
+// --- the sequence
 
 void Adc::restart_sequence() {
   begun_ = false;
@@ -117,7 +117,7 @@ void Adc::finish() {
   if (asam()) start_sampling(conversion_end_);
 }
 
-// --- cruising ---------------------------------------------------------------------------------------------
+// --- cruising
 
 bool Adc::is_regular() const {
   return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time_ > 0 &&
@@ -245,7 +245,7 @@ void Adc::int0_edge(Cycle at) {
   schedule(at);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   advance(now);

@@ -23,7 +23,7 @@ Pin compare_pin(int n) { return {Port::D, n}; }
 
 }  // namespace
 
-// --- capture ----------------------------------------------------------------------------------------------
+// --- capture
 
 void InputCapture::attach() {
   f_.bus.attach(*this, kIc, kIc + 0x1E);
@@ -133,7 +133,7 @@ Cycle InputCapture::horizon(unsigned address, Cycle now) const {
   return f_.events.when(units_[(address - kIc) / 4].slot);
 }
 
-// --- compare ----------------------------------------------------------------------------------------------
+// --- compare
 
 void OutputCompare::attach() {
   f_.bus.attach(*this, kOc, kOc + 6 * kCompares - 2);

@@ -162,7 +162,7 @@ void I2c::finish(Cycle at) {
   f_.interrupts.raise(irq::MasterI2c, at);
 }
 
-// --- as a slave -------------------------------------------------------------------------------------------
+// --- as a slave
 
 void I2c::tell_alone(const char* place, Cycle now) {
   if (f_.outside.i2c_has_master()) return;
@@ -236,7 +236,7 @@ void I2c::hear_acknowledge(bool acknowledged, Cycle at) {
     con_ &= static_cast<std::uint16_t>(~kSclrel);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t I2c::read(unsigned address, Cycle now) {
   if (address == kRcv) stat_ &= static_cast<std::uint16_t>(~kRbf);

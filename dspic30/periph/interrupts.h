@@ -216,7 +216,7 @@ class Interrupts final : public SfrOwner {
   std::array<std::int64_t, kVectors> served_{};
 };
 
-// --- acceptance, asked after everything that may change it ------------------------------------------------
+// --- acceptance, asked after everything that may change it
 
 inline int Interrupts::pending(Cycle now, int cpu_level) const {
   if (intcon1_ & kTrapFlags) {

@@ -66,7 +66,7 @@ class Outside {
  public:
   virtual ~Outside() = default;
 
-  // --- pins ---------------------------------------------------------------------------------------------
+  // --- pins
   /// What the chip puts on a port from `at` on. `driven`: its outputs; `by_peripheral`: those among them that
   /// a peripheral owns (UART, DCI, SPI, output compare; their levels are not followed bit by bit). Called
   /// when levels or driven pins have changed, and once per port at every reset.

@@ -86,7 +86,7 @@ void Timers::reset(Cycle now) {
 int Timers::flag_of(int timer) const { return kFlags[(unit(timer).wide ? timer + 1 : timer) - 1]; }
 Pin Timers::clock_pin(int timer) const { return kClockPins[timer - 1]; }
 
-// --- the counter in closed form ---------------------------------------------------------------------------
+// --- the counter in closed form
 
 std::int64_t Timers::clocks(int timer, Cycle at) const {
   const Unit& u = unit(timer);
@@ -191,7 +191,7 @@ Cycle Timers::next_reach(int timer, std::uint32_t value, Cycle after) const {
   return tick_instant(timer, nth);
 }
 
-// --- changes of course ------------------------------------------------------------------------------------
+// --- changes of course
 
 void Timers::settle(int timer, Cycle at, Cycle done) {
   Unit& u = unit(timer);
@@ -346,7 +346,7 @@ void Timers::own_edge(Pin pin, Edge edge, Cycle at) {
   }
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Timers::read(unsigned address, Cycle now) {
   const Register r = find(address);

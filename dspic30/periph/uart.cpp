@@ -74,7 +74,7 @@ UartFrame Uart::format(std::uint16_t word, Cycle start) const {
   return frame;
 }
 
-// --- out --------------------------------------------------------------------------------------------------
+// --- out
 
 void Uart::schedule_transmit(Cycle now) {
   const bool waits = transmits() && out_.count > 0 && break_since_ < 0;
@@ -123,7 +123,7 @@ void Uart::end_break(Cycle now) {
   schedule_receive(now);
 }
 
-// --- in ---------------------------------------------------------------------------------------------------
+// --- in
 
 void Uart::receive(const UartFrame& frame, Cycle now) {
   const bool looped = (mode_ & kLpback) && enabled();
@@ -200,7 +200,7 @@ void Uart::on_event(int id, Cycle at) {
   schedule_receive(at);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Uart::read(unsigned address, Cycle now) {
   if (address - base_ != kRxReg || in_.count == 0) return peek(address, now);

@@ -129,7 +129,7 @@ void Maker::put_entry() {
   ir_.CreateRet(called(alone(items_[0]), {cpu_arg_, head_arg_}));
 }
 
-// --- an instruction -------------------------------------------------------------------------------------
+// --- an instruction
 
 bool Maker::put_item(const Item& item) {
   BasicBlock* const first = blocks_[index_of(item)];

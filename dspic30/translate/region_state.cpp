@@ -178,7 +178,7 @@ bool Maker::keep_state() {
   return true;
 }
 
-// --- the end --------------------------------------------------------------------------------------------
+// --- the end
 
 void Maker::optimise() {
   legacy::FunctionPassManager passes(semantics_.module.get());

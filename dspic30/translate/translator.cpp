@@ -18,7 +18,7 @@ namespace {
 
 using namespace llvm;
 
-// --- an object file as machine code ---------------------------------------------------------------------
+// --- an object file as machine code
 
 /// Sections that are loaded, one behind the other, that of the instructions first.
 std::map<object::SectionRef, std::uint64_t> laid_out(const object::ObjectFile& object, std::string& bytes) {
@@ -60,7 +60,7 @@ bool take_addresses(const object::ObjectFile& object, MachineCode& code) {
   return true;
 }
 
-// --- the compiler ---------------------------------------------------------------------------------------
+// --- the compiler
 
 struct Compiler {
   LLVMContext context;

@@ -59,7 +59,7 @@ std::uint64_t ScanVariables::share_q32() const {
   return share_.q32;
 }
 
-// --- samples ---------------------------------------------------------------------------------------------
+// --- samples
 
 std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - cycles_.scan_files); }
 
@@ -135,7 +135,7 @@ std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
   }
 }
 
-// --- words -----------------------------------------------------------------------------------------------
+// --- words
 
 std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const {
   const Place place = place_of(address);

@@ -63,7 +63,7 @@ void BluetoothModule::settle_idle() {
   if (!is_idle() && wake) wake();
 }
 
-// --- UART 1 ----------------------------------------------------------------------------------------------
+// --- UART 1
 
 void BluetoothModule::deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) {
   std::size_t i = 0;
@@ -151,7 +151,7 @@ void BluetoothModule::follow_computer(sim::Clicks now) {
   }
 }
 
-// --- links -----------------------------------------------------------------------------------------------
+// --- links
 
 void BluetoothModule::tell(int to, Kind kind, Bytes bytes, sim::Clicks at, bool reliable) {
   sim::LinkMessage message;

@@ -69,7 +69,7 @@ int Board::port_index(char port) {
 
 void Board::find_sound() { may_hear_ = scene_ && sim::has_sound(*scene_); }
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 
 Stepper& Board::stepper(Wheel wheel, Cycle at) {
   if (driver_) driver_->bring_motor(wheel, at);
@@ -98,7 +98,7 @@ void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Right, at).connect((tris_[kD] & kRightCoils) == 0, at);
 }
 
-// --- ports -----------------------------------------------------------------------------------------------
+// --- ports
 
 std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   const int index = port_index(port);
@@ -355,7 +355,7 @@ Cycle Board::horizon(Cycle at) const {
   return driver_ ? driver_->horizon(at) : kNever;
 }
 
-// --- analogue inputs -------------------------------------------------------------------------------------
+// --- analogue inputs
 
 IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);

@@ -129,7 +129,7 @@ class Board {
   const Setup& setup() const { return setup_; }
   const RobotClock& clock() const { return clock_; }
 
-  // --- the world ------------------------------------------------------------------------------------------
+  // --- the world
 
   /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
   void look_at(const sim::Scene* scene) {
@@ -159,7 +159,7 @@ class Board {
   /// Everything that must repeat from run to run.
   std::uint64_t state_hash(Cycle at) const;
 
-  // --- pins and registers ---------------------------------------------------------------------------------
+  // --- pins and registers
 
   enum class Register { Tris, Port, Lat };
   /// Word of port 'A' 'B' 'C' 'D' 'F' 'G' as the processor reads it now; other letters read 0. PORT gives pin
@@ -186,7 +186,6 @@ class Board {
   void set_battery(double volts, Cycle at);
 
   // --- damage: damage.h, line_damage.h
-  // ----------------------------------------------------------------------
 
   /// Null: nothing was ever wrong with it.
   const Damage* damage() const { return damage_.get(); }
@@ -230,13 +229,13 @@ class Board {
     const Damage* damage_;
   };
 
-  // --- checks ---------------------------------------------------------------------------------------------
+  // --- checks
 
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
   /// `at`, in no order. Costs nothing while nobody asks.
   std::vector<Diagnosis> diagnoses(Cycle at) const;
 
-  // --- devices --------------------------------------------------------------------------------------------
+  // --- devices
 
   /// A model of the chip is soldered on: its pins alone move the board's, and it asks for the microphones at
   /// every conversion.

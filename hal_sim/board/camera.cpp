@@ -36,7 +36,7 @@ double light_of_count(const SensorSetup& s, double count) {
 Camera::Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise)
     : board_(board), sensor_(sensor), mount_(mount), noise_(noise), exposure_s_(kStartExposureS) {}
 
-// --- frames ----------------------------------------------------------------------------------------------
+// --- frames
 
 SensorSetup Camera::setup() const { return sensor_.setup(); }
 
@@ -112,7 +112,7 @@ void Camera::plan_line() {
   }
 }
 
-// --- light -----------------------------------------------------------------------------------------------
+// --- light
 
 /// Tangents for each pixel along a line and down the lines.
 std::array<double, 2> Camera::scale() const {

@@ -82,7 +82,7 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
   if (sends_sound_ && board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
-// --- pins ------------------------------------------------------------------------------------------------
+// --- pins
 
 void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t driven,
                                std::uint16_t by_peripheral, Cycle at) {
@@ -219,7 +219,7 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
   return Outside::nth_edge(pin, edge, after, n);
 }
 
-// --- analogue, serial ------------------------------------------------------------------------------------
+// --- analogue, serial
 
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   if (channel >= board::kMicChannel && channel < board::kAccChannel)
@@ -268,7 +268,7 @@ void BoardOutside::i2c_stop(Cycle at) {
   board_.i2c().stop(at);
 }
 
-// --- codec -----------------------------------------------------------------------------------------------
+// --- codec
 
 // the codec looks at the word that begins a frame; those of other slots are for other devices on the line
 std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {

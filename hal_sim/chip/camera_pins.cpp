@@ -50,7 +50,7 @@ bool CameraPins::take_news() {
   return news;
 }
 
-// --- edges -----------------------------------------------------------------------------------------------
+// --- edges
 
 std::int64_t CameraPins::count(int bit, bool rising, Cycle at) const {
   const std::int64_t frame = floor_div(at - f_.start, f_.length);
@@ -105,7 +105,7 @@ Cycle CameraPins::next_byte(Cycle after) {
   return std::min(nth_edge(Href, true, after, 1), nth_edge(Pclk, false, after, 1));
 }
 
-// --- levels ----------------------------------------------------------------------------------------------
+// --- levels
 
 std::uint16_t CameraPins::levels(Cycle at) {
   if (!refresh(at)) return 0;
@@ -148,7 +148,7 @@ std::uint8_t CameraPins::data(Cycle at) {
   return byte;
 }
 
-// --- pictures --------------------------------------------------------------------------------------------
+// --- pictures
 
 void CameraPins::note_read(std::int64_t line, std::int64_t index, std::uint8_t byte, Cycle at) {
   if (lines_.empty() || lines_.back().line != line) lines_.push_back({line, index, -1, 0, {}});

@@ -134,7 +134,7 @@ void ChipRunner::program_eeprom() {
   }
 }
 
-// --- time -------------------------------------------------------------------------------------------------
+// --- time
 
 /// Behind windows that it was idle for: there is nothing in them but time.
 void ChipRunner::catch_up(Cycle now) {

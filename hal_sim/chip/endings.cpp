@@ -100,7 +100,7 @@ Ending Endings::of_null_pointer(unsigned from) const {
           places_.own(from)};
 }
 
-// --- RESET ------------------------------------------------------------------------------------------------
+// --- RESET
 
 std::optional<Ending> Endings::of_instruction(unsigned at) const {
   if (const auto given_up = of_giving_up(at)) return given_up;

@@ -97,7 +97,7 @@ void LibraryCalls::forget_starts() {
   idle_agendas_.clear();
 }
 
-// --- what a call says ------------------------------------------------------------------------------------
+// --- what a call says
 
 void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
@@ -212,7 +212,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
           1};
 }
 
-// --- standing still --------------------------------------------------------------------------------------
+// --- standing still
 
 std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
   return wheel == 0 ? board_.left_steps(now) : board_.right_steps(now);
@@ -261,7 +261,7 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
   return all;
 }
 
-// --- what the library's handlers would stumble over ------------------------------------------------------
+// --- what the library's handlers would stumble over
 
 void LibraryCalls::index_written(api::HostVariable index, unsigned value, int size) {
   const std::string name =
@@ -289,7 +289,7 @@ void LibraryCalls::stack_out_of_range(unsigned stack, unsigned least, unsigned l
           "see that nothing writes to W15 or SPLIM, and how deep calls and local arrays reach");
 }
 
-// --- telling ---------------------------------------------------------------------------------------------
+// --- telling
 
 /// The call that led here; one of the host's functions need not have left a return address.
 unsigned LibraryCalls::caller() const {

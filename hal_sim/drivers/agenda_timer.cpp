@@ -30,7 +30,7 @@ AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
 
-// --- ticks -----------------------------------------------------------------------------------------------
+// --- ticks
 
 std::int64_t AgendaTimer::ticks_at(Cycle at) const {
   if (walking_) return walk_tick_;
@@ -105,7 +105,7 @@ void AgendaTimer::forget(Cycle at) {
   if (!walking_) find_next_fire();
 }
 
-// --- the list --------------------------------------------------------------------------------------------
+// --- the list
 
 AgendaTimer::Node* AgendaTimer::find(Function function) {
   for (Node& node : nodes_)
@@ -253,7 +253,7 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
   motor_functions_[static_cast<int>(wheel)] = function;
 }
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at) {
   if (coils_off_at < at) {
@@ -326,7 +326,7 @@ Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
 
-// --- the interrupt handler -------------------------------------------------------------------------------
+// --- the interrupt handler
 
 Cycle AgendaTimer::next_interrupt() const {
   if (!running_ || walking_ || next_fire_ < 0) return kNever;
@@ -466,7 +466,7 @@ void AgendaTimer::release(Cycle at) {
   resume(done, at);
 }
 
-// --- costs and digest ------------------------------------------------------------------------------------
+// --- costs and digest
 
 Cycle AgendaTimer::cost_of(const Node& node) const {
   const AgendaCount& count = count_of(node);

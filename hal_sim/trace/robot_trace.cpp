@@ -62,7 +62,7 @@ RobotTrace::~RobotTrace() {
   if (runner_) runner_->observe(nullptr);
 }
 
-// --- signals ---------------------------------------------------------------------------------------------
+// --- signals
 
 void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
@@ -202,7 +202,7 @@ void RobotTrace::frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycl
   if (shown) frames_[line].push_back({byte, start, end});
 }
 
-// --- the processor's course ------------------------------------------------------------------------------
+// --- the processor's course
 
 void RobotTrace::handler_begins(int vector, Cycle flagged, Cycle entry, Cycle first) {
   reached(entry);

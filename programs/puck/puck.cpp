@@ -115,7 +115,7 @@ Puck::Puck(board::Board& board, Cycle start)
 
 sim::Vec3 Puck::in_world_axes(const sim::Vec3& v) const { return in_axes(board_, v); }
 
-// --- the list ------------------------------------------------------------------------------------
+// --- the list
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
   devices_.push_back({name, kind, node, index, std::move(needs)});
@@ -258,7 +258,7 @@ void Puck::find_device(const std::string& name, link_packet& to) {
   put_nothing(to, "got device \"" + name + "\", expected one that this robot has");
 }
 
-// --- commands ------------------------------------------------------------------------------------
+// --- commands
 
 void Puck::note(std::uint64_t what) { hash_ = sim::fold(hash_, what); }
 
@@ -376,7 +376,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
   return "";
 }
 
-// --- samples -------------------------------------------------------------------------------------
+// --- samples
 
 void Puck::sample(std::int64_t milliseconds, Cycle at, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -596,7 +596,7 @@ void Puck::tell_playing(Cycle at, link_packet& to) {
     }
 }
 
-// --- time ----------------------------------------------------------------------------------------
+// --- time
 
 Cycle Puck::next_event() const {
   Cycle next = wheels_.next_event();

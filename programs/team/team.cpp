@@ -85,7 +85,7 @@ int Team::number_of(const Member& member) const {
   return -1;
 }
 
-// --- between ticks -------------------------------------------------------------------------------
+// --- between ticks
 
 void Team::before_first_tick() {
   if (began_) return;
@@ -257,7 +257,7 @@ void Team::turn(Member& member) {
   }
 }
 
-// --- what a program says -------------------------------------------------------------------------
+// --- what a program says
 
 bool Team::carry_out(Member& member) {
   link_reader reader;
@@ -379,7 +379,7 @@ void Team::step(Member& member, std::int64_t milliseconds) {
   done(member, 0);
 }
 
-// --- how programs end ----------------------------------------------------------------------------
+// --- how programs end
 
 void Team::refuse(Member& member, const std::string& why) {
   link_clear(&packet_);
@@ -464,7 +464,7 @@ void Team::finish() {
   }
 }
 
-// --- text ----------------------------------------------------------------------------------------
+// --- text
 
 void Team::print(Member& member, const char* text, std::size_t bytes) {
   constexpr std::size_t kLongestLine = 4096;

@@ -229,7 +229,7 @@ class Renderer {
     }
   }
 
-  // --- light ---------------------------------------------------------------------------------------------
+  // --- light
 
   Vec3 point_of(const Pixel& pixel, std::size_t row, std::size_t column) const {
     const Vec2 p = eye_ + pixel.depth_m * (ahead_ + right_[column] * rightward_);

@@ -111,7 +111,7 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
   EXPECT_NEAR(frames, served, 2.5);
 }
 
-// --- programs of this test -------------------------------------------------------------------------------
+// --- programs of this test
 
 const char* const kHead = R"(
 #include <p30F6014A.h>

@@ -237,7 +237,7 @@ TEST(Agendas, negative_cycles_are_huge) {
   EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
 }
 
-// --- ticked == closed ------------------------------------------------------------------------------------
+// --- ticked == closed
 
 const void* const kFunctions[] = {&user_a, &user_b, &user_c};
 

@@ -136,7 +136,7 @@ TEST_F(I2c, pins_can_be_driven_by_hand_only_while_it_is_off) {
   EXPECT_EQ(b.read("PORTG", now + 5) & 0xC, 0u);
 }
 
-// --- DCI ---------------------------------------------------------------------------------------------------
+// --- DCI
 
 /// The library's settings while it plays: bit clock 8 cycles, 16 words of 16 bits, slot 0 only, four buffers.
 struct Dci : ::testing::Test {
@@ -241,7 +241,7 @@ TEST_F(Dci, no_bit_clock_without_bcg) {
   EXPECT_FALSE(b.flag(irq::Dci, 1000000));
 }
 
-// --- SPI ---------------------------------------------------------------------------------------------------
+// --- SPI
 
 // PPRE = 3 (1:1), SPRE = 6 (2:1): 2 cycles a bit, 16 for a byte
 TEST(Spi, byte_takes_eight_clocks) {

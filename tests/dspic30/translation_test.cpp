@@ -62,7 +62,7 @@ table: .pword 0xAB0102
   }
 }
 
-// --- functions that are called -----------------------------------------------------------------------------
+// --- functions that are called
 
 /// Keeps what was translated together, by the address where it begins.
 struct Onlooker final : dspic::Translator {
@@ -150,7 +150,7 @@ __StackError: bra __StackError)",
   }
 }
 
-// --- functions of the host --------------------------------------------------------------------------------
+// --- functions of the host
 
 /// Function 0 looks: W0 becomes the time in 64s, in 20 cycles, and stays so. Function 1 changes something: W0
 /// and W1 are added up at 0x0900, and each seventh time the outlook is another. Function 2 waits until a
@@ -346,7 +346,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_EQ(onlooker.stretches[benches[1].symbol("loop")].size(), 9u);
 }
 
-// --- routines that are known by heart ----------------------------------------------------------------------
+// --- routines that are known by heart
 
 // W2 where W1 is odd, else W1; but where W1 is a multiple of 16 it is not known
 dspic::KnownAnswer choice_of(std::uint64_t w0_to_w3) {

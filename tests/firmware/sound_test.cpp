@@ -173,7 +173,7 @@ int main(void) {
   EXPECT_NEAR(r.variable<std::uint32_t>("cycles"), 3 * 315, 150);  // three blocking conversions and the calls
 }
 
-// --- transform -----------------------------------------------------------------------------------------
+// --- transform
 
 // as runfftlistener does: 33 kHz, a full buffer, scan off, mean off, transform. 100 samples, the rest zeros:
 // bins of 32768 / 256 = 128 Hz, so 1 kHz lies at 7.8: bin 8
@@ -356,7 +356,7 @@ int main(void) {
   EXPECT_EQ(r.variable("half"), 1);
 }
 
-// --- loudspeaker ---------------------------------------------------------------------------------------
+// --- loudspeaker
 
 // haa: 2112 samples; the flag falls with the interrupt at which the last four go out, 527 groups after the
 // first

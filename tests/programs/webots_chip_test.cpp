@@ -333,7 +333,6 @@ int main(void) {
 }
 
 // --- building
-// -------------------------------------------------------------------------------------------------
 
 class WebotsForChip : public testing::Test {
  protected:

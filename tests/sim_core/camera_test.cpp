@@ -139,7 +139,7 @@ TEST(Camera, lit_leds_of_other_robots_glow) {
   EXPECT_NEAR(look(), 3.0f, 1e-5);  // kLedGlow times red, on a black body
 }
 
-// --- the yardstick: one ray per pixel, every solid ---------------------------------------------------------
+// --- the yardstick: one ray per pixel, every solid
 
 Light plain_pixel(const sim::Scene& scene, int robot, double right, double up) {
   const sim::Frame2 body(scene.pose(robot, scene.now()));

@@ -41,7 +41,7 @@ struct Scene {
   const char* code;
 };
 
-// --- the program -----------------------------------------------------------------------------------------
+// --- the program
 
 // lists are written newest first
 const Scene kScenes[] = {
@@ -232,7 +232,7 @@ std::string source() {
   return text + "  done = 1;\n  for (;;);\n}\n";
 }
 
-// --- the watch -------------------------------------------------------------------------------------------
+// --- the watch
 
 /// What a scene has taken.
 struct Taken {
