@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Webots lets bodies begin inside each other and pushes them apart; our loader refuses such worlds. Asks its
-// check which bodies are meant and gives way: movable objects are fixed, robots step aside, what has no room
-// goes.
+// Webots lets bodies begin inside each other and pushes them apart; our loader refuses such worlds.
+// Asks its check which bodies are meant and gives way: movable objects are fixed, robots step aside,
+// what has no room goes.
 #include <fmt/format.h>
 
 #include <algorithm>

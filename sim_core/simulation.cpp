@@ -176,8 +176,8 @@ void Simulation::gather_due(Clicks end) {
   std::inplace_merge(due_.begin(), due_.begin() + known, due_.end());
 }
 
-/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed share of the
-/// robots.
+/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed
+/// share of the robots.
 void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
     const auto begin = std::lower_bound(due_.begin(), due_.end(), static_cast<int>(first));

@@ -60,8 +60,8 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std:
   }
 }
 
-/// The forms of drivers that the program shall call (driver_variants.h), which the linker sees to by
-/// `renames`.
+/// The forms of drivers that the program shall call (driver_variants.h), which the linker
+/// sees to by `renames`.
 std::vector<DriverChoice> choose_drivers(const std::vector<CompileOutcome>& user,
                                          const std::vector<CompileOutcome>& members,
                                          const std::vector<CompileJob>& jobs, const Program& program,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See shared_variables.h. The points-to sets are Andersen's: constraints between nodes, solved by a work
-// list.
+// See shared_variables.h. The points-to sets are Andersen's: constraints between nodes,
+// solved by a work list.
 #include "shared_variables.h"
 
 #include <algorithm>

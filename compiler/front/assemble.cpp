@@ -47,8 +47,8 @@ std::string file_below(const std::string& folder, StringRef name) {
   return !parts.empty() && sys::fs::is_regular_file(at) ? at.str().str() : "";
 }
 
-/// `.include "E_Common.INC"` and .incbin say the file that is meant. Lines stay where they are. `found`:
-/// those files.
+/// `.include "E_Common.INC"` and .incbin say the file that is meant. Lines stay where they are.
+/// `found`: those files.
 std::string with_found_files(StringRef text, const std::vector<std::string>& folders,
                              std::vector<std::string>& found) {
   std::string out;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// --sanitize: local variables that can be missed, or read before they are written, stay in memory with a gap
-// on both sides, and are told when they come into being; clang's checks of 16-bit arithmetic call functions
-// without arguments, whose place says all. What is looked at, and how, is no affair of the program's
-// (dspic30/core/memory_check.h).
+// --sanitize: local variables that can be missed, or read before they are written, stay in memory with
+// a gap on both sides, and are told when they come into being; clang's checks of 16-bit arithmetic
+// call functions without arguments, whose place says all. What is looked at, and how, is no affair of
+// the program's (dspic30/core/memory_check.h).
 #include <map>
 
 #include "chip.h"

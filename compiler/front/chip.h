@@ -35,8 +35,8 @@ inline constexpr const char* kAttributePrefix = "tp_";
 /// Gives variables whose attributes were read since the last call their sections.
 void place_variables(clang::ASTContext& context);
 
-/// Prefix of annotations by which attributes of functions and variables travel from clang to the later
-/// stages: "dspic:save=_a,_b".
+/// Prefix of annotations by which attributes of functions and variables travel from clang to the
+/// later stages: "dspic:save=_a,_b".
 inline constexpr const char* kNote = "dspic:";
 /// What the text of an annotation says behind it; empty when it is nobody's of ours.
 llvm::StringRef note_in(const llvm::Value* text);

@@ -82,8 +82,8 @@ struct MergeFieldReadsPass : PassInfoMixin<MergeFieldReadsPass> {
   }
 
  private:
-  /// The next access is the store of a value made of both readings, each masked to bits the other does not
-  /// take.
+  /// The next access is the store of a value made of both readings, each masked to bits the
+  /// other does not take.
   static bool is_modified(LoadInst& rest, LoadInst& bit) {
     using namespace PatternMatch;
     for (Instruction* i = rest.getNextNode(); i; i = i->getNextNode()) {

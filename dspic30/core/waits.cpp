@@ -69,8 +69,8 @@ void Waits::begin(Cpu& cpu) {
   if (!comes_round_) begin_round(cpu);
 }
 
-// a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does
-// so still
+// a loop that counts is soon over, or comes to where its flags change: it goes on for so long.
+// False: it does so still
 bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
   if (rounds < 0 || was_passed(count.round(), kFewestRounds + 4)) return false;
   const Cycle pause = (rounds + 2) * count.round().took;

@@ -123,8 +123,8 @@ class Look {
     return "";
   }
 
-  /// An instruction with a register's address in it, as compilers write them. Not seen: one that goes by a
-  /// pointer.
+  /// An instruction with a register's address in it, as compilers write them. Not seen: one
+  /// that goes by a pointer.
   std::string of_code(const Section& s) const {
     if (s.kind != Kind::Code) return "";
     for (std::uint32_t i = 0; i + kWordOctets <= s.bytes.size(); i += kWordOctets) {

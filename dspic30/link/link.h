@@ -44,8 +44,8 @@ struct Options {
   std::map<std::string, std::string> library_renames;  ///< the same for what archives ask for
   unsigned heap_bytes = 512;                           ///< for malloc(), if it is used
   unsigned gap_bytes = 0;  ///< behind each variable, where there is room; not 0: of an image to be checked
-  /// Object to source, archive to its name for people. Line tables may have been written for a copy
-  /// elsewhere.
+  /// Object to source, archive to its name for people. Line tables may have been written
+  /// for a copy elsewhere.
   std::map<std::string, std::string> sources;
   std::string moved_from, moved_to;  ///< as in CodeMap: sources of the library
   std::string host_library;          ///< of `libraries` the archive with the drivers below

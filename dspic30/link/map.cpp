@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The map: what each module takes, its sections with address and size, then all sections and all symbols by
-// address.
+// The map: what each module takes, its sections with address and size, then all sections and all
+// symbols by address.
 #include <algorithm>
 #include <cstdio>
 

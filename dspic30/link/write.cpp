@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The image as files: Intel HEX and ELF in the vendor's manner, which the simulator, debuggers and
-// programmers read.
+// The image as files: Intel HEX and ELF in the vendor's manner, which the simulator, debuggers
+// and programmers read.
 #include <elf.h>
 
 #include <algorithm>

@@ -66,8 +66,8 @@ Places place(const SmallVectorImpl<Argument>& arguments, bool variadic) {
       while (!arguments[end++].Flags.isSplitEnd()) {
       }
     const unsigned size = is_struct(a) ? (a.Flags.getByValSize() + 1) / 2 : end - i;
-    // a struct that is a whole word, pair or four of them travels like an integer of its size, unless it is
-    // odd
+    // a struct that is a whole word, pair or four of them travels like an integer of its
+    // size, unless it is odd
     const Align align = is_struct(a) ? a.Flags.getNonZeroByValAlign() : Align(2);
     const bool is_whole = !is_struct(a) || (a.Flags.getByValSize() == 2 * size && align == Align(2));
     const unsigned step = is_whole && (size == 2 || size == 4) ? size : 1;

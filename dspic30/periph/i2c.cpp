@@ -206,8 +206,8 @@ bool I2c::hear_byte(std::uint8_t byte, Cycle at) {
   return true;
 }
 
-// what was not read before is kept, the byte is lost and not acknowledged, and the interrupt comes all the
-// same
+// what was not read before is kept, the byte is lost and not acknowledged, and the
+// interrupt comes all the same
 bool I2c::take_in(std::uint8_t byte, Cycle at) {
   f_.interrupts.raise(irq::SlaveI2c, at);
   if (stat_ & kRbf) {
@@ -313,8 +313,8 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         const bool was_low = !f_.ports.level(kSda, now);
         f_.ports.own_input(kScl, now + 1);  // open drain: the outside gives the level
         f_.ports.own_input(kSda, now + 1);
-        // pins that the port held low rise as it takes them over, the clock no later than the data: a stop
-        // [?]
+        // pins that the port held low rise as it takes them over, the clock no later than
+        // the data: a stop [?]
         if (was_low && f_.ports.level(kScl, now + 2) && f_.ports.level(kSda, now + 2)) stat_ |= kP;
       }
       request(fresh, now);

@@ -29,8 +29,8 @@ struct Pin {
 
 enum class Edge : std::uint8_t { Rising, Falling };
 
-/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its pull-up (CNPUx)
-/// or 0.
+/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its
+/// pull-up (CNPUx) or 0.
 struct PinLevels {
   std::uint16_t levels = 0;  ///< 1: high
   std::uint16_t driven = 0;  ///< 1: the outside decides this pin's level, digitally
@@ -90,8 +90,8 @@ class Outside {
   /// whenever and however often it is asked, for the last conversions of every channel. Then a converter that
   /// scans by itself asks only for results that somebody reads.
   virtual bool analogue_is_function_of_time() const { return false; }
-  /// The chip's supply, V, for the low-voltage detector; asked when it is switched on and at
-  /// outside_changed().
+  /// The chip's supply, V, for the low-voltage detector; asked when it is switched on
+  /// and at outside_changed().
   virtual double supply_v(Cycle at) { return 3.3; }
 
   // --- UART 1 and 2

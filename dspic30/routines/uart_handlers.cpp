@@ -4,10 +4,10 @@
 //   flag --entry--> saved registers, flag down, bytes between ring or caller's memory and the module's FIFOs,
 //   RETFIE
 //
-// The module is the chip's: each access to it comes at the cycle at which the handler's own code would make
-// it. Known by heart is what lies between. Where anything else may happen before the handler is over, where
-// somebody looks on, or where the code is another one, the handler runs. So nothing but the PC's time depends
-// on it.
+// The module is the chip's: each access to it comes at the cycle at which the handler's own code would
+// make it. Known by heart is what lies between. Where anything else may happen before the handler is over,
+// where somebody looks on, or where the code is another one, the handler runs. So nothing but the PC's
+// time depends on it.
 #include <array>
 
 #include "dspic30/core/waits.h"
@@ -186,8 +186,8 @@ class UartHandler {
     return true;
   }
 
-  /// Entry and the registers that it saves; `pairs` of W registers from W0 up. Its first instruction begins
-  /// at begin_.
+  /// Entry and the registers that it saves; `pairs` of W registers from W0 up. Its first
+  /// instruction begins at begin_.
   void enter(unsigned pairs) {
     cpu_.waits->cut(cpu_);
     Interrupts& interrupts = cpu_.parts.interrupts;

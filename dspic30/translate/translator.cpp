@@ -102,8 +102,8 @@ struct Compiler {
 /// For the program that loads this: one that was built of other headers has the core's fields elsewhere.
 extern "C" const std::size_t dspic_translate_cpu_bytes = sizeof(dspic::Cpu);
 
-/// `code` stays empty where something in the stretch cannot be translated, or on a machine that LLVM does not
-/// know.
+/// `code` stays empty where something in the stretch cannot be translated, or on a machine that
+/// LLVM does not know.
 extern "C" void dspic_translate(const dspic::Cpu& cpu, const std::vector<dspic::translate::Item>& items,
                                 dspic::translate::MachineCode& code) {
   static auto* const compiler = new dspic::translate::Compiler;

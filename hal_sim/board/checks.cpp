@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checks of the board: what a program does to motors, emitters and pins that no register knows to be wrong.
-// Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are made when asked
-// for.
+// Checks of the board: what a program does to motors, emitters and pins that no register knows to be
+// wrong. Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are
+// made when asked for.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>

@@ -26,8 +26,8 @@ class I2cDevice {
   /// A stop, or a start for somebody else.
   virtual void end(Cycle at) {}
 
-  /// The processor was reset; devices with power of their own keep what they hold, so the default does
-  /// nothing.
+  /// The processor was reset; devices with power of their own keep what they hold, so the
+  /// default does nothing.
   virtual void processor_reset(Cycle at) {}
 
   /// It begins as when it was first switched on.

@@ -183,8 +183,8 @@ class PtyEnd : public UartEnd {
     }
   }
 
-  // the thread: from the terminal to heard_; and who left is noticed before the next one can read what it
-  // left
+  // the thread: from the terminal to heard_; and who left is noticed before the next one
+  // can read what it left
   void listen() {
     pollfd watched[3] = {{master_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}, {watch_.get(), POLLIN, 0}};
     while (::poll(watched, watch_.valid() ? 3 : 2, -1) >= 0 || errno == EINTR) {

@@ -21,8 +21,8 @@ inline constexpr double kMicCountsPerPa =
     kMicSensitivityVPa / kAdcReferenceV * (kAdcMax + 1);  // [derived: sensitivity and converter]
 inline constexpr double kMicIdleCounts =
     2048;  // [assumed: biased at half the supply; demos expect about 2000]
-// the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
-// theirs
+// the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a
+// moving robot add theirs
 inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
 
 // --- codec and loudspeaker

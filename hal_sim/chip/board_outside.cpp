@@ -115,8 +115,8 @@ std::uint16_t BoardOutside::on_board(Port port, std::uint16_t lat, Cycle at) {
   return static_cast<std::uint16_t>((lat & ~kept) | (board_.port_read('D', Board::Register::Lat, at) & kept));
 }
 
-// a port that holds the line low where its module has let go: whoever listens takes more than a word for a
-// break
+// a port that holds the line low where its module has let go: whoever listens takes more
+// than a word for a break
 void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
   low_lines_ = low;
   for (int n = 1; n <= 2; ++n) {

@@ -69,8 +69,8 @@ class BoardOutside final : public dspic::Outside {
  private:
   /// The codec's clocks: the bit clock, and whether it agrees with the codec's registers.
   void follow_codec(dspic::Dspic30f6014a& chip, Cycle now);
-  /// When the IR emitters of one line went on and off, in turns: results of the converter are asked for
-  /// later.
+  /// When the IR emitters of one line went on and off, in turns: results of the converter
+  /// are asked for later.
   struct Emitter {
     static constexpr int kRemembered = 16;
     std::array<Cycle, kRemembered> changed{};

@@ -61,8 +61,8 @@ class AgendaTimer {
   /// Timer 2 stops; nothing counts until the next start.
   void stop(Cycle at);
   bool is_running() const { return running_; }
-  /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
-  /// current.
+  /// Processor reset: list, statics and timer as after loading; wheels keep their position and
+  /// lose their current.
   void reset(Cycle at);
   /// The driver's variables alone return to their start values: no agenda, speed 0. Timer and coils go on.
   void forget(Cycle at);
@@ -116,8 +116,8 @@ class AgendaTimer {
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`, which is not before the last instant that anybody asked for.
   const Stepper& stepper_at(Wheel wheel, Cycle at) const;
-  /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other
-  /// drivers).
+  /// The motor itself, brought to `at`; changing it is up to the caller (pins written
+  /// directly, other drivers).
   Stepper& stepper(Wheel wheel, Cycle at);
 
   // --- the interrupt handler
@@ -135,8 +135,8 @@ class AgendaTimer {
   void finish(Cycle at);
   bool is_walking() const { return walking_; }
 
-  /// Nodes that a search for this function passes before it finds its own: those added later; all when it has
-  /// none.
+  /// Nodes that a search for this function passes before it finds its own: those added later;
+  /// all when it has none.
   int nodes_passed(Function function) const;
   bool is_motor(Function function) const {
     return function && (function == motor_functions_[0] || function == motor_functions_[1]);

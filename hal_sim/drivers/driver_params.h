@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every number of the library's drivers that their closed forms need, each with one source (tags as in
-// hal_sim/board/epuck_params.h).
+// Every number of the library's drivers that their closed forms need, each with one source (tags
+// as in hal_sim/board/epuck_params.h).
 #pragma once
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/sound_params.h"

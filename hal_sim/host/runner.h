@@ -76,12 +76,12 @@ class Runner {
   /// A window begins at `now`, after Board::exchange(): what came from outside is on its way. Windows that
   /// were left out, because idle_until() lies beyond them, have passed.
   virtual void begin_window(Cycle now) = 0;
-  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it, which
-  /// the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks on
-  /// nothing outside.
+  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it,
+  /// which the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks
+  /// on nothing outside.
   virtual void run_until(Cycle end) = 0;
-  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs on, kNever: for
-  /// ever.
+  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs
+  /// on, kNever: for ever.
   virtual Cycle idle_until() const = 0;
   /// The windows up to `end`, before which it is idle, have passed.
   virtual void pass_to(Cycle end) = 0;
@@ -93,8 +93,8 @@ class Runner {
   virtual void wake() = 0;
   /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
   virtual void remote_changed() = 0;
-  /// The reset button: the program begins anew at the end of the last window, also after a trap. Traps stay
-  /// reported.
+  /// The reset button: the program begins anew at the end of the last window, also after a trap.
+  /// Traps stay reported.
   virtual void restart() = 0;
   /// Behind restart(): as when it was first switched on, not as behind the button. For a program of the PC
   /// that is the same.

@@ -26,8 +26,8 @@ constexpr int kFullScale = 4095;
 constexpr double kGroundScale = 1000;     // [Webots: E-puckGroundSensors.proto, lookup table]
 constexpr double kRingApertureRad = 0.3;  // [assumed: as the usual profile's lobe]
 constexpr double kInfraRed = 1, kGeneric = 0, kLaser = 3;  // WbDistanceSensorType
-// the e-puck 2's sensor of the time of flight, which looks ahead [Webots: E-puck.proto, version 2: 0 to 2 m
-// in mm]
+// the e-puck 2's sensor of the time of flight, which looks ahead
+// [Webots: E-puck.proto, version 2: 0 to 2 m in mm]
 constexpr double kTofMostMm = 2000, kTofForwardM = 0.035, kTofHeightM = 0.028;
 constexpr double kMicZero = 2048, kMicScale = 16;  // 12 bits of the converter to signed 16
 constexpr double kAccZero = 2048, kAccPerG = 768;  // counts [lib: a_d/advance_ad_scan/e_acc.h]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid covers the fixed solids and one cell around them; whatever is outside is binned in the border
-// cells.
+// The grid covers the fixed solids and one cell around them; whatever is outside is binned
+// in the border cells.
 #include "sim_core/geometry/neighbours.h"
 
 #include <algorithm>

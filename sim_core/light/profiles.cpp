@@ -29,8 +29,8 @@ std::vector<ResponseRow> inverse_square_table() {
   return rows;
 }
 
-/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts. [Enki:
-/// IRSensor.cpp]
+/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts.
+/// [Enki: IRSensor.cpp]
 std::vector<ResponseRow> enki_table() {
   constexpr double m = 3731, x0_cm = 0.3, c_cm2 = 0.7, noise_counts = 10, range_mm = 120;
   std::vector<ResponseRow> rows;

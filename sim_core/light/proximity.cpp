@@ -191,8 +191,8 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundi
   return any;
 }
 
-/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a flat wall leaves to
-/// it.
+/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a
+/// flat wall leaves to it.
 double answer_singly(const SensorOptics& s, const RayEnd* ends) {
   double sum = 0;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
@@ -362,8 +362,8 @@ Eye eye_of(const Scene& scene, int robot, int sensor, Clicks at) {
   return eye;
 }
 
-/// [Webots B3] intensity times the cosine to the sensor's axis, attenuated, mean of the colours; bodies
-/// block.
+/// [Webots B3] intensity times the cosine to the sensor's axis, attenuated, mean of the
+/// colours; bodies block.
 LampShare share_of(const Scene& scene, const LampDesc& lamp, const Eye& eye, int robot, Clicks at) {
   LampShare share;
   share.from_m = eye.from;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no single key shows: double names, robots without a model, bodies inside each other (by libccd, in
-// 3-D).
+// What no single key shows: double names, robots without a model, bodies inside each other
+// (by libccd, in 3-D).
 #include <fmt/format.h>
 
 #include <map>

@@ -38,8 +38,8 @@ struct RadioRequest {
   std::vector<std::uint8_t> bytes;
 };
 
-/// One robot's radio, seen from the channel. The robot fills the fields while it runs; the calls come between
-/// ticks.
+/// One robot's radio, seen from the channel. The robot fills the fields while it runs; the calls
+/// come between ticks.
 class RadioPort {
  public:
   static constexpr Clicks kOff = INT64_MAX;

@@ -61,8 +61,8 @@ class SoundField {
 
   /// Other sources from now on; what robots play goes on.
   void refurnish(const WorldDesc& world);
-  /// The world begins again: its sources sound as at the beginning, from `now` on, and nothing else is in the
-  /// air.
+  /// The world begins again: its sources sound as at the beginning, from `now` on, and nothing
+  /// else is in the air.
   void begin_again(Clicks now);
   /// The robot's loudspeaker plays this from `now` on instead of whatever it played.
   void play(int robot, const SpeakerTrack& track, Clicks now);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A world as pure data: what a world file says, in SI units and radians, ready to be built. Made by load/, or
-// in a few lines of C++. Every field's key, unit, range and default stand once, in load/schema.cpp and
-// docs/worlds.md.
+// A world as pure data: what a world file says, in SI units and radians, ready to be built. Made by
+// load/, or in a few lines of C++. Every field's key, unit, range and default stand once, in
+// load/schema.cpp and docs/worlds.md.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -39,8 +39,8 @@ struct ResponseRow {
   double relative_noise = 0;  ///< fraction of value
 };
 
-/// Proximity settings as written: what is not set is inherited (sensor from robot from world from the
-/// profile).
+/// Proximity settings as written: what is not set is inherited (sensor from robot from
+/// world from the profile).
 struct ProximitySettings {
   std::optional<std::string> profile;             ///< webots-old, webots-new, inverse-square, enki, argos
   std::optional<std::vector<ResponseRow>> table;  ///< own rows, instead of the profile's
@@ -183,8 +183,8 @@ struct KeyDesc {
   int typed = 0;        ///< instead of a remote control's: a keyboard's key, by Webots' number
 };
 
-/// What happens between the motors and the floor, as written: what is not set is inherited (robot from
-/// world).
+/// What happens between the motors and the floor, as written: what is not set is inherited
+/// (robot from world).
 struct WheelSettings {
   std::optional<double> noise;  ///< random part of each wheel's travel, drawn anew every 1/32 s; 0: none
   std::optional<NoiseLaw> noise_law;  ///< noise is a half width (uniform, usual) or a standard deviation
@@ -235,8 +235,8 @@ struct ObjectDesc {
   bool movable = false;
   double mass_kg = 0.1;
   double floor_friction = 0.5;  ///< of movable ones, against whatever they stand on; balls roll instead
-  /// Of a ball: what slows it as it rolls, as a part of its weight. [assumed: hard ball on a table, 0.005 to
-  /// 0.03]
+  /// Of a ball: what slows it as it rolls, as a part of its weight.
+  /// [assumed: hard ball on a table, 0.005 to 0.03]
   double rolling_friction = 0.02;
   Material material;
   std::string model;                        ///< what cameras that recognise call it

@@ -124,8 +124,8 @@ void run_left_motor(void);
 void run_right_motor(void);
 )";
 
-// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and phases as chance
-// has it
+// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and
+// phases as chance has it
 const std::string kCalls = std::string(kHead) + R"(
 #define CALLS 600
 unsigned int took[CALLS], gave[CALLS], asked[CALLS];

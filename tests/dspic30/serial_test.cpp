@@ -255,8 +255,8 @@ TEST(Spi, byte_takes_eight_clocks) {
   EXPECT_EQ(b.read("SPI1STAT", 122) & 3, 0u);
 }
 
-// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits, unread ones
-// overflow
+// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits,
+// unread ones overflow
 TEST(Spi, words_queue_and_overflow) {
   Bench b;
   b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);

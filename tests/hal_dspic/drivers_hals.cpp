@@ -382,8 +382,8 @@ int main(void) {
 
 // --- what has no test elsewhere that runs with both HALs (tests/firmware/both_hals.txt)
 
-// on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7; noise of some
-// counts
+// on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7;
+// noise of some counts
 TEST_P(BothHals, basic_converter_reads_single_channels) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>

@@ -187,14 +187,14 @@ TEST_F(Devices, values_stay_until_the_next_period_and_end_with_disable) {
       32);
   run_for(1.2);
   EXPECT_EQ(value(r, "period"), 96);
-  // NaN differs from everything at steps 1 and 2; from the third on each third step brings another value: 2 +
-  // 10
+  // NaN differs from everything at steps 1 and 2; from the third on each third step brings
+  // another value: 2 + 10
   EXPECT_EQ(value(r, "changes"), 12);
   EXPECT_EQ(told(r, "after"), (std::vector<double>{12, 0}));
 }
 
-// a wheel at 1000 steps a second is sampled at ends of steps of 10 ms, which lie in the midst of ticks: 10
-// steps each
+// a wheel at 1000 steps a second is sampled at ends of steps of 10 ms, which lie in the midst of
+// ticks: 10 steps each
 TEST_F(Devices, samples_are_those_of_the_exact_instant) {
   Robot& r =
       add_c("WbDeviceTag left, enc; double last; int least = 1000, most;",

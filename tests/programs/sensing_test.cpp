@@ -187,8 +187,8 @@ INSTANTIATE_TEST_SUITE_P(
         Truth{"nue_13", sim::Axes::Nue, "1.3", {0.2, 0, -0.1}, {0.5, 0, -std::sqrt(0.75)}, {0, 1, 0}}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// wheels at 300 steps/s against each other: 2 * 300 * 0.0001288 m / 0.053 m = 1.458 rad/s about the upward
-// axis
+// wheels at 300 steps/s against each other: 2 * 300 * 0.0001288 m / 0.053 m = 1.458 rad/s
+// about the upward axis
 struct Gyro {
   const char* revision;
   sim::Axes axes;

@@ -259,8 +259,8 @@ TEST_F(SupervisorPrograms, the_interface_of_2005) {
   EXPECT_EQ(team().labels().at(0).text, "0 - 0");
   EXPECT_TRUE(was_said("goal 1"));
   EXPECT_NEAR(now_s(), 0.256, 0.003);
-  // it fell for 0.128 s from where its middle was 0.1 m high: 0.08 m - 9.81 / 2 * 0.128^2 < 0, so it lies or
-  // bounced
+  // it fell for 0.128 s from where its middle was 0.1 m high: 0.08 m - 9.81 / 2 * 0.128^2 < 0,
+  // so it lies or bounced
   EXPECT_LT(twin().simulation().state(1).z_m, 0.001);
 }
 
@@ -348,8 +348,8 @@ TEST_F(SupervisorPrograms, lamps_and_noise_count_from_the_next_sample_on) {
   EXPECT_DOUBLE_EQ(noise(), 2 * 0.704);
 }
 
-// 0.5 m/s for 20 ms against friction of 0.5 g: 10 mm - 1 mm, give or take a tick; thrown up at 1 m/s: 20 mm -
-// 2 mm
+// 0.5 m/s for 20 ms against friction of 0.5 g: 10 mm - 1 mm, give or take a tick; thrown up at
+// 1 m/s: 20 mm - 2 mm
 TEST_F(SupervisorPrograms, engines_take_the_velocities_that_they_know) {
   const auto way_after = [](sim::Engine engine, double climb_m_s) {
     struct Run : SupervisorPrograms {

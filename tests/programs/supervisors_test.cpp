@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What supervisors see and change: variables of firmware, robots, lamps, things, radio, sensors that they
-// make up.
+// What supervisors see and change: variables of firmware, robots, lamps, things, radio,
+// sensors that they make up.
 #include "tests/programs/supervisor_fixture.h"
 
 namespace {

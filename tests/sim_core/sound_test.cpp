@@ -87,8 +87,8 @@ TEST(Sound, white_noise_has_its_level_and_no_memory) {
   EXPECT_NEAR(product / 20000, 0, 0.25 * 0.03);  // 50 us apart: more than two steps of the grid
 }
 
-// a noise of 900 to 1100 Hz, looked at through a window of 0.1 s (10 Hz wide): nearly all power lies in the
-// band
+// a noise of 900 to 1100 Hz, looked at through a window of 0.1 s (10 Hz wide): nearly all
+// power lies in the band
 TEST(Sound, noise_with_a_band_stays_in_it) {
   sim::SoundDesc s = tone(0, 1);
   s.kind = sim::SoundKind::Noise;
