@@ -2,8 +2,8 @@
 // A class: a folder of folders, one a student. Each program is built and each exercise tried in a process of
 // its own, for a limited time, so whatever is handed in comes to a row.
 //
-//   DIR/anna/obstacle/*.c  --find--> build, a process each --> try, a process each --> Class, student x
-//   exercise
+//   DIR/anna/obstacle/*.c --find--> build, a process each --> try, a process each --> Class:
+//                                                                                     student x exercise
 #pragma once
 #include <functional>
 #include <string>

@@ -2,8 +2,8 @@
 // One run of the world from time 0 on: the twin, its programs of the PC, all that was done to it, and what it
 // says. The twin is the run's own, or a debugger's, which makes it anew whenever it goes back.
 //
-//   script:  done, done, done | to come ...         an input is done at its tick, also when a debugger
-//   repeats
+//   script:  done, done, done | to come ...
+//   An input is done at its tick, also when a debugger repeats the run.
 #pragma once
 #include <functional>
 #include <map>

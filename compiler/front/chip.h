@@ -3,8 +3,7 @@
 //
 //   target.cpp        what clang must know of the chip; XC16's attributes
 //   accumulators.cpp  built-in functions of the DSP unit
-//   lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
-//                     takes
+//   lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator takes
 //   shared_reads.cpp  loads of what an interrupt may change, done where they stand
 //   checks.cpp        --sanitize: locals and failed checks are told
 //   pipeline.cpp      the optimiser's passes, in our own order

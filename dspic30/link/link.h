@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The linker: objects to an image of the chip.
 //
-//   read.cpp    objects and archives in; what is undefined is looked for in the libraries
-//   vendor.cpp  objects of XC16 and the older C30, made what ours are
-//   where.cpp   function and line of code, for messages
-//   place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
-//               start-up table
-//   fill.cpp    addresses into instructions, data and debugging information; vectors
-//   host.cpp    what the host stands in for
-//   stack.cpp   how deep the stack can grow
-//   write.cpp   .elf, .hex; listing.cpp .lst; map.cpp .map
-//   report.cpp  sizes against the chip's
+//   read.cpp     objects and archives in; what is undefined is looked for in the libraries
+//   vendor.cpp   objects of XC16 and the older C30, made what ours are
+//   where.cpp    function and line of code, for messages
+//   place.cpp    what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
+//                start-up table
+//   debug.cpp    debugging information in the chip's own addresses
+//   fill.cpp     addresses into instructions, data and debugging information; vectors
+//   host.cpp     what the host stands in for
+//   stack.cpp    how deep the stack can grow
+//   report.cpp   sizes against the chip's
+//   write.cpp    .elf, .hex
+//   listing.cpp  .lst
+//   map.cpp      .map
 #pragma once
 #include <cstdint>
 #include <deque>

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is used gets its place.
 //
-//   flash  0x0000 jump to the start   0x0004 vectors   0x0100 start-up code, constants (one PSV page of 32
-//   KB), code RAM    0x0800 near variables first (below 0x2000), then the others; the largest gap that is
-//   left is the stack
+//   flash  0x0000  jump to the start
+//          0x0004  vectors
+//          0x0100  start-up code, constants (one PSV page of 32 KB), code
+//   RAM    0x0800  near variables first (below 0x2000), then the others; the stack gets the largest gap left
 //
 // Order within a kind is that of the inputs, so the same inputs give the same image.
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The handlers of hal_dspic's UART driver (hal_dspic/uart/uart_driver.h), as they are compiled at -O1:
 //
-//   flag --entry--> saved registers, flag down, bytes between ring or caller's memory and the module's FIFOs,
-//   RETFIE
+//   flag --entry--> registers saved, flag down, bytes moved --RETFIE--> program
+//                   (between the ring or the caller's memory and the module's FIFOs)
 //
 // The module is the chip's: each access to it comes at the cycle at which the handler's own code would
 // make it. Known by heart is what lies between. Where anything else may happen before the handler is over,

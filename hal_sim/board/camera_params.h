@@ -18,8 +18,8 @@ inline constexpr double kFocalPx = 716.54;  // pixels of the array [FRM A9]
 // the sensor's clock is the processor's instruction clock
 // PO3030K: registers 4 to 7 of the library's table hold 851 twice, line length and, by a slip, frame length
 // too: 852 x 852 pixels. The authors' 1.3 and 2.6 pictures a second follow (1.27, 2.54). Integration of 998
-// lines, the table's other value, makes a frame of 998 + 8 lines: the authors' 4.3 (grey 8.6, 4.3, 2.2)
-// follow
+// lines, the table's other value, makes a frame of 998 + 8 lines, from which the authors' 4.3 follow (grey
+// 8.6, 4.3, 2.2).
 inline constexpr int kIntegrationMargin =
     8;  // lines from integration to frame [derived: 14745600 / 4 / 852 / 4.3 - 998]
 // PO6030K: 18.432 pictures a second at half the clock [measured: documentation of epucklib, camera]

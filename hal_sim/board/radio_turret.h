@@ -2,8 +2,7 @@
 // The radio turret of SWIS (a CC2420 behind a small processor with TinyOS) on the robot's
 // I2C bus, address 0x7E.
 //
-//   e_i2cp_* -> registers: settings, send buffer, status -> sim::RadioMedium -> other turrets' receive
-//   buffers
+//   e_i2cp_* -> registers: settings, send buffer, status -> sim::RadioMedium -> receive buffers of others
 //
 // Modelled: all registers of the library's driver; one receive buffer, freed by reading its last byte; a
 // packet that comes while it is full is lost and says so; groups and addresses; attenuators; time on the air.

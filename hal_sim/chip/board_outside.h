@@ -6,8 +6,8 @@
 //   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
 //   UART words <-> Uart ends; I2C <-> the board's bus; DCI words -> the codec
 //
-// Not modelled: serial lines level by level; levels of port B's pins
-// (they are analogue inputs); a far end with a rate of its own: it follows the robot's, 8 bits, no parity.
+// Not modelled: serial lines level by level; levels of port B's pins (they are analogue inputs); a far end
+// with a rate of its own: it follows the robot's, 8 bits, no parity.
 #pragma once
 #include <array>
 #include <cstdint>

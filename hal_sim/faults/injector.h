@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Does faults and stimuli to a running twin, each at its tick, and keeps book of whether anybody felt them.
 //
-//   faults -> [ not begun -> begun -> ended ] -> board (damage.h), world -> what the program and the world
-//   get
-//                                    \-> took effect at: the first time that this was another thing
+//   faults -> [ not begun -> begun -> ended ] -> board (damage.h), world -> what the program and world get
+//                                                       \-> took effect at: when that first differed
 //
 // Whoever steps the twin calls look() between ticks, or advance() in place of the simulation's: it steps
 // no further than to the next tick at which something is due. A time begins at the first tick at or after

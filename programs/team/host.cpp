@@ -20,8 +20,8 @@ void Team::reset(bool reload) {
 
 void Team::restart_program(int robot) { wants_restart_.insert(robot); }
 
-/// At once, so that what the program commands next finds the world as it began. Everything back to its
-/// beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots; with a reload
+/// Puts everything back to its beginning, at once, so that what the program commands next finds the world as
+/// it began. Programs of robots begin anew, but for the one that asked for it, as in Webots; with a reload
 /// all do.
 void Team::carry_out_resets() {
   sim::Simulation& simulation = twin_.simulation();
