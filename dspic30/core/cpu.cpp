@@ -504,6 +504,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       break;
     default: {
       if (address == kPcl || address == kPch) break;
+      // the modulo and bit-reversed pointers decide which table the code runs on
       const auto special = special_registers();
       if (address == kModcon) modcon = wanted;
       if (address == kXbrev) xbrev = wanted;
@@ -613,6 +614,7 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
     if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
+  // what a peripheral's register says holds until its horizon
   if (ea < kSfrBytes) {
     const unsigned value = parts.read(ea, bits, t);
     if (!watching) return value;
@@ -641,6 +643,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits) {
   const unsigned word = ea & ~1u;
   const Cycle t = true_now() + at->lead;
+  // flags and latches change in one step, so what the hardware sets meanwhile survives
   const bool are_flags = parts.are_flags(word, t);
   if ((!are_flags && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
     return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
@@ -676,6 +679,7 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
     return;
   }
   note_effect();
+  // what handlers save and give back is the core's own affair
   if (ea < kDisicnt && bits == 16)
     if (const Saved saved = saved_register(ea); saved.word) {
       this->*saved.word = static_cast<std::uint16_t>(value & saved.bits);

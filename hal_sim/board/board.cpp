@@ -143,11 +143,13 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     outputs_changed(at);
     return;
   }
+  // The chip's own program drives: the two frequent cases, coils and emitters, are short.
   if (is_led_by_pins()) {
     if (index == kD) return write_coils(value, at);
     if (value == lat_[i]) return;
     if (!((value ^ lat_[i]) & ~kEmitterMask[i])) return write_emitters(i, value, at);
   }
+  // Coils: each motor whose pattern changed follows.
   if (index == kD) {
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : kRightCoilsBit)) & 15u;
@@ -157,6 +159,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     follow_power(at);
     return;
   }
+  // Emitters: a line that rises begins a pulse.
   for (int pair = 0; pair < 4; ++pair) {
     const Pin line = kEmitterPins[pair];
     if (line.port != index) continue;

@@ -165,6 +165,7 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
               board_.camera() ? board::kCameraData : std::uint16_t{0}};
     case Port::F: {
+      // a serial line that nobody drives is high
       std::uint16_t levels = kSerialIn;
       if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
       if (board_.remote().level(at)) levels |= kRemote;
@@ -227,6 +228,7 @@ int BoardOutside::analogue_counts(int channel, Cycle at) {
   return beside_microphones(channel, at);
 }
 
+// proximity sensors, then what a part or another owner of the input puts there, then the accelerometer
 int BoardOutside::beside_microphones(int channel, Cycle at) {
   if (channel >= board::kIrChannel)
     return board_.ir_counts(channel - board::kIrChannel, at, lit_for(channel - board::kIrChannel, at));

@@ -465,6 +465,7 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
   const auto is_in_scope = [&](const dspic::DebugInfo::Variable& v) {
     return scope.empty() || places_->is_of(scope, v);
   };
+  // The debug information knows it, or, for assembler text, the symbol table does.
   dspic::DebugInfo::Found found;
   if (!file_.debug.info().find(plain_name, 0, found, error, is_in_scope)) {
     if (!scope.empty()) {
@@ -478,6 +479,7 @@ const host::Variable* ChipRunner::find_variable(const std::string& expression, s
     const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
     return &variables_.emplace(expression, plain).first->second;
   }
+  // Its place and type are kept: names are asked for again and again.
   const auto& type = file_.debug.info().types[static_cast<std::size_t>(found.type)];
   host::Variable v;
   v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
