@@ -110,6 +110,7 @@ std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
 }
 
 std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
+  // What the program has written itself stands there until the scan files the next sample.
   if (const Written* written = overlay_ ? written_at(place) : nullptr;
       written && written->number != kNobody &&
       std::max<std::int64_t>(-1, number_of(place, at)) <= written->number)

@@ -49,6 +49,7 @@ class PtyEnd : public UartEnd {
   }
 
   bool open(const std::string& link, std::string& error) {
+    // The terminal, and our own hand on its far end, so that it stays when others leave.
     master_.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!master_.valid() || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) {
       error = "pty: cannot be opened: " + system_error();

@@ -119,6 +119,7 @@ TypedLine& Inputs::line(int robot, int port) {
 void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
   const auto what = input.at("do").get<std::string>();
   sim::Simulation& simulation = twin_.simulation();
+  // Inputs to the world: another world file, programs, bodies, faults, lamps.
   if (what == "world") {
     sim::LoadedWorld loaded;
     if (parsed)
@@ -136,6 +137,7 @@ void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
     for (int body : before)
       if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
         refuse_input(fmt::format("before: got {}, expected a movable object or -1", body));
+    // What was chosen for this run holds on: its seed, and the robots' programs.
     loaded.world->seed = twin_.world().seed;
     for (std::size_t i = 0; i < twin_.world().robots.size(); ++i)
       loaded.world->robots[i].firmware = twin_.world().robots[i].firmware;
@@ -176,6 +178,7 @@ void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
     simulation.set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
     return;
   }
+  // Inputs to one robot.
   const int robot = robot_of(input);
   host::FirmwareMind& mind = twin_.mind(robot);
   if (what == "sensor") {
@@ -202,6 +205,7 @@ void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
     if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
       refuse_input(
           fmt::format("variable: got '{}', expected a number; name a member or element", expression));
+    // A bit-field shares its bytes with others, so these are read first.
     char bytes[8] = {};
     program.read_memory(v->address, bytes, v->bytes);
     host::set_variable_value(*v, bytes, input.at("value").get<double>());
@@ -215,6 +219,7 @@ void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
   } else {
     refuse_input(fmt::format("do: got '{}', expected an input", what));
   }
+  // A program that waits looks again, and the run's digest tells that somebody did this.
   if (mind.runner()) mind.runner()->wake();
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
   for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
