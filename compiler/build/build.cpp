@@ -164,6 +164,7 @@ static BuildResult build_here(const BuildOptions& asked) {
                             ": controller: got no such folder, expected one with a main.c");
     return finish();
   }
+  // What the program is made of: a project's list, or all files of the folder.
   Program program = program_of(o, result);
   if (o.optimisation.empty()) o.optimisation = !program.level.empty() ? program.level : "-O1";
   const auto& sources = program.sources;
@@ -180,6 +181,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   own = program.order(copies, own);
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
+  // How each file is compiled; what the world says of Webots' interfaces is one file more.
   Plan p = plan(o, copies, program, false);
   const bool has_settings = p.is_webots && !o.webots_settings.empty();
   if (has_settings) {
@@ -194,6 +196,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   }
   if (p.is_webots) own = p.user.size();
   result.files = int(own + p.assembler.size()) - (has_settings ? 1 : 0);
+  // Compile all of it, and the library; variables that handlers share may ask for a second time.
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.assembler.begin(), p.assembler.end());
@@ -202,6 +205,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   result.compiled += library.compiled;
   result.reused += library.reused;
   read_shared_variables_in_place(all, outcomes, own, p.user.size(), library, o, result);
+  // What the compiler has to say. A file that the program may do without is left out.
   bool ok = true;
   for (size_t i = 0; i < outcomes.size(); ++i) {
     if (!outcomes[i].ok && i >= own && i < p.user.size()) {
@@ -220,6 +224,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   }
   sort_messages(library.messages, result, !library.ok);
   if (!ok || !library.ok) return finish();
+  // Which drivers the program gets, and whether two definitions or two timers are in each other's way.
   std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(own));
   std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
   members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
@@ -239,6 +244,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   for (auto& conflict : timer_conflicts(texts, replaced_headers(choices)))
     result.conflicts.push_back(std::move(conflict));
 
+  // Link.
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   std::vector<CompileOutcome> drivers;  // linked for their handlers, too

@@ -71,6 +71,7 @@ std::vector<Module> modules_of(const std::vector<const Section*>& sections) {
 }  // namespace
 
 std::string map_file(const Program& program) {
+  // All that has a place, in the order of the memories.
   std::vector<const Section*> sections;
   for (const Section& s : program.sections)
     if (s.used && s.kind != Kind::Debug && s.size) sections.push_back(&s);

@@ -129,6 +129,7 @@ void I2c::on_event(int id, Cycle at) {
 }
 
 void I2c::finish(Cycle at) {
+  // It reaches the outside now that it is complete.
   switch (operation_) {
     case Operation::Start:
     case Operation::Restart:
@@ -293,6 +294,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const auto fresh = static_cast<std::uint16_t>(wanted & kOperations & ~con_);
       // a bit under way cannot be taken back
       con_ = static_cast<std::uint16_t>((wanted & ~kOperations) | (con_ & kOperations));
+      // Off: all that was under way is over, and the pins are the port's again.
       if (!on()) {
         con_ &= static_cast<std::uint16_t>(~kOperations);
         stat_ &= kP;  // a start is over; a stop stays seen: the library waits for it before its first start
@@ -309,6 +311,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
                                 "an I2C operation is asked for while I2CCON.I2CEN = 0; nothing happens", now);
         break;
       }
+      // On: the pins are taken from the port.
       if (!was_on) {
         const bool was_low = !f_.ports.level(kSda, now);
         f_.ports.own_input(kScl, now + 1);  // open drain: the outside gives the level

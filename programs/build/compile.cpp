@@ -219,6 +219,7 @@ class Build {
       // of programs from a Mac: arrays of a constant's size
       attempts.push_back({"clang", attempts[0].words});
     }
+    // The first that compiles is taken; of those that fail the first one's messages are told.
     for (const Attempt& attempt : attempts) {
       Words said;
       if (!compile_in(source, object, attempt, own, more, said)) {

@@ -156,6 +156,7 @@ void Puck::add_own() {
 }
 
 void Puck::add_of_world() {
+  // Emitters and receivers of the world file.
   const board::PacketDevices& packets = board_.packets();
   for (int e = 0; e < packets.emitters(); ++e)
     add(packets.emitter_name(e), Kind::Emitter, WB_NODE_EMITTER, e,
@@ -163,6 +164,7 @@ void Puck::add_of_world() {
   for (int r = 0; r < packets.receivers(); ++r)
     add(packets.receiver_name(r), Kind::Receiver, WB_NODE_RECEIVER, r, {double(packets.receiver_channel(r))});
   int number = -1;  // of the setup's devices
+  // Its other devices, each with what a program asks about it (put_device()).
   for (const sim::DeviceDesc& device : board_.setup().devices) switch (++number, device.kind) {
       case sim::DeviceKind::Gps:
         add(device.name, Kind::Gps, WB_NODE_GPS, 0);
@@ -274,6 +276,7 @@ std::string Puck::command(const link_record& record, Cycle at) {
   const auto wrong = [&] {
     return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);
   };
+  // A device that does nothing takes every command.
   if (device.kind == Kind::Idle && record.number != LINK_ENABLE) return "";
   note(static_cast<std::uint64_t>(record.number) << 32 ^ static_cast<std::uint64_t>(tag));
   board::PacketDevices& packets = board_.packets();
