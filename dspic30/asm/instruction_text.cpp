@@ -73,6 +73,7 @@ bool read_indirect(const std::string& inside, Written& out) {
 Written read_operand(const std::string& text) {
   Written out;
   out.text = text;
+  // Its form alone says what it is; which row it fits, fits() says.
   if (const int n = register_number(text); n >= 0) {
     out.kind = Written::Register;
     out.n = static_cast<unsigned>(n);

@@ -23,6 +23,7 @@ constexpr bool is_port(const SfrInfo& info) {
 
 // A module that is switched off forgets everything and answers 0.
 void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
+  // Each module with its registers, of the first control register.
   const auto turned = [&](std::uint16_t before, std::uint16_t next, int bit) {
     return ((before ^ next) >> bit & 1) != 0;
   };
@@ -64,6 +65,7 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
           bus.write(a, info->reset, 16, now);
       range(next1, m.bit, m.first, m.last);
     }
+  // The second one has the units of input capture and output compare.
   for (int bit = 0; bit < 16; ++bit) {
     if (!turned(pmd2, next2, bit)) continue;
     const auto n = static_cast<unsigned>(bit & 7);

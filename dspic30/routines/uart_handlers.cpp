@@ -259,6 +259,7 @@ bool UartHandler::send(Cycle until) {
     if (byte_at(from + i) < 0) return false;
   const bool is_flash = from >= Cpu::kPsvStart;
 
+  // From here on it is done: registers, flag, then byte after byte, with the cycles of the handler's code.
   enter(1);
   lower_flag(begin_ + 5);
   Cycle t = 0;

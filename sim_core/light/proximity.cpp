@@ -261,9 +261,11 @@ std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const S
     s->rays.push_back({plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad});
   }
   CHECK(s->rays.size() <= kMostRays, "the world format limits the number of rays");
+  // The wedge that holds all rays, a little wider than it is, against rounding.
   fan.is_wide = widest > 0.45 * kPi;
   fan.half_sin = std::min(1.0, std::sin(widest) + 1e-9);
   fan.half_cos = std::cos(widest) - 1e-9;
+  // What the sensor answers when nothing is there.
   RayEnd ends[kMostRays];
   fan.end_freely(ends);
   s->nothing = respond(*s, ends);

@@ -100,6 +100,7 @@ void check_overlaps(const WorldDesc& world, int only, std::vector<WorldProblem>&
       for (Placed& p : *all) p.z_m = 0;
     }
   }
+  // Only bodies near each other are looked at.
   std::vector<double> bounds;
   for (const Placed& p : layout.moving) bounds.push_back(p.solid->bound_m);
   Neighbours near(layout.fixed, bounds, 0, {});
