@@ -87,10 +87,14 @@ export const blind = (page) => ask(page, "(app) => app.scene.setDrawing(false)")
 export async function picture(page, name) {
   fs.mkdirSync(path.join(root, "build/browser"), { recursive: true });
   // a busy machine that draws by its processor has no time for a picture while a run goes on
+  const played = await ask(page, "(app) => app.state.playing");
   await ask(page, "(app) => { app.scene.setDrawing(true); if (app.state.playing) app.do('pause'); }");
   await until(page, "(app) => !app.state.playing");
   await page.waitForTimeout(300);
   await page.screenshot({ path: path.join(root, "build/browser", `${name}.png`) });
+  if (!played) return;
+  await ask(page, "(app) => app.do('play')");
+  await until(page, "(app) => app.state.playing");
 }
 /** Puts something between page and server: `change` gets each message of the page's and either answers it itself
  * (returns an object) or lets it pass (undefined). Called before the page is opened. */

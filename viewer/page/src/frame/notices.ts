@@ -24,7 +24,9 @@ export interface Choice<T> {
 function put<T>(fill: (answer: (value?: T) => void) => Node[], label: string): Promise<T | undefined> {
   return new Promise((done) => {
     const box = byId("question"),
-      before = document.activeElement as HTMLElement | null;
+      at = document.activeElement as HTMLElement | null,
+      // what the mouse has pressed does not get the keys back
+      before = at?.matches("button:not(:focus-visible)") ? undefined : at;
     const answer = (value?: T) => {
       const inside = box.contains(document.activeElement);
       box.replaceChildren();

@@ -95,8 +95,8 @@ export class DebuggerPane {
       h(
         "div",
         { className: "parts" },
-        this.variables,
         part("Watched", true, watch, this.watches),
+        this.variables,
         part("Calls", true, this.calls),
         part("Breakpoints", true, this.points),
         part("What the debugger says", true, this.output, ask),
@@ -135,6 +135,7 @@ export class DebuggerPane {
     if (this.output.textContent !== text) {
       this.output.textContent = text;
       this.output.scrollTop = this.output.scrollHeight;
+      this.output.scrollIntoView?.({ block: "nearest" });
     }
   }
   private showState() {

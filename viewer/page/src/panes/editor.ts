@@ -2,7 +2,7 @@
 // The text editor of programs and of the world file: one view, and a state with its own undo for each file.
 import { EditorView, basicSetup } from "codemirror";
 import { indentWithTab, isolateHistory } from "@codemirror/commands";
-import { diff, unifiedMergeView } from "@codemirror/merge";
+import { diff, goToNextChunk, unifiedMergeView } from "@codemirror/merge";
 import { HighlightStyle, syntaxHighlighting } from "@codemirror/language";
 import { tags } from "@lezer/highlight";
 import { oneDark } from "@codemirror/theme-one-dark";
@@ -147,6 +147,9 @@ export class TextEditor {
             }),
       ),
     });
+    if (original === undefined) return;
+    this.view.dispatch({ selection: { anchor: 0 } });
+    goToNextChunk(this.view);
   }
   /** Marks a line, 0: none. */
   mark(line: number) {

@@ -118,6 +118,7 @@ export class RobotSheet {
     this.gauges.clear();
     this.parts.dataset.said = "";
     this.place.textContent = "";
+    this.fan = this.ears = undefined;
     const program = store.programOf(robot);
     const wrong = store.world.problems.find((p) => p.id === robot.id);
     return [
@@ -152,12 +153,19 @@ export class RobotSheet {
         h("button", { onclick: () => pieces.copy(), title: "Copy (Ctrl D)" }, "Copy"),
         h("button", { onclick: () => pieces.remove(), title: "Delete (Del)" }, "Delete"),
       ),
+      ...(robot.body < 0 ? [h("p", { className: "dim" }, "It is in the file, and not in the run.")] : this.live(robot)),
+      ...this.fields.of("robot", robot.id),
+    ];
+  }
+
+  /** What only a robot of the run has. */
+  private live(robot: Robot) {
+    return [
       ...this.senses(),
       ...kGauges.map(([name, least, most]) => this.gauge(robot, name, least, most)),
       h("h3", {}, "Variables, registers, pins"),
       ...this.watches(robot),
       this.hands(robot),
-      ...this.fields.of("robot", robot.id),
     ];
   }
 

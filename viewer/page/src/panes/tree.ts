@@ -57,29 +57,21 @@ export class Tree {
       .slice(0, kMostRows);
     const lines = new Map(world.elements.map((e) => [e.id, e]));
     const wrong = new Map(world.problems.map((p) => [p.id, p.text]));
-    this.rows.clear();
-    this.list.replaceChildren(
-      ...this.shown.map((p) => {
-        const line = lines.get(p.id)?.line;
-        const row = h(
-          "li",
-          {
-            id: `piece-${p.id}`,
-            role: "option",
-            className: wrong.has(p.id) ? "row bad" : "row",
-            title: wrong.get(p.id) ?? "Shift or Ctrl selects several; a double click goes to the line of the file",
-            onclick: (e: MouseEvent) => this.click(p.id, e),
-            ondblclick: () => line && this.store.tell("worldLine", line),
-          },
-          h("i", { style: `background:${hex(p.colour)}` }),
-          h("span", { className: "what" }, this.nameOf(p)),
-          h("small", { className: "number" }, placeOf(p)),
-          h("small", { className: "number" }, line ? `:${line}` : ""),
-        );
-        this.rows.set(p.id, row);
-        return row;
-      }),
-    );
+    // a drag makes many worlds a second: only what differs is made anew
+    const before = this.rows;
+    this.rows = new Map();
+    const rows = this.shown.map((p) => {
+      const wrongText = wrong.get(p.id),
+        line = lines.get(p.id)?.line;
+      const said = [p.colour.join(), this.nameOf(p), placeOf(p), line, wrongText].join("\n");
+      const old = before.get(p.id);
+      const row = old?.dataset.said === said ? old : this.row(p, line, wrongText);
+      row.dataset.said = said;
+      this.rows.set(p.id, row);
+      return row;
+    });
+    const now = this.list.children;
+    if (rows.length !== now.length || rows.some((row, i) => row !== now[i])) this.list.replaceChildren(...rows);
     if (!all.length)
       this.list.replaceChildren(
         h(
@@ -91,6 +83,23 @@ export class Tree {
     this.count.textContent =
       wanted || all.length > kMostRows ? `${this.shown.length} of ${all.length}` : String(all.length);
     this.mark();
+  }
+  private row(p: Piece, line?: number, wrong?: string) {
+    return h(
+      "li",
+      {
+        id: `piece-${p.id}`,
+        role: "option",
+        className: wrong ? "row bad" : "row",
+        title: wrong ?? "Shift or Ctrl selects several; a double click goes to the line of the file",
+        onclick: (e: MouseEvent) => this.click(p.id, e),
+        ondblclick: () => line && this.store.tell("worldLine", line),
+      },
+      h("i", { style: `background:${hex(p.colour)}` }),
+      h("span", { className: "what" }, this.nameOf(p)),
+      h("small", { className: "number" }, placeOf(p)),
+      h("small", { className: "number" }, line ? `:${line}` : ""),
+    );
   }
   private nameOf(p: Piece) {
     if (p.kind === "robot") return `${p.name} · ${this.store.programOf(p as never) || "no program"}`;

@@ -73,7 +73,8 @@ export class Client {
     store.on("selection", ({ changed }) => {
       if (!changed) return;
       this.subscribe().catch(() => {});
-      if (!store.recorded) this.do("look", { robot: store.selectedRobot()?.name ?? "" });
+      const robot = store.selectedRobot();
+      if (!store.recorded) this.do("look", { robot: robot && robot.body >= 0 ? robot.name : "" });
     });
   }
 

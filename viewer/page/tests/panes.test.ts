@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+import assert from "node:assert/strict";
+import test from "node:test";
+import { FakeLink, freshDocument, refuse, settle } from "./dom";
+import { Console } from "../src/panes/console";
+import { Inspector } from "../src/panes/inspector";
+import { ProblemsPane } from "../src/panes/problems";
+import { Tree } from "../src/panes/tree";
+import { Client } from "../src/store/client";
+import { Pieces } from "../src/store/pieces";
+import { findingOf, placeIn, wrongsOf } from "../src/store/problems";
+import { Store } from "../src/store/store";
+import { robot, thing, world } from "./worlds";
+
+function start() {
+  freshDocument();
+  const store = new Store(),
+    link = new FakeLink(),
+    client = new Client(store, link),
+    pieces = new Pieces(store, client);
+  store.schema = {
+    proximity: {
+      many: false,
+      doc: "Sensors.",
+      keys: [{ key: "rays", type: "integer", unit: "", default: "", doc: "How many" }],
+    },
+    box: {
+      many: true,
+      doc: "A box.",
+      keys: [{ key: "size", type: "triple", unit: "m", default: "", doc: "Its size" }],
+    },
+  };
+  return { store, link, client, pieces };
+}
+const text = (selector: string) => document.querySelector(selector)!.textContent!;
+
+test("Problems never says that nothing is wrong when something is", () => {
+  const { store } = start();
+  document.getElementById("dock")!.innerHTML = '<button id="tab-problems"></button>';
+  const pane = new ProblemsPane(store).pane;
+  const runs = { ...store.state, runs: true };
+  store.takeWorld(world(), 1);
+  store.takeState(runs);
+  assert.equal(pane.textContent, "Nothing is wrong.");
+  store.takeState({ ...runs, runs: false });
+  assert.match(pane.textContent!, /There is no run/);
+  store.noRun = ["robot puck: two robots of that name"];
+  store.tell("problems");
+  assert.match(pane.textContent!, /No run: robot puck/);
+  store.noRun = [];
+  store.takeState({ ...runs, recording: { file: "r.jsonl", error: "no space left" } });
+  assert.match(pane.textContent!, /r\.jsonl: no space left/);
+  store.takeState(runs);
+  const program = { name: "drive", robots: ["puck"], folder: "/w/drive", files: ["main.c"] };
+  store.takePrograms([{ ...program, built: true, ok: false, findings: [] }]);
+  assert.match(pane.textContent!, /drive was not built/);
+  store.takePrograms([
+    {
+      ...program,
+      built: true,
+      ok: false,
+      findings: [findingOf("main.c:3:5: error: no such thing", "error", ["main.c"])],
+    },
+  ]);
+  const went: unknown[] = [];
+  store.on("sourceLine", (at) => went.push(at));
+  pane.querySelector("button")!.click();
+  assert.deepEqual(went, [{ program: "drive", file: "main.c", line: 3, column: 5 }]);
+  assert.equal(document.getElementById("tab-problems")!.dataset.count, "1");
+});
+
+test("what a compiler says has its place, and so have traps", () => {
+  assert.deepEqual(findingOf("/w/drive/main.c:3:5: warning: unused", "warning", ["main.c"]), {
+    kind: "warning",
+    file: "main.c",
+    line: 3,
+    column: 5,
+    text: "unused",
+  });
+  assert.equal(findingOf("nothing to build", "error", []).line, 0);
+  const programs = [{ name: "drive", robots: ["puck"], folder: "/w/drive", files: ["main.c", "sub/a.c"] }];
+  assert.deepEqual(placeIn(programs, "puck", "turn() (sub/a.c:7)"), { program: "drive", file: "sub/a.c", line: 7 });
+  assert.equal(placeIn(programs, "other", "main() (main.c:7)"), undefined);
+  const { store } = start();
+  store.takeWorld(world({ problems: [{ line: 4, column: 1, text: "size: too small", id: 9 }] }), 1);
+  store.noRun = ["world.toml:4:1: size: too small"];
+  store.takeState({ ...store.state, runs: false });
+  assert.deepEqual(
+    wrongsOf(store).map((w) => w.of),
+    ["world"],
+  );
+});
+
+test("the console puts a character together and shows the rest of one that does not come", () => {
+  const { store, client } = start();
+  document.body.append(new Console(store, client).pane);
+  const hear = (bytes: string, time_s: number) => store.tell("serial", { robot: "puck", port: 1, text: bytes, time_s });
+  hear("caf\xc3", 1);
+  hear("\xa9\x80\r\n", 1.01);
+  hear("\xe2\x82", 2);
+  hear("next\n", 3);
+  const lines = [...document.querySelectorAll("#console-lines > div")].map((l) => l.querySelector("span")!.textContent);
+  assert.deepEqual(lines, ["café\\x80", "\\xe2\\x82next"]);
+});
+
+test("the inspector adds a section that the file does not have", async () => {
+  const { store, link, client, pieces } = start();
+  new Inspector(store, client, pieces);
+  store.takeWorld(world(), 1);
+  const input = document.querySelector<HTMLInputElement>("[data-section=proximity][data-key=rays]")!;
+  assert.match(text("details.section summary"), /not in the file/);
+  input.value = "4";
+  input.dispatchEvent(new Event("change"));
+  assert.deepEqual(link.of("edit"), [{ op: "add", path: "proximity", values: { rays: 4 } }]);
+  store.takeWorld(world({ elements: [{ id: 7, path: "proximity", line: 3, values: { rays: "4" } }] }), 2);
+  const written = document.querySelector<HTMLInputElement>("[data-section=proximity][data-key=rays]")!;
+  assert.equal(written.value, "4");
+  written.value = "";
+  written.dispatchEvent(new Event("change"));
+  assert.deepEqual(link.of("edit")[1], { op: "set", thing: 7, values: { rays: null }, group: 0 });
+  await settle();
+});
+
+test("several pieces are changed by one request", async () => {
+  const { store, link, pieces } = start();
+  store.takeWorld(
+    world({
+      things: [
+        thing(1, { position: [0.1, 0.2], heading: 0 }),
+        thing(2, {
+          kind: "wall",
+          points: [
+            [0, 0],
+            [1, 0],
+          ] as never,
+        }),
+      ],
+    }),
+    1,
+  );
+  store.selectAll([1, 2]);
+  pieces.nudge(1, 0, 0.01);
+  await settle();
+  const { edits, group } = link.of("edit")[0];
+  assert.ok(group > 0);
+  assert.deepEqual(edits, [
+    { op: "set", thing: 1, values: { position: [0.11, 0.2] } },
+    {
+      op: "set",
+      thing: 2,
+      values: {
+        points: [
+          [0.01, 0],
+          [1.01, 0],
+        ],
+      },
+    },
+  ]);
+  link.answers.edit = () => ({ things: [5, 0] });
+  store.takeWorld(world({ things: [thing(1), thing(5)] }), 2);
+  store.selectAll([1, 5]);
+  await pieces.copy();
+  assert.deepEqual(store.selection, [5]);
+});
+
+test("a run is lost only when somebody says so", async () => {
+  const { link, client } = start();
+  let times = 0;
+  link.answers.edit = (more) => (
+    ++times,
+    more.anew ? { thing: 3 } : refuse("robots come and go only when a run begins", { anew: true })
+  );
+  const asked = client.edit({ op: "remove", thing: 1 });
+  await settle();
+  document.getElementById("leave")!.click();
+  assert.equal(await asked, undefined);
+  const again = client.edit({ op: "remove", thing: 1 });
+  await settle();
+  document.getElementById("anew")!.click();
+  assert.deepEqual(await again, { thing: 3 });
+  assert.equal(times, 3);
+});
+
+test("the list of pieces follows the world and keeps its rows", () => {
+  const { store, pieces } = start();
+  new Tree(store, pieces);
+  const elements = [
+    { id: 1, path: "box", line: 4, values: {} },
+    { id: 2, path: "robot", line: 9, values: {} },
+  ];
+  store.takeWorld(world({ things: [thing(1, { name: "wall" })], robots: [robot(2)], elements }), 1);
+  const rows = () => [...document.querySelectorAll<HTMLElement>("#pieces li")];
+  assert.deepEqual(
+    rows().map((r) => r.textContent),
+    ["puck · drive0.00 0.00 m:9", "wall · box0.00 0.00 m:4"],
+  );
+  const [puck] = rows();
+  store.takeWorld(world({ things: [thing(1, { name: "wall", position: [1, 0] })], robots: [robot(2)], elements }), 2);
+  assert.equal(rows()[0], puck);
+  assert.match(rows()[1].textContent!, /1\.00 0\.00 m/);
+  puck.click();
+  assert.equal(store.selected, 2);
+  assert.equal(puck.getAttribute("aria-selected"), "true");
+});
