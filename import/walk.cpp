@@ -176,7 +176,7 @@ void Walk::world_info(const Node& n) {
     if (!(std::sqrt(squares) >= kGravityMin))
       report_.add(n, *g, "no gravity", fmt::format("{} m/s2", kGravityMin));
   }
-  // What the physics engine is told.
+  // The seed, the engine, and how materials touch.
   const double seed = n.number("randomSeed", -1);
   if (seed >= 1 && seed < 9e18) scene_.seed = static_cast<std::uint64_t>(seed);
   const std::string fast2d = n.text("fast2d");

@@ -247,8 +247,8 @@ void Simulation::turn_wheels(int robot, Clicks end) {
   if (w.slipped_at == kEver &&
       ((w.left_hold != 1 && left_rad_s != 0) || (w.right_hold != 1 && right_rad_s != 0)))
     w.slipped_at = end;
-  // What the rims did, and what they will do next if the course holds. It is news when it is other than
-  // expected.
+  // What the rims did, and what they will do next if the course holds. It is news when it is
+  // other than expected.
   const bool is_known = course.until > end;
   const RimSpeed expected = rims.next;
   rims.tick = rim_speed(w, left_rad_s, right_rad_s, end);

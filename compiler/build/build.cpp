@@ -244,7 +244,7 @@ static BuildResult build_here(const BuildOptions& asked) {
   for (auto& conflict : timer_conflicts(texts, replaced_headers(choices)))
     result.conflicts.push_back(std::move(conflict));
 
-  // Link.
+  // What is linked in any case, and what somebody has to ask for.
   fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   std::vector<CompileOutcome> drivers;  // linked for their handlers, too

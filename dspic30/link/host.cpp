@@ -210,8 +210,8 @@ void fill_by_host(Program& program, const Options& options) {
       }
       fill(s, function->second);
     }
-    // Functions elsewhere that only read its variables lead to the host too, where nothing else shares their
-    // section.
+    // Functions elsewhere that only read its variables lead to the host too, where nothing else
+    // shares their section.
     for (const auto& [name, index] : choice.driver->shortcuts) {
       const auto found = program.globals.find("_" + name);
       if (found == program.globals.end() || !is_alone(*found->second) || !found->second->section->used)

@@ -224,7 +224,7 @@ class Reader {
         if (!bytes) return problem(member.name, toString(bytes.takeError()));
         s.bytes.assign(bytes->begin(), bytes->end());
       }
-      // A vendor's object has four octets a word, and addresses that it asks for.
+      // A vendor's object has phantom octets between its data, and sections that ask for an address.
       if (is_vendors) {
         drop_phantom_octets(s);
         if (h.sh_flags & dspic_elf::kAbsolute && h.sh_addr >= kConfigurationStart && s.bytes.size() >= 2) {

@@ -54,7 +54,7 @@ void find_functions(FirmwareFile& file) {
     std::snprintf(name, sizeof name, "sub_%06x", address);
     add(address, name);
   };
-  // What is called has no name, and what only branches reach is no function.
+  // What is called is a function without a name; what only branches reach is none.
   std::set<std::uint32_t> inside;  // what branches lead to
   for (const auto& [address, word] : file.words) {
     const Row* row = address < kFlashEnd ? find_row(word) : nullptr;

@@ -322,7 +322,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         break;
       }
       if (!(before & kAdon)) restart_sequence();
-      // SAMP begins to sample, and by hand its end begins the conversion.
+      // SAMP begins to sample; with the software trigger, clearing it begins the conversion.
       const bool asked = (wanted & kSamp) && !(before & kSamp);
       if (!sampling_ && !converting_ && (asked || asam()))
         start_sampling(at);

@@ -26,7 +26,7 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
   const std::uint32_t x = magnitude(a), y = magnitude(b);
   set(cpu, 5, x >> 16);
   set(cpu, 7, kInfinity >> 16);
-  // No number on either side: there is no order.
+  // NaN on one side: there is no order.
   if (x > kInfinity) {
     sub_pair(cpu, x, kInfinity);
     return ordered(cpu, unordered, kEntry + 7 + kExit);

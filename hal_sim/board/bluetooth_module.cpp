@@ -242,7 +242,7 @@ void BluetoothModule::on_message(const sim::LinkMessage& message, sim::Clicks no
       }
       break;
     case kPage:
-      // It is called: with the right PIN, and no link yet, it is linked and transparent from now on.
+      // It is called: unless answer_page() refuses, it is linked and transparent from now on.
       if (address_in(0) == address_) {
         const BtAddress from = address_in(6);
         const std::uint8_t status = answer_page(from, std::string(b.begin() + 12, b.end()));

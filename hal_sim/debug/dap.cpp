@@ -207,7 +207,7 @@ void DapServer::answer(const Json& request) {
     pause_asked_ = runs_;
     return respond(request);
   }
-  // What is left is a step of some kind.
+  // What is left lets the program run, or steps it.
   const bool by_instruction = arguments.value("granularity", "") == "instruction";
   const std::map<std::string, Plan> plans{
       {"continue", Plan::Continue},

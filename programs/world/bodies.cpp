@@ -111,8 +111,8 @@ void Bodies::tie_file() {
 void Bodies::add_rest() {
   const sim::WorldDesc& w = twin_.world();
   owner_.resize(w.objects.size(), 0);
-  // Nodes for what has none yet: the world itself where there is no file, then lamps, objects, robots,
-  // supervisors.
+  // Nodes for what has none yet: the world itself where there is no file, then lamps,
+  // objects, robots, supervisors.
   const auto add = [&](const char* type, const std::string& def, const std::string& name, Is is,
                        std::size_t number) {
     const int id = tree_.add(type, def, Tree::kRoot, "children");

@@ -151,7 +151,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       ground->CreateFixture(&def);
       return;
     }
-    // A box is cut across its longer side into pieces of kLongestPieceM at most.
+    // A shape of four corners is cut across its longer side into pieces of kLongestPieceM at most.
     std::vector<std::vector<Vec2>> pieces{p.solid->outline};
     if (p.solid->outline.size() == 4) {
       const std::vector<Vec2>& o = p.solid->outline;

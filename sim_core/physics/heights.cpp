@@ -133,7 +133,7 @@ Motion::Landing Motion::landing_of(int body) {
     landing.height_m -= rise;
     landing.climb_m_s = rise / tick_s;
   }
-  // What a ramp gives back is the ramp's own.
+  // A ramp has a restitution of its own.
   double drop_m = kLedgeM;
   const int ramp =
       desc_.ground->cast({{b.pose.x_m, b.pose.y_m, landing.end_m + 0.5 * kLedgeM}, {0, 0, -1}}, drop_m);
