@@ -292,6 +292,7 @@ const Decoded* shift(Cpu& cpu, const Decoded* d) {
   case Insn::Name##_Wb_Wns_Wnd:  \
     return &shift<Op, Rs>;
 
+// The function of each form of the arithmetic instructions; null: it is none of them.
 Run choose_arithmetic(Insn id, const Fields& f) {
   switch (id) {
     BINARY(Add, Add)

@@ -184,6 +184,7 @@ Run choose_find(const Fields& f) {
 
 }  // namespace
 
+// The function of each form of the bit instructions; null: it is none of them.
 Run choose_bit(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Bset_f_bit:

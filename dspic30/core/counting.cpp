@@ -34,6 +34,7 @@ struct Kind {
   bool reads_flags = false, sets_flags = false;  // all four
 };
 
+// What an instruction does to values that move; Other: it cannot be followed.
 Kind kind_of(Insn id) {
   switch (id) {
     case Insn::Nop:

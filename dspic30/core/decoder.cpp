@@ -55,6 +55,7 @@ void add_prefetch(Registers& r, const Fields& f, bool y_target) {
   if (y.on && y_target) r.written |= bit(4 + f.y);
 }
 
+// What an operand does to registers: points with them, moves them on, writes them.
 void add_operand(Registers& r, Operand kind, const Row& row, const Fields& f) {
   switch (kind) {
     case Operand::Source:

@@ -76,6 +76,7 @@ bool is_free_of_oddities(const Row& row, const Fields& f, std::uint32_t word, st
 
 // --- operands
 
+// an operand as XC16 writes it
 std::string operand(Operand kind, const Fields& f, std::uint32_t second, std::uint32_t address) {
   switch (kind) {
     case Operand::File:

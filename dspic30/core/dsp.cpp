@@ -228,6 +228,7 @@ const Decoded* store(Cpu& cpu, const Decoded* d) {
 
 }  // namespace
 
+// The function of each instruction of the DSP engine; null: it is none of them.
 Run choose_dsp(Insn id, const Fields&) {
   switch (id) {
     case Insn::Add_Acc:

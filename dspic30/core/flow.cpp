@@ -127,6 +127,7 @@ const Decoded* Cpu::return_from_handler(const Decoded* from, Cycle rest) {
   return jump_back(address, from);
 }
 
+// The function of each instruction that moves the program's place; null: it does not.
 Run choose_flow(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Bra_OV_Expr:

@@ -202,6 +202,7 @@ Run choose_table_write(const Fields& f) {
 
 }  // namespace
 
+// The function of each form of the moves; null: it is none of them.
 Run choose_move(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Mov_WREG_f:

@@ -185,6 +185,7 @@ void OutputCompare::schedule(int n, Cycle after) {
 void OutputCompare::on_event(int id, Cycle at) {
   Unit& u = units_[static_cast<std::size_t>(id)];
   const Cycle tick = at - kMatchToPin;
+  // What the match does to the pin; a mode that is over waits for another.
   switch (mode(u)) {
     case LowToHigh:
       drive(id, true, at);

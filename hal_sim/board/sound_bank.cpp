@@ -39,6 +39,7 @@ struct Word {
   std::vector<Moment> moments;
 };
 
+// Each sound with its place in the bank, its length, and the moments it goes through.
 std::vector<Word> words() {
   return {
       {0,
