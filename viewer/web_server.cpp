@@ -300,6 +300,7 @@ int WebServer::serve_file(mg_connection* connection) {
     mg_send_http_error(connection, code, "%s", text);
     return code;
   };
+  // /TOKEN/NAME
   const char* path = info->local_uri ? info->local_uri : "";
   const char* name = std::strchr(path + (*path == '/'), '/');
   if (!is_trusted(connection) || *path != '/' || !name ||
@@ -308,6 +309,7 @@ int WebServer::serve_file(mg_connection* connection) {
   is_known(connection);
   if (std::strcmp(info->request_method, "GET") != 0) return refuse(405, "expected GET");
   ++name;
+  // Only the files of the list can be asked for.
   for (const FileType& file : kFiles) {
     if (std::strcmp(name, *name ? file.name : "") != 0 && !(!*name && &file == kFiles)) continue;
     std::string bytes;

@@ -61,8 +61,8 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std:
   }
 }
 
-/// The forms of drivers that the program shall call (driver_variants.h), which the linker sees to by
-/// `renames`.
+/// The forms of drivers that the program shall call (driver_variants.h), which the linker
+/// sees to by `renames`.
 std::vector<DriverChoice> choose_drivers(const std::vector<CompileOutcome>& user,
                                          const std::vector<CompileOutcome>& members,
                                          const std::vector<CompileJob>& jobs, const Program& program,
@@ -220,6 +220,7 @@ bool Building::add_settings() {
   }
   if (p.is_webots) own = p.user.size();
   result.files = int(own + p.assembler.size()) - (has_settings ? 1 : 0);
+  // Compile all of it, and the library; variables that handlers share may ask for a second time.
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
   return true;
 }

@@ -133,6 +133,7 @@ class FactWriter {
 
   void write(Instruction& i, const std::string& f) {
     if (isa<DbgInfoIntrinsic>(i)) return;
+    // What becomes of addresses: copies (C), loads (L), stores (S), and what the function writes (W).
     if (auto* load = dyn_cast<LoadInst>(&i)) {
       if (may_be_address(load->getType()))
         for (const std::string& n : nodes(load->getPointerOperand()))
@@ -161,6 +162,7 @@ class FactWriter {
       for (Use& operand : i.operands())
         if (!isa<BasicBlock>(operand)) copies(i, operand);
     }
+    // What it reads (R), and whether once is enough.
     if (Value* pointer = read_by(i); pointer && !is_private(pointer))
       for (const std::string& n : nodes(pointer))
         out_ << "R " << f << " " << n << " " << (may_be_once(i) ? 1 : 0) << " " << place(i) << "\n";

@@ -60,8 +60,8 @@ class MemoryCheck {
   void define(unsigned begin, unsigned end) { set_bits(begin, end, 0); }
   /// Has anybody written a part of it? `address`: of RAM.
   bool is_written(unsigned address) const { return bits_[address - kStart] != 0xFF; }
-  /// What runs from now on until the function that has just begun returns is not looked at, as it knows its
-  /// memory better.
+  /// What runs from now on until the function that has just begun returns is not looked at, as it
+  /// knows its memory better.
   void await_return(const Cpu& cpu);
   /// Is one awaited?
   bool is_away() const { return is_away_; }

@@ -54,6 +54,7 @@ const MemoryCheck::Shape& MemoryCheck::shape_of(const Cpu& cpu, unsigned pc) {
       {"MUL.SU", {Group::Multiply, false}}, {"MUL.SS", {Group::Multiply, false}},
       {"DIV.S", {Group::Divide, false}},    {"DIV.U", {Group::Divide, false}},
       {"ULNK", {Group::Unlink, false}}};
+  // A shape is kept for as long as the same word stands at its address.
   std::unique_ptr<Shape>& shape = shapes_[pc];
   const std::uint32_t word = cpu.program.read(pc);
   if (shape && shape->word == word) return *shape;
@@ -64,6 +65,7 @@ const MemoryCheck::Shape& MemoryCheck::shape_of(const Cpu& cpu, unsigned pc) {
   shape->f = fields_of(*shape->row, word);
   shape->byte = shape->f.B != 0;
   const std::string mnemonic = shape->row->mnemonic;
+  // Most shapes follow from the mnemonic; then come the rows that differ from others of their mnemonic.
   if (const auto found = kGroups.find(mnemonic); found != kGroups.end())
     std::tie(shape->group, shape->sets_flags) = found->second;
   if (shape->row->id == Insn::Mov_f) shape->sets_flags = true;
@@ -317,6 +319,7 @@ void MemoryCheck::finish(const Cpu& cpu) {
   using Group = Shape::Group;
   const Decoded* const d = at_;
   if (!d) return;
+  // A function of the host gives W0 to W7 back as C's functions do: they count as written.
   if (address_of_host_place(d)) {
     for (unsigned n = 0; n < 8; ++n) set_register(n, 0, false, {});
     return;
@@ -328,10 +331,12 @@ void MemoryCheck::finish(const Cpu& cpu) {
   const Fields& f = shape.f;
   const unsigned all = shape.byte ? 0xFF : 0xFFFF;
   unsigned reads = 0;
+  // One operand. Where memory was read that nobody wrote, this instruction is the one to be told.
   Value a = source(shape, reads);
   if (a.bits && a.origin.pc == 0) a.origin.pc = pc;
   const Value b = second_operand(shape);
   if (row.has(Operand::Literal)) a.value = f.k;
+  // Which bits of the result depend on bits that nobody wrote.
   Value result;
   result.origin = a.bits ? a.origin : b.origin;
   const unsigned either = a.bits | b.bits;
@@ -344,12 +349,14 @@ void MemoryCheck::finish(const Cpu& cpu) {
     case Group::And:
       result.bits = ((a.bits & b.bits) | (a.bits & b.value) | (b.bits & a.value)) & all;
       break;
+    // a bit that is known to be 1 on one side makes the result known
     case Group::Or:
       result.bits = ((a.bits & b.bits) | (a.bits & ~b.value) | (b.bits & ~a.value)) & all;
       break;
     case Group::Xor:
       result.bits = either;
       break;
+    // a carry may reach every bit above the lowest unwritten one
     case Group::Sum:
       result.bits = upwards(either) & all;
       break;

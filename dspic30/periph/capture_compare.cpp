@@ -23,7 +23,7 @@ Pin compare_pin(int n) { return {Port::D, n}; }
 
 }  // namespace
 
-// --- capture ----------------------------------------------------------------------------------------------
+// --- capture
 
 void InputCapture::attach() {
   f_.bus.attach(*this, kIc, kIc + 0x1E);
@@ -133,7 +133,7 @@ Cycle InputCapture::horizon(unsigned address, Cycle /*now*/) const {
   return f_.events.when(units_[(address - kIc) / 4].slot);
 }
 
-// --- compare ----------------------------------------------------------------------------------------------
+// --- compare
 
 void OutputCompare::attach() {
   f_.bus.attach(*this, kOc, kOc + 6 * kCompares - 2);
@@ -185,6 +185,7 @@ void OutputCompare::schedule(int n, Cycle after) {
 void OutputCompare::on_event(int id, Cycle at) {
   Unit& u = units_[static_cast<std::size_t>(id)];
   const Cycle tick = at - kMatchToPin;
+  // What the match does to the pin; a mode that is over waits for another.
   switch (mode(u)) {
     case LowToHigh:
       drive(id, true, at);

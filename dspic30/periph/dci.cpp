@@ -139,6 +139,7 @@ std::uint16_t Dci::peek(unsigned address, Cycle now) const {
 }
 
 void Dci::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  // Words to send; then the control registers, which may switch it on or off.
   if (address >= kTx) {
     auto& word = tx_[(address - kTx) / 2];
     word = merge_lanes(word, value, lanes);

@@ -108,7 +108,7 @@ void ExternalInterrupts::outside_changed(Cycle now) {
   }
 }
 
-// --- change notification ----------------------------------------------------------------------------------
+// --- change notification
 
 void ChangeNotification::attach() {
   f_.bus.attach(*this, kCnen1, kCnpu2);

@@ -92,6 +92,7 @@ void Nvm::on_event(int /*id*/, Cycle at) {
     default:
       if (program_) carry_out_on_flash(static_cast<int>(kProgop.of(con_)));
   }
+  // It is over: the latches are empty again.
   eeprom_hash_ = hash_of_memory(words.data(), sizeof words);
   latches_.fill(kErasedWord);
   con_ &= static_cast<std::uint16_t>(~kWr);
@@ -119,6 +120,7 @@ std::uint16_t Nvm::peek(unsigned address, Cycle /*now*/) const {
 }
 
 void Nvm::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  // Was the register before this one written straight before, with nothing in between?
   const bool follows = key_write_ + 1 == f_.bus.writes();
   const bool busy = (con_ & kWr) != 0;
   switch (address) {

@@ -29,8 +29,8 @@ struct Pin {
 
 enum class Edge : std::uint8_t { Rising, Falling };
 
-/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its pull-up (CNPUx)
-/// or 0.
+/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its
+/// pull-up (CNPUx) or 0.
 struct PinLevels {
   std::uint16_t levels = 0;  ///< 1: high
   std::uint16_t driven = 0;  ///< 1: the outside decides this pin's level, digitally
@@ -66,7 +66,7 @@ class Outside {
  public:
   virtual ~Outside() = default;
 
-  // --- pins ---------------------------------------------------------------------------------------------
+  // --- pins
   /// What the chip puts on a port from `at` on. `driven`: its outputs; `by_peripheral`: those among them that
   /// a peripheral owns (UART, DCI, SPI, output compare; their levels are not followed bit by bit). Called
   /// when levels or driven pins have changed, and once per port at every reset.

@@ -99,6 +99,7 @@ void Spi::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   const Pin out = number_ == 1 ? Pin{Port::F, 8} : Pin{Port::G, 8};
   const Pin clock_pin = number_ == 1 ? Pin{Port::F, 6} : Pin{Port::G, 6};
   if (address - base_ > kCon) return;
+  // Its pins are its own while it is on.
   if (on()) {
     f_.ports.own_input(in, now + 1);
     if (con_ & kDissdo)

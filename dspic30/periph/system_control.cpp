@@ -46,6 +46,7 @@ Cycle SystemControl::watchdog_period() const {
 void SystemControl::reset(ResetKind kind, Cycle now) {
   bitten_ = asleep_ = woke_ = false;
   const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl.mask));
+  // Each reset leaves its bit beside those of earlier ones; a power-on forgets these.
   switch (kind) {
     case ResetKind::PowerOn:
       rcon_ = kPor | kBor;
@@ -116,6 +117,7 @@ void SystemControl::write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle
   Lock& lock = is_high ? high_ : low_;
   const std::uint16_t* keys = is_high ? kUnlockHigh : kUnlockLow;
   const bool follows = lock.at_write + 1 == f_.bus.writes();
+  // | is_high)|A byte counts right behind both keys; else it may be the next key.
   if (is_low || is_high) {
     if (lock.step == 2 && follows) {
       const std::uint16_t writable = is_high ? kNosc.mask : kOswen | kIdleBits;

@@ -2,9 +2,8 @@
 // The primitives of hal_dspic's I2C master (hal_dspic/I2C), as they are compiled at -O1. Each begins one
 // operation of the module, then counts rounds down until the module's interrupt has cleared the mode:
 //
-//   prologue --register--> operation on the bus --flag--> handler (mode = 0) --> the rest of a round,
-//   epilogue
-//             rounds, one like the other
+//   prologue --register--> operation on the bus --flag--> handler (mode = 0) --> rest of a round, epilogue
+//                          meanwhile rounds, one like the other
 //
 // The operation runs on the chip's module, at the cycle at which the routine would begin it; the interrupt is
 // entered and left as the core does. What comes in between is a closed form of when the flag rises. Where

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// motor_led/advance_one_timer/e_motors.h. Source: [lib: motor_led/advance_one_timer/e_motors.c], facts
-// restated.
+// motor_led/advance_one_timer/e_motors.h. Source:
+// [lib: motor_led/advance_one_timer/e_motors.c], facts restated.
 #include "hal_sim/api/host_functions.h"
 #include "hal_sim/api/host_library.h"
 #include "hal_sim/board/board.h"
@@ -18,7 +18,7 @@ std::size_t index_of(Wheel wheel) { return wheel == Wheel::Left ? 0 : 1; }
 
 }  // namespace
 
-// --- speeds ----------------------------------------------------------------------------------------------
+// --- speeds
 
 /// What setting takes. The coils go off at once; the agenda's cycle is what the function sets last, or for
 /// speed 0 all but last.
@@ -79,7 +79,7 @@ HostResult HostLibrary::e_init_motors(const Call& call) {
   return HostResult::done(cost);
 }
 
-// --- steps -----------------------------------------------------------------------------------------------
+// --- steps
 
 HostResult HostLibrary::get_steps(const Call& call, Wheel wheel, Cycle cost) {
   call.cpu.note_look(agendas().steps_horizon(wheel, call.at));
@@ -106,7 +106,7 @@ HostResult HostLibrary::e_set_steps_right(const Call& call) {
   return set_steps(call, Wheel::Right, cycles_.set_right);
 }
 
-// --- one firing, called as a function --------------------------------------------------------------------
+// --- one firing, called as a function
 
 /// Setting the half's cycle, beside what the firing takes when no agenda runs and its own is the newest.
 Cycle HostLibrary::cost_of_half(Wheel wheel) const {

@@ -4,10 +4,10 @@
 //
 //   [[robot.part]] kind = "..."  ->  PartType of that file  ->  Part, hung on I2C, analogue inputs and pins
 //
-// In: the instant (a cycle of the robot) at which something is asked. Out: bytes, volts. A part sees the
-// world through board().scene() as it was frozen at the last tick, and nothing else. It answers for the
-// instant it is asked about and does no work in between; random numbers come from random(). Nothing here
-// blocks.
+// In: the instant (a cycle of the robot) at which something is asked. Out: bytes, volts. A part sees
+// the world through board().scene() as it was frozen at the last tick, and nothing else. It answers
+// for the instant it is asked about and does no work in between; random numbers come from random().
+// Nothing here blocks.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -47,8 +47,8 @@ class UartEnd {
   /// when nobody outside can.
   virtual std::string name() const = 0;
 
-  /// What was lost on the way out: "file:F: cannot be written: No space left on device"; empty while all is
-  /// well.
+  /// What was lost on the way out: "file:F: cannot be written: No space left on device";
+  /// empty while all is well.
   virtual std::string error() const { return {}; }
 
  protected:

@@ -141,7 +141,7 @@ void ChipRunner::program_eeprom() {
   }
 }
 
-// --- time -------------------------------------------------------------------------------------------------
+// --- time
 
 /// Behind windows that it was idle for: there is nothing in them but time.
 void ChipRunner::catch_up(Cycle now) {
@@ -150,8 +150,8 @@ void ChipRunner::catch_up(Cycle now) {
     if (const auto kind = processor_->run(now)) reset(*kind);
 }
 
-// what came from outside finds the program where it is by now; who looks at each step sees it sleep up to
-// then
+// what came from outside finds the program where it is by now; who looks at each step sees
+// it sleep up to then
 void ChipRunner::begin_window(Cycle now) {
   if (watches_.empty() && chip_.may_have_news()) catch_up(now);
   end_ = std::max(end_, now);

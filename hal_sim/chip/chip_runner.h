@@ -2,15 +2,14 @@
 // A robot's own binary on the model of its chip, soldered to the board.
 //
 //   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
-//                                                  |                                   |
-//                                     api::HostLibrary, when it is linked with hal_sim: drivers known by
-//                                     heart
+//                                                    |                                 |
+//                                                    '-------- api::HostLibrary -------'
+//                                                    when it is linked with hal_sim: drivers known by heart
 //
 // Time is the chip's, exact to the cycle as far as docs/dev/chip.md says. Traps and resets are the chip's
 // own: the program goes on at their vectors; a beginning that the program did not ask for is reported
-// (endings.h), and so is what it makes of the library (library_calls.h). Lines,
-// variables and types are those of the image's debug information; without it, functions and variables are
-// known by name.
+// (endings.h), and so is what it makes of the library (library_calls.h). Lines, variables and types are those
+// of the image's debug information; without it, functions and variables are known by name.
 #pragma once
 #include <algorithm>
 #include <memory>

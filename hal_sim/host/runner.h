@@ -77,12 +77,12 @@ class Runner {
   /// A window begins at `now`, after Board::exchange(): what came from outside is on its way. Windows that
   /// were left out, because idle_until() lies beyond them, have passed.
   virtual void begin_window(Cycle now) = 0;
-  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it, which
-  /// the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks on
-  /// nothing outside.
+  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it,
+  /// which the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks
+  /// on nothing outside.
   virtual void run_until(Cycle end) = 0;
-  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs on, kNever: for
-  /// ever.
+  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs
+  /// on, kNever: for ever.
   virtual Cycle idle_until() const = 0;
   /// The windows up to `end`, before which it is idle, have passed.
   virtual void pass_to(Cycle end) = 0;

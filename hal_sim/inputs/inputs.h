@@ -32,8 +32,8 @@ class Inputs {
   void refurnish(const Json& input, sim::WorldDesc world);
   /// Is it one of these? Other requests do not change the world.
   static bool is_input(const std::string& what);
-  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its advance(), or by
-  /// step().
+  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its
+  /// advance(), or by step().
   faults::Injector& faults() { return faults_; }
   /// One tick, with the faults that are due before and behind it.
   void step();

@@ -314,6 +314,7 @@ Named find_variable(twin::Twin& twin, int robot, const std::string& expression) 
               return found ? now->data().number(*found) : std::nan("");
             }};
   }
+  // Else it is an expression of C: tried once, to tell what is wrong with it, and computed at each look.
   const auto* chip = dynamic_cast<const chip::ChipRunner*>(runner);
   std::string why;
   double tried = 0;
@@ -346,6 +347,7 @@ Named find(twin::Twin& twin, int robot, const std::string& name) {
   if (const auto reg = inside("reg")) return needs_robot(), find_register(twin, robot, *reg);
   if (const auto var = inside("var")) return needs_robot(), find_variable(twin, robot, *var);
   if (!name.empty() && name[0] == '$') return needs_robot(), find_variable(twin, robot, name.substr(1));
+  // A signal of the table, by its name, or by its name and a number.
   for (const Signal& s : all()) {
     int index = 0;
     const std::string plain(s.name);

@@ -63,7 +63,7 @@ RobotTrace::~RobotTrace() {
   if (runner_) runner_->observe(nullptr);
 }
 
-// --- signals ---------------------------------------------------------------------------------------------
+// --- signals
 
 void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
@@ -125,6 +125,7 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
                          [&](const Span& open) { return open.vector == source.index; });
     case Source::WireByte:
     case Source::WireBusy: {
+      // frames come in time: those that are over give their byte, one that goes on makes the line busy
       auto& frames = frames_[index];
       while (!frames.empty() && frames.front().end <= at) frames.pop_front();
       const bool busy = !frames.empty() && frames.front().start <= at;
@@ -156,6 +157,7 @@ Cycle RobotTrace::horizon(Cycle at) {
     const Cycle then = board_.port_horizon(letter, at);
     next = std::min(next, then > at ? then : at + drivers::kAgendaTickCycles);
   };
+  // The soonest instant at which any of the signals can change. What changes at calls only has none.
   for (const Sampled& s : sampled_) {
     switch (s.source.kind) {
       case Source::Lat:
@@ -205,7 +207,7 @@ void RobotTrace::frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycl
   if (shown) frames_[line].push_back({byte, start, end});
 }
 
-// --- the processor's course ------------------------------------------------------------------------------
+// --- the processor's course
 
 void RobotTrace::handler_begins(int vector, Cycle flagged, Cycle entry, Cycle first) {
   reached(entry);
@@ -261,6 +263,7 @@ void RobotTrace::waited(Cycle from, Cycle to, int depth) {
     spans_.push_back(span);
     return;
   }
+  // Main's waits: one that goes straight on is one span, and between two the program was busy.
   if (wait_.end == from && wait_.end > wait_.begin) {
     wait_.end = to;
     return;

@@ -224,6 +224,7 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
     return {};
   }
   if (!error.empty()) return {};
+  // Else it is a variable of the program.
   std::vector<Signal> found;
   std::string wrong = "no firmware";
   if (runner) {
@@ -254,6 +255,7 @@ bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == 0;
+  // A number with a fraction, as far as the variable can hold it.
   if (signal.real) {
     const bool is_float = signal.source.variable.bytes == sizeof(float);
     const double most = is_float ? static_cast<double>(std::numeric_limits<float>::max())
@@ -265,6 +267,7 @@ bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_
     std::memcpy(&bits, &held, sizeof bits);
     return true;
   }
+  // A whole number: within the signal's width, or as bits in hexadecimal.
   const std::uint64_t all = signal.width < 64 ? (std::uint64_t{1} << signal.width) - 1 : ~std::uint64_t{0};
   const std::uint64_t top = signal.is_signed ? all >> 1 : all & signal.possible;
   const std::string range = signal.is_signed ? fmt::format("a whole number from -{} to {}", top + 1, top)

@@ -12,8 +12,8 @@ namespace programs {
 /// Most distances of a lidar or range finder: what a packet holds.
 inline constexpr int kMostRanges = 12000;
 
-/// Columns and rows that are measured: those of the description, or, if these were too many, each n-th of
-/// both.
+/// Columns and rows that are measured: those of the description, or, if these were too
+/// many, each n-th of both.
 struct RangeGrid {
   int columns = 1, rows = 1;
 };

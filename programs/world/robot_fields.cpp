@@ -130,6 +130,7 @@ std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name
     wrong = "it can only be read";
   }
   if (!wrong.empty()) return wrong;
+  // A program that waits looks again, and the run's digest tells that somebody did this.
   if (mind.runner()) mind.runner()->wake();
   std::uint64_t h = static_cast<std::uint64_t>(robot) + 1;
   for (const char c : name) h = sim::fold(h, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));

@@ -137,9 +137,11 @@ bool end_between_heights(const Ray& ray, const Placed& what, double near, double
 }
 
 bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  // In the solid's own frame.
   const Frame2& f = what.frame;
   const Vec2 from = f.to_local({ray.from.x, ray.from.y});
   const Vec2 dir = f.turn_back({ray.dir.x, ray.dir.y});
+  // The ray is inside between the last side that it enters and the first that it leaves.
   double near = 0;
   double far = distance_m;
   const HalfPlane* entered = nullptr;
@@ -168,6 +170,7 @@ bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* no
 }
 
 bool cast_cylinder(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  // Where the ray in plan meets the circle: a t^2 + 2 b t + c = 0.
   const Vec2 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y};
   const Vec2 dir{ray.dir.x, ray.dir.y};
   const double r = what.solid->radius_m;
@@ -434,6 +437,7 @@ double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
     if (toward) *toward = what.frame.turn({side.x * away.x / d, side.y * away.y / d});
     return d;
   }
+  // Any prism: the side that the point is furthest outside of.
   double deepest = -1e300;
   Vec2 normal;
   for (const HalfPlane& side : s.sides) {

@@ -115,7 +115,7 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
   EXPECT_NEAR(frames, served, 2.5);
 }
 
-// --- programs of this test -------------------------------------------------------------------------------
+// --- programs of this test
 
 const char* const kHead = R"(
 #include <p30F6014A.h>
@@ -128,8 +128,8 @@ void run_left_motor(void);
 void run_right_motor(void);
 )";
 
-// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and phases as chance
-// has it
+// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and
+// phases as chance has it
 const std::string kCalls = std::string(kHead) + R"(
 #define CALLS 600
 unsigned int took[CALLS], gave[CALLS], asked[CALLS];

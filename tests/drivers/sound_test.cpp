@@ -136,7 +136,7 @@ TEST_F(Microphones, single_conversions_hear_now) {
   EXPECT_EQ(robot.convert(4, now), 2048);
 }
 
-// --- codec ---------------------------------------------------------------------------------------------
+// --- codec
 
 struct Speaker : Microphones {
   board::Codec& codec = robot.codec();

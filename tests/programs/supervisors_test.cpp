@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What supervisors see and change: variables of firmware, robots, lamps, things, radio, sensors that they
-// make up.
+// What supervisors see and change: variables of firmware, robots, lamps, things, radio,
+// sensors that they make up.
 #include "tests/programs/supervisor_fixture.h"
 
 namespace {
@@ -9,7 +9,7 @@ using namespace programs_test;
 
 class Supervisors : public SupervisorTest {};
 
-// --- firmware's variables ---------------------------------------------------------------------------------
+// --- firmware's variables
 
 const char* const kVariables = R"(
 #include <stdint.h>
@@ -133,7 +133,7 @@ TEST_F(Supervisors, a_program_of_the_pc_has_no_variables_to_see) {
   EXPECT_TRUE(was_said("a program of the PC, whose variables nobody sees"));
 }
 
-// --- robots -----------------------------------------------------------------------------------------------
+// --- robots
 
 TEST_F(Supervisors, what_a_robot_does_is_in_its_fields_and_its_program_begins_anew) {
   add_robot_with_source(R"(
@@ -223,7 +223,7 @@ TEST_F(Supervisors, lamps_are_switched_and_moved) {
   EXPECT_EQ(twin().world().lamps[0].position_m.x, 0.5);
 }
 
-// --- things -----------------------------------------------------------------------------------------------
+// --- things
 
 TEST_F(Supervisors, nodes_and_fields_in_our_axes) {
   add_ball();
@@ -333,7 +333,7 @@ TEST_F(Supervisors, a_revert_begins_with_the_supervisor_again) {
   }
 }
 
-// --- radio and virtual sensors ----------------------------------------------------------------------------
+// --- radio and virtual sensors
 
 TEST_F(Supervisors, messages_go_both_ways) {
   add_c("WbDeviceTag e, r; char answer[8];",
