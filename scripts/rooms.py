@@ -36,7 +36,7 @@ HOLDS = {
     "python": "the Python module, the pytest plug-in, `*.test.toml`, grading",
     "embed": "`libtwinpuck.so` and its headers",
     "outputs": "what a run leaves behind and shows: recordings, pictures, traces, profiles, summary, the terminal's picture",
-    "lab": "the lab's exercises: table, trials, a class of programs",
+    "exercises": "the lab's exercises: table, trials, a class of programs",
     "flash": "programs into a robot through its bootloader",
     "tools": "the command, one file a verb; `dev/` the makers' command `twinpuck-dev`",
     "tests": "mirrors the rooms",
