@@ -159,7 +159,7 @@ export const tests = {
   async robots_have_the_colours_of_their_paths(browser, live) {
     const robots = ["", "", "colour = [0.9, 0.1, 0.1]\n"].map((more, i) => `[[robot]]\nname = "r${i}"\nfirmware = "drive"\nposition = [-0.3, ${0.2 - 0.2 * i}]\n${more}`).join("\n");
     const [, page] = await start(browser, live, `twinpuck = 1\n[arena]\nsize = [1, 1]\n${robots}`, { drive: program(100) });
-    const colours = await ask(page, "(app) => app.world.robots.map((r, i) => [r.colour.map((v) => Math.round(255 * v)).join(), app.scene.trails[i].line.material.color.getStyle().replace(/[^\\d,]/g, '')])");
+    const colours = await ask(page, "(app) => app.world.robots.map((r, i) => [r.colour.map((v) => Math.round(255 * v)).join(), app.scene.paths.of(i).colour.getStyle().replace(/[^\\d,]/g, '')])");
     for (const [own, trail] of colours) assert.equal(own, trail);
     assert.equal(new Set(colours.map((c) => c[0])).size, 3);
     assert.equal(colours[2][0], "230,26,26");

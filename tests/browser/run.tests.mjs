@@ -92,7 +92,12 @@ export const tests = {
     page.on("pageerror", (e) => errors.push(String(e)));
     await page.goto(`file://${v.folder}/run.html`);
     await page.waitForFunction(() => document.body.dataset.ready === "yes");
-    assert.match(await page.textContent("#pane-summary"), /60\.0 s simulated/);
+    assert.match(await page.textContent("#pane-summary"), /drive: 60\.0\u202fs simulated/);
+    assert.match(await page.textContent("#pane-summary"), /x \(m\).*load \(%\).*battery used \(mWh\)/s);
+    assert.equal(await page.textContent("#pane-summary td:nth-child(2)"), "drive");
+    // the end, with the way that led there: 0.27 m until it stands before the wall of the arena
+    assert.equal(await time(page), 60);
+    assert.ok((await ask(page, "(app) => app.scene.paths.of(0).count")) > 100);
     assert.match(await page.textContent("#console-lines"), /hello/);
     const scrub = (at) => page.evaluate((i) => { const s = document.getElementById("scrub"); s.value = String(i); s.dispatchEvent(new Event("input")); }, at);
     await scrub(100);
@@ -100,7 +105,7 @@ export const tests = {
     const early = await x(page);
     await scrub(250);
     assert.ok((await x(page)) > early + 0.1, "it drives");
-    const points = () => ask(page, "(app) => app.scene.trails[0].count");
+    const points = () => ask(page, "(app) => app.scene.paths.of(0).count");
     const there = await points();
     assert.ok(there > 30, "the path is the one that was driven");
     await scrub(200);

@@ -14,13 +14,16 @@ import { beginLayout } from "./frame/layout";
 import { notice } from "./frame/notices";
 import { PastBar } from "./frame/past_bar";
 import { Report } from "./frame/report";
+import { ViewButtons } from "./frame/views";
 import { WorldFile } from "./frame/save";
 import { Connection } from "./link/connection";
 import { Playback } from "./link/playback";
 import { Console } from "./panes/console";
+import { showCursorIn } from "./panes/cursor_lines";
 import { DebuggerPane } from "./panes/debugger";
 import { Inspector } from "./panes/inspector";
 import { Plots } from "./panes/plots";
+import "./panes/time.css";
 import { ProblemsPane } from "./panes/problems";
 import { ProgramPane } from "./panes/program";
 import { TimeLine } from "./panes/timeline";
@@ -52,14 +55,16 @@ const tree = new Tree(store, pieces);
 const inspector = new Inspector(store, client, pieces);
 const past = new PastBar(store);
 const report = playback && new Report(store, client, past, playback);
-const views = { fit: (above: boolean) => view.scene.fit(above), toggleTrails: () => view.toggleTrails() };
+const views = { fit: (above: boolean) => view.cameras.fit(above), toggleTrails: () => view.toggleTrails() };
 const console_ = new Console(store, client);
+showCursorIn(console_.pane.querySelector("#console-lines")!, store);
 const plots = new Plots(store, client);
 const debugger_ = new DebuggerPane(store, debug);
 const program = new ProgramPane(store, buffers, debug, debugger_);
 const text = new WorldTextPane(store, buffers);
 const file = new WorldFile(store, client, buffers, text);
 const bar = new Bar(store, client, past, file, views, report);
+const viewButtons = new ViewButtons(store, view);
 const timeline = new TimeLine(store, client);
 const problems = new ProblemsPane(store);
 showBadges(store);
@@ -76,7 +81,7 @@ const dock = new Dock(store, tabs);
 dock.show("console");
 beginLayout();
 listenToClipboard(pieces);
-listenToKeys({ store, client, pieces, bar, file, views, touch, inspector });
+listenToKeys({ store, client, pieces, bar, file, views, touch, inspector, viewButtons });
 setTheme(store, store.dark);
 addEventListener("beforeunload", (e) => {
   if (!store.state.saved || buffers.dirty().length) e.preventDefault();
@@ -93,6 +98,8 @@ const shown = {
   file,
   pieces,
   scene: view.scene,
+  view,
+  film: viewButtons.film,
   touch,
   tree,
   inspector,

@@ -7,6 +7,7 @@ import type { Client } from "../store/client";
 import type { Pieces } from "../store/pieces";
 import type { Store } from "../store/store";
 import type { Bar, Views } from "./bar";
+import type { ViewButtons } from "./views";
 import { dismiss } from "./notices";
 import type { WorldFile } from "./save";
 
@@ -17,6 +18,7 @@ const kKeys: [string, string][] = [
   [", .", "slower, faster"],
   ["Ctrl R", "restart"],
   ["1 2 F", "from above, aslant, fit"],
+  ["3 4 M", "view follows the robot, goes behind it; ruler"],
   ["Y P K", "rays, paths, what the camera sees"],
   ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"],
   ["Q E", "turn by 15°, with Shift 1°"],
@@ -40,6 +42,7 @@ export interface Hands {
   views: Views;
   touch: Touch;
   inspector: Inspector;
+  viewButtons: ViewButtons;
 }
 
 export function listenToKeys(hands: Hands) {
@@ -63,7 +66,7 @@ export function listenToKeys(hands: Hands) {
 const isForScene = (target: HTMLElement) =>
   target === document.body || target === document.documentElement || !!target.closest?.("#stage canvas");
 
-function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch, inspector }: Hands) {
+function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch, inspector, viewButtons }: Hands) {
   if (e.defaultPrevented) return;
   const target = e.target as HTMLElement;
   const ctrl = e.ctrlKey || e.metaKey,
@@ -133,6 +136,8 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch,
     ArrowDown: () => move(0, -1),
     "?": () => byId("keys").toggleAttribute("hidden"),
   };
-  if (tools[key]) act(() => touch.choose(tools[key]));
+  const view = viewButtons.act(key);
+  if (view) act(view);
+  else if (tools[key]) act(() => touch.choose(tools[key]));
   else if (keys[key]) act(keys[key]);
 }

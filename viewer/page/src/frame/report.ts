@@ -8,6 +8,29 @@ import type { Store } from "../store/store";
 import type { PastBar } from "./past_bar";
 
 const kSpeedAtMax = 64;
+const kMostRows = 200; // robots
+
+/** What people call a robot's program: its folder or file, not the image that was made of it. */
+export function programName(r: { program?: string; firmware?: string }): string {
+  const name = (r.program || r.firmware || "").replace(/\/+$/, "").split("/").pop()!;
+  return name || "none";
+}
+/** Columns of the summary, each with its unit, and what they say of a robot. */
+export const kColumns: [string, string, (r: any) => string][] = [
+  ["robot", "", (r) => r.name],
+  ["program", "", programName],
+  ["HAL", "", (r) => r.hal ?? "none"],
+  ["x", "m", (r) => r.x_m.toFixed(3)],
+  ["y", "m", (r) => r.y_m.toFixed(3)],
+  ["heading", "°", (r) => ((r.heading_rad * 180) / Math.PI - 360 * Math.round(r.heading_rad / 2 / Math.PI)).toFixed(1)],
+  ["path", "m", (r) => r.distance_m.toFixed(3)],
+  ["collisions", "", (r) => String(r.collisions)],
+  ["load", "%", (r) => (100 * r.cpu_load).toFixed(0)],
+  ["battery", "V", (r) => r.battery_v?.toFixed(2) ?? "–"],
+  ["battery used", "mWh", (r) => (1000 * r.battery_used_wh).toFixed(1)],
+  ["traps", "", (r) => String(r.traps.length)],
+  ["diagnoses", "", (r) => String(r.diagnoses.length)],
+];
 
 export class Report {
   private timer = 0;
@@ -24,7 +47,8 @@ export class Report {
   private async take(frames: Kept[]) {
     this.store.past.frames = frames;
     await this.client.subscribe();
-    this.past.goTo(0);
+    // the end, with the way that led there
+    this.past.goTo(frames.length - 1);
     byId("past").classList.remove("back");
     this.showSummary();
     document.body.dataset.ready = "yes";
@@ -56,34 +80,25 @@ export class Report {
   }
   private showSummary() {
     const s = this.playback.summary;
-    const columns: [string, (r: any) => string][] = [
-      ["robot", (r) => r.name],
-      ["program", (r) => r.firmware.split("/").pop()],
-      ["HAL", (r) => r.hal ?? "none"],
-      ["x, m", (r) => r.x_m.toFixed(3)],
-      ["y, m", (r) => r.y_m.toFixed(3)],
-      ["path, m", (r) => r.distance_m.toFixed(3)],
-      ["collisions", (r) => r.collisions],
-      ["load", (r) => `${(100 * r.cpu_load).toFixed(0)} %`],
-      ["battery used", (r) => `${(1000 * r.battery_used_wh).toFixed(0)} mWh`],
-      ["traps", (r) => r.traps.length],
-      ["diagnoses", (r) => r.diagnoses.length],
-    ];
+    const programs = [...new Set(s.robots.map(programName))];
     byId("pane-summary").replaceChildren(
       h(
         "p",
         {},
-        `${s.world}: ${s.simulated_s.toFixed(1)} s simulated in ${s.wall_s.toFixed(2)} s (${s.speed.toFixed(0)} times real time), seed ${s.seed}, digest ${s.digest}, Twinpuck ${s.version}`,
+        `${s.world}, ${programs.slice(0, 4).join(", ")}${programs.length > 4 ? " and more" : ""}: ${s.simulated_s.toFixed(1)}\u202fs simulated in ${s.wall_s.toFixed(2)}\u202fs (${s.speed.toFixed(0)} times real time), seed ${s.seed}, digest ${s.digest}, Twinpuck ${s.version}`,
       ),
       h(
         "table",
         {},
-        h("tr", {}, ...columns.map(([name]) => h("th", {}, name))),
+        h("tr", {}, ...kColumns.map(([name, unit]) => h("th", {}, unit ? `${name} (${unit})` : name))),
         ...s.robots
-          .slice(0, 200)
-          .map((r: any) => h("tr", {}, ...columns.map(([, text]) => h("td", {}, String(text(r)))))),
+          .slice(0, kMostRows)
+          .map((r: any) => h("tr", {}, ...kColumns.map(([, , text]) => h("td", {}, text(r))))),
       ),
+      (s.robots.length > kMostRows && h("p", { className: "dim" }, `and ${s.robots.length - kMostRows} robots more`)) ||
+        "",
     );
+    document.title = `${this.store.world.title || s.world} – ${programs.slice(0, 4).join(", ")} – Twinpuck`;
     this.store.tell("show", "summary");
   }
 }

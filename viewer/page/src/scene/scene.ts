@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// The world in three dimensions. Metres, z up. Robots are instances of a few meshes that share one buffer of
-// matrices; nothing is drawn unless something changed.
+// The world in three dimensions. Metres, z up. Nothing is drawn unless something changed; how much is drawn
+// goes by what it takes (quality.ts).
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { ghost } from "./ghosts";
-import { frustum, lightMarks, soundingMaterial, soundingRing, soundMarks } from "./marks";
+import { frustum, lightMarks, soundMarks } from "./marks";
 import type { CameraView } from "./marks";
-import { kPalette } from "../store/colours";
-import { RobotState } from "../link/protocol";
 import type { Frame, Robot, Thing, Vec, World } from "../link/protocol";
+import { Canvas } from "./canvas";
+import { Paths } from "./paths";
+import { Robots } from "./robots";
+import { bordersOf } from "./track";
 
 export interface Picked {
   kind: "robot" | "thing" | "handle" | "floor";
@@ -25,83 +27,43 @@ export interface Handle {
   drag: (x: number, y: number) => void;
 }
 
-const kTrailPoints = 3000;
-
 const rgb = (c: Vec) => new THREE.Color().setRGB(c[0], c[1], c[2], THREE.SRGBColorSpace);
 
-class Trail {
-  readonly line: THREE.Line;
-  private points = new Float32Array(kTrailPoints * 3);
-  private count = 0;
-  constructor(colour: THREE.ColorRepresentation) {
-    const geometry = new THREE.BufferGeometry();
-    geometry.setAttribute("position", new THREE.BufferAttribute(this.points, 3));
-    geometry.setDrawRange(0, 0);
-    this.line = new THREE.Line(geometry, new THREE.LineBasicMaterial({ color: colour }));
-    this.line.frustumCulled = false;
-  }
-  add(x: number, y: number) {
-    const last = 3 * (this.count - 1);
-    if (this.count > 0 && Math.hypot(this.points[last] - x, this.points[last + 1] - y) < 0.002) return;
-    if (this.count === kTrailPoints) {
-      this.points.copyWithin(0, 3);
-      --this.count;
-    }
-    this.points.set([x, y, 0.002], 3 * this.count++);
-    this.line.geometry.setDrawRange(0, this.count);
-    this.line.geometry.attributes.position.needsUpdate = true;
-  }
-  setColour(colour: THREE.Color) {
-    (this.line.material as THREE.LineBasicMaterial).color.copy(colour);
-  }
-  clear() {
-    this.count = 0;
-    this.line.geometry.setDrawRange(0, 0);
-  }
-}
-
 export class Scene {
-  readonly renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
+  readonly canvas = new Canvas();
+  readonly renderer = this.canvas.renderer;
+  readonly robots = new Robots();
+  readonly paths = new Paths();
   private scene = new THREE.Scene();
-  private camera = new THREE.PerspectiveCamera(30, 1, 0.01, 200);
+  readonly camera = new THREE.PerspectiveCamera(30, 1, 0.01, 200);
   readonly controls: OrbitControls;
   private static_ = new THREE.Group();
   private handles = new THREE.Group();
   private outline = new THREE.Group();
   private moving: { object: THREE.Object3D; body: number }[] = [];
   private things = new Map<number, THREE.Object3D>();
-  private instances: THREE.InstancedMesh[] = [];
-  private bodyMesh?: THREE.InstancedMesh;
-  private leds?: THREE.InstancedMesh;
-  private halo?: THREE.InstancedMesh;
-  private sounding?: THREE.InstancedMesh;
-  private turrets?: THREE.InstancedMesh;
-  private robots: (Robot | undefined)[] = []; // by body
-  private turretOf: number[] = []; // bodies of robots that carry a part
   private view = new THREE.Group(); // what a camera sees
   private viewBody = -1;
   private viewOf = "";
   private floor?: THREE.Texture;
-  private trails: Trail[] = [];
   private rays = new THREE.LineSegments(
     new THREE.BufferGeometry(),
     new THREE.LineBasicMaterial({ vertexColors: true, transparent: true, opacity: 0.9 }),
   );
   private sun = new THREE.DirectionalLight(0xffffff, 1.1);
   private compiling = true; // the first world's shaders, beside the script
-  private dirty = true;
-  private drawing = true;
   private world?: World;
   private selected: readonly number[] = [];
   private last?: Frame;
   showTrails = true;
-  followed = "";
+  /** What else is in the picture: the ruler. */
+  readonly extras = new THREE.Group();
+  /** Hears that a frame has been placed; cameras go with robots. */
+  readonly afterFrame: ((frame: Frame) => void)[] = [];
+  /** Hears that a picture has been drawn. */
+  readonly afterDrawing: (() => void)[] = [];
 
   constructor(private stage: HTMLElement) {
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
-    this.renderer.debug.checkShaderErrors = false; // asking waits for the compiler, and ours compile
-    this.renderer.shadowMap.enabled = true;
-    this.renderer.shadowMap.type = THREE.PCFSoftShadowMap;
     stage.prepend(this.renderer.domElement);
     this.camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.camera, this.renderer.domElement);
@@ -117,28 +79,49 @@ export class Scene {
       this.outline,
       this.rays,
       this.view,
+      this.robots.group,
+      this.paths.lines,
+      this.extras,
     );
     this.rays.frustumCulled = false;
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.set(2048, 2048);
     this.sun.shadow.radius = 3;
+    this.canvas.begin(
+      (quality) => this.takeQuality(quality),
+      () => this.paint(),
+    );
     new ResizeObserver(() => this.resize()).observe(stage);
-    const loop = () => {
-      requestAnimationFrame(loop);
-      if (!this.dirty || !this.drawing || this.compiling) return;
-      this.dirty = false;
-      this.renderer.render(this.scene, this.camera);
-      document.getElementById("plan")?.remove();
-    };
-    loop();
   }
 
   draw() {
-    this.dirty = true;
+    this.canvas.dirty = true;
   }
   /** Off: everything but the drawing itself, for measurements. */
   setDrawing(on: boolean) {
-    this.drawing = on;
+    this.canvas.drawing = on;
+  }
+  /** At once, whatever it takes. */
+  drawNow() {
+    this.canvas.draw();
+  }
+  private paint() {
+    if (this.compiling) return false;
+    this.paths.flush();
+    this.canvas.render(this.scene, this.camera);
+    document.getElementById("plan")?.remove();
+    for (const hear of this.afterDrawing) hear();
+    return true;
+  }
+  /** What is drawn from now on. */
+  private takeQuality({ shadows, details }: { shadows: boolean; details: boolean }) {
+    this.sun.castShadow = shadows;
+    const was = this.robots.isSimple;
+    if (was !== !details && this.world) {
+      this.robots.set(this.robots.robots, details);
+      if (this.last) this.robots.place(this.last);
+    }
+    this.resize();
   }
   setBackground(colour: string) {
     this.scene.background = new THREE.Color(colour);
@@ -147,7 +130,7 @@ export class Scene {
   private resize() {
     const { clientWidth: w, clientHeight: h } = this.stage;
     if (!w || !h) return;
-    this.renderer.setSize(w, h);
+    this.canvas.setSize(w, h);
     this.camera.aspect = w / h;
     this.camera.updateProjectionMatrix();
     this.draw();
@@ -167,7 +150,9 @@ export class Scene {
       if (robot.body >= 0) placed[robot.body] = robot;
       else this.static_.add(ghost(robot, world.problems.find((p) => p.id === robot.id)?.text ?? ""));
     }
-    this.addRobots(placed);
+    this.robots.set(placed, this.canvas.quality.details);
+    this.paths.borders = bordersOf(world);
+    this.paths.setRobots(placed);
     if (!keepCamera) this.fit(true);
     const size = Math.max(1, this.extent().size);
     this.sun.position.set(0.4 * size, -0.6 * size, 1.5 * size);
@@ -318,160 +303,21 @@ export class Scene {
     this.static_.add(group);
   }
 
-  private addRobots(robots: (Robot | undefined)[]) {
-    this.robots = robots;
-    for (const old of [...this.instances, this.leds, this.halo, this.sounding, this.turrets])
-      if (old) {
-        this.scene.remove(old);
-        old.geometry.dispose();
-        (old.material as THREE.Material).dispose();
-      }
-    this.instances = [];
-    this.leds = this.halo = this.bodyMesh = this.sounding = this.turrets = undefined;
-    this.turretOf = robots.flatMap((r) => (r?.parts.length ? [r.body] : []));
-    while (this.trails.length > robots.length) this.scene.remove(this.trails.pop()!.line);
-    while (this.trails.length < robots.length) {
-      const trail = new Trail(kPalette[0]);
-      this.trails.push(trail);
-      this.scene.add(trail.line);
-    }
-    const r = robots.find((robot) => robot),
-      n = robots.length;
-    if (!r) return;
-    const add = (geometry: THREE.BufferGeometry, material: THREE.Material, shadow = true) => {
-      const mesh = new THREE.InstancedMesh(geometry, material, n);
-      if (this.bodyMesh) mesh.instanceMatrix = this.bodyMesh.instanceMatrix;
-      else this.bodyMesh = mesh;
-      mesh.castShadow = shadow;
-      mesh.frustumCulled = false;
-      this.instances.push(mesh);
-      this.scene.add(mesh);
-      return mesh;
-    };
-    const upright = (g: THREE.BufferGeometry, z: number) => g.rotateX(Math.PI / 2).translate(0, 0, z);
-    const shell = add(
-      upright(new THREE.CylinderGeometry(r.radius * 0.94, r.radius * 0.94, r.height * 0.5, 40), r.height * 0.32),
-      new THREE.MeshStandardMaterial({ roughness: 0.35, transparent: true, opacity: 0.85 }),
-    );
-    robots.forEach((robot, i) => {
-      if (!robot) return;
-      shell.setColorAt(i, rgb(robot.colour));
-      this.trails[i].setColour(rgb(robot.colour));
-    });
-    const dark = new THREE.MeshStandardMaterial({ color: 0x23282e, roughness: 0.6 });
-    add(upright(new THREE.CylinderGeometry(r.radius, r.radius, 0.003, 40), r.height * 0.62), dark);
-    add(
-      upright(new THREE.CylinderGeometry(r.radius * 0.8, r.radius * 0.86, r.height * 0.3, 32), r.height * 0.82),
-      new THREE.MeshStandardMaterial({ color: 0x3b424b, roughness: 0.5 }),
-    );
-    for (const side of [1, -1])
-      add(
-        new THREE.CylinderGeometry(r.wheel_radius, r.wheel_radius, 0.004, 32)
-          .translate(0, (side * r.axle) / 2, 0)
-          .applyMatrix4(new THREE.Matrix4().makeTranslation(0, 0, r.wheel_radius)),
-        new THREE.MeshStandardMaterial({ color: 0x111417, roughness: 0.9 }),
-      );
-    // where it looks
-    const nose = new THREE.Shape(
-      [
-        [r.radius * 0.72, 0],
-        [r.radius * 0.1, r.radius * 0.34],
-        [r.radius * 0.26, 0],
-        [r.radius * 0.1, -r.radius * 0.34],
-      ].map((p) => new THREE.Vector2(p[0], p[1])),
-    );
-    add(
-      new THREE.ShapeGeometry(nose).translate(0, 0, r.height * 0.975),
-      new THREE.MeshBasicMaterial({ color: 0xffffff }),
-      false,
-    );
-    const some = (geometry: THREE.BufferGeometry, material: THREE.Material, most: number) => {
-      const mesh = new THREE.InstancedMesh(geometry, material, most);
-      mesh.count = 0;
-      mesh.frustumCulled = false;
-      this.scene.add(mesh);
-      return mesh;
-    };
-    const lamps = (radius: number, opacity: number) =>
-      some(
-        new THREE.SphereGeometry(radius, 12, 8),
-        new THREE.MeshBasicMaterial({ transparent: opacity < 1, opacity, depthWrite: opacity === 1 }),
-        n * Math.max(1, r.leds.length),
-      );
-    this.leds = lamps(0.0045, 1);
-    this.halo = lamps(0.011, 0.35);
-    this.sounding = some(soundingRing(), soundingMaterial(), n);
-    // on top, and not wider than the robot
-    this.turrets = some(
-      upright(new THREE.CylinderGeometry(r.radius * 0.86, r.radius * 0.86, 0.012, 32, 1, true), r.height + 0.004),
-      new THREE.MeshStandardMaterial({ color: 0x0b6b4f, roughness: 0.5, side: THREE.DoubleSide }),
-      Math.max(1, this.turretOf.length),
-    );
-  }
-
   // --- frames
 
-  setFrame(frame: Frame) {
+  get lastFrame() {
+    return this.last;
+  }
+  /** `travelled`: m, by body, where somebody has asked the odometers. */
+  setFrame(frame: Frame, travelled?: readonly (number | undefined)[]) {
+    const isNew = frame !== this.last;
     this.last = frame;
     const world = this.world;
     if (!world) return;
-    const p = frame.poses,
-      n = Math.min(frame.robots, this.robots.length);
-    const matrices = this.bodyMesh?.instanceMatrix.array as Float32Array | undefined;
-    let lit = 0,
-      sounding = 0;
-    const leds = this.leds?.instanceMatrix.array as Float32Array | undefined;
-    const halo = this.halo?.instanceMatrix.array as Float32Array | undefined;
-    for (let i = 0; i < n && matrices; ++i) {
-      const robot = this.robots[i];
-      if (!robot) {
-        matrices.fill(0, 16 * i, 16 * i + 16);
-        continue;
-      }
-      const x = p[4 * i],
-        y = p[4 * i + 1],
-        z = p[4 * i + 2],
-        c = Math.cos(p[4 * i + 3]),
-        s = Math.sin(p[4 * i + 3]);
-      matrices.set([c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, x, y, z, 1], 16 * i);
-      if (frame.robotWords[2 * i + 1] & RobotState.Sounding)
-        (this.sounding!.instanceMatrix.array as Float32Array).set(
-          matrices.subarray(16 * i, 16 * i + 16),
-          16 * sounding++,
-        );
-      for (let bits = frame.robotWords[2 * i], bit = 0; bits !== 0; bits >>>= 1, ++bit) {
-        const led = robot.leds[bit];
-        if (!(bits & 1) || !led || !leds || !halo) continue;
-        const lx = x + c * led[0] - s * led[1],
-          ly = y + s * led[0] + c * led[1],
-          lz = z + Math.max(led[2], robot.height * 0.62);
-        const m = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, lx, ly, lz, 1];
-        leds.set(m, 16 * lit);
-        halo.set(m, 16 * lit);
-        this.leds!.setColorAt(lit, new THREE.Color(led[3], led[4], led[5]));
-        this.halo!.setColorAt(lit++, new THREE.Color(led[3], led[4], led[5]));
-      }
-      this.trails[i].line.visible = this.showTrails;
-      this.trails[i].add(x, y);
-    }
-    if (this.bodyMesh) this.bodyMesh.instanceMatrix.needsUpdate = true;
-    for (const mesh of [this.leds, this.halo])
-      if (mesh) {
-        mesh.count = lit;
-        mesh.instanceMatrix.needsUpdate = true;
-        if (mesh.instanceColor) mesh.instanceColor.needsUpdate = true;
-      }
-    if (this.sounding) {
-      this.sounding.count = sounding;
-      if (sounding) this.sounding.instanceMatrix.needsUpdate = true;
-    }
-    if (this.turrets && matrices) {
-      this.turrets.count = this.turretOf.length;
-      this.turretOf.forEach((body, i) =>
-        (this.turrets!.instanceMatrix.array as Float32Array).set(matrices.subarray(16 * body, 16 * body + 16), 16 * i),
-      );
-      this.turrets.instanceMatrix.needsUpdate = true;
-    }
+    const p = frame.poses;
+    this.robots.place(frame);
+    if (isNew) this.addToPaths(frame, travelled);
+    this.paths.lines.visible = this.showTrails;
     this.placeView();
     for (const { object, body } of this.moving)
       if (body < frame.bodies) {
@@ -479,14 +325,7 @@ export class Scene {
         object.rotation.z = p[4 * body + 3];
       }
     this.setRays(frame.rays);
-    const follow = this.robots.find((r) => r?.name === this.followed);
-    if (follow) {
-      const to = new THREE.Vector3(p[4 * follow.body], p[4 * follow.body + 1], 0),
-        by = to.sub(this.controls.target);
-      this.controls.target.add(by);
-      this.camera.position.add(by);
-      this.controls.update();
-    }
+    for (const hear of this.afterFrame) hear(frame);
     this.placeOutline();
     this.draw();
   }
@@ -545,12 +384,13 @@ export class Scene {
   }
 
   /** Where the robots were, without showing them there. */
-  addToTrails(frame: Frame) {
-    for (let i = 0; i < Math.min(frame.robots, this.trails.length); ++i)
-      this.trails[i].add(frame.poses[4 * i], frame.poses[4 * i + 1]);
+  addToPaths(frame: Frame, travelled?: readonly (number | undefined)[]) {
+    const p = frame.poses;
+    for (let i = 0; i < Math.min(frame.robots, this.robots.robots.length); ++i)
+      if (this.robots.robots[i]) this.paths.add(i, p[4 * i], p[4 * i + 1], p[4 * i + 3], frame.time, travelled?.[i]);
   }
-  clearTrails() {
-    this.trails.forEach((t) => t.clear());
+  clearPaths() {
+    this.paths.clear();
     this.draw();
   }
 
@@ -601,10 +441,11 @@ export class Scene {
         handle: handle.object.userData.handle,
       };
     const hit = caster
-      .intersectObjects([this.static_, ...this.instances], true)
+      .intersectObjects([this.static_, ...this.robots.instances], true)
       .find((h) => h.instanceId !== undefined || this.idOf(h.object) > 0);
     if (!hit) return { kind: "floor", id: 0, point: floor };
-    if (hit.instanceId !== undefined) return { kind: "robot", id: this.robots[hit.instanceId]?.id ?? 0, point: floor };
+    if (hit.instanceId !== undefined)
+      return { kind: "robot", id: this.robots.robots[hit.instanceId]?.id ?? 0, point: floor };
     return { kind: "thing", id: this.idOf(hit.object), point: floor };
   }
   private idOf(object: THREE.Object3D | null): number {
@@ -612,11 +453,8 @@ export class Scene {
     return 0;
   }
 
-  /** Instances' bounds are for picking, and change with every frame. */
   beforePicking() {
-    this.instances.forEach((mesh) => {
-      mesh.boundingSphere = null;
-    });
+    this.robots.beforePicking();
   }
 
   // --- selection

@@ -5,6 +5,7 @@ import { readFrame } from "../link/protocol";
 import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "../link/protocol";
 import type { Buffer } from "./buffer";
 import { coloursOf } from "./colours";
+import { Cursor } from "./cursor";
 import { Past } from "./past";
 
 export interface Diagnosis {
@@ -74,6 +75,8 @@ export interface Topics {
   sourceLine: SourceLine;
   plot: string;
   follow: string;
+  /** The pointer is at another time, or a marker is. */
+  cursor: void;
 }
 
 const kNoWorld: World = {
@@ -139,6 +142,8 @@ export class Store {
   frames = 0;
   /** Who wants values in every frame, and which; see client.subscribe(). */
   readonly wanted: (() => string[])[] = [];
+  /** The time that the pointer is at, and two markers. */
+  readonly cursor = new Cursor(() => this.tell("cursor"));
   private chosen: number[] = [];
   private listeners = new Map<string, ((what: any) => void)[]>();
 
