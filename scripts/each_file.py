@@ -12,6 +12,7 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import re
 import shlex
 import subprocess
 import sys
@@ -63,8 +64,12 @@ def changed():
     return set(names.split("\n"))
 
 
-def tidied(build, source):
-    run = subprocess.run(["clang-tidy", "-p", build, "--quiet", source], cwd=ROOT, capture_output=True, text=True, check=False)
+def tidied(build, source, names):
+    """What clang-tidy says of a source and of the headers among `names`: who includes an old one is not told of it."""
+    headers = "|".join(re.escape(name) for name in sorted(names) if name.endswith(".h"))
+    told = [f"--header-filter=/({headers})$"] if headers else []
+    run = subprocess.run(["clang-tidy", "-p", build, "--quiet", *told, source], cwd=ROOT, capture_output=True, text=True,
+                         check=False)
     run.stderr = run.stdout  # stderr counts what was left out
     return run
 
@@ -74,6 +79,7 @@ def main():
         print(__doc__.strip(), file=sys.stderr)
         return 2
     build, what = sys.argv[1:]
+    names = changed()
     subprocess.run(["ninja", "-C", build, "--quiet", "build.ninja"], cwd=ROOT, check=True)  # files that are new
     sources = commands(build)
     if what == "tidy":
@@ -82,7 +88,7 @@ def main():
         sources = {s: c for s, c in sources.items() if s in names or s.rsplit(".", 1)[0] in stems}
     if sources:
         make_generated(build)
-    look = (lambda s: compiled_alone(*sources[s])) if what == "alone" else (lambda s: tidied(build, s))
+    look = (lambda s: compiled_alone(*sources[s])) if what == "alone" else (lambda s: tidied(build, s, names))
     bad = left_out = 0
     give_up = time.monotonic() + (LONGEST_TIDY_S if what == "tidy" else float("inf"))
 
