@@ -83,7 +83,6 @@ def main():
     subprocess.run(["ninja", "-C", build, "--quiet", "build.ninja"], cwd=ROOT, check=True)  # files that are new
     sources = commands(build)
     if what == "tidy":
-        names = changed()
         stems = {name.rsplit(".", 1)[0] for name in names}  # a header is read with its source
         sources = {s: c for s, c in sources.items() if s in names or s.rsplit(".", 1)[0] in stems}
     if sources:
