@@ -15,7 +15,7 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build dev run test page check-page view test-view dspic check chip-tables alone format bench asan tsan fuzz second routines levels \
+.PHONY: help setup tool build dev run test page check-page view test-view dspic check chip-tables tidy alone format bench asan tsan fuzz second routines levels \
   turn students clean product install deb
 
 ## help: this list
@@ -132,7 +132,7 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings; clang-tidy on what changed
+## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings
 check: tool
 	@scripts/setup.sh check
 	@scripts/check_pages.py --test
@@ -147,6 +147,10 @@ check: tool
 	@$(NINJA) twinpuck-dev
 	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
+
+## tidy: clang-tidy on what changed since main, for five minutes
+tidy: setup
+	@scripts/setup.sh check
 	$(call configure,$(BUILD)-dev,$(DEV))
 	@scripts/each_file.py $(BUILD)-dev tidy
 

@@ -61,7 +61,10 @@ void Session::live() {
   while (!mail_.is_ending()) {
     const bool changed = take_messages();
     if (debugging_) {
-      if (debugging_->runs()) debugging_->run_on();
+      if (debugging_->runs()) {
+        debugging_->run_on();
+        if (!debugging_->runs()) stand_still();
+      }
       if (run_) after_ticks();
     } else if (run_ && pace_.plays() && !ended_) {
       advance_slice();

@@ -50,6 +50,7 @@ TEST_F(InTheDebugger, a_robot_stops_steps_and_goes_back) {
             true);
   dap(page, "continue", {{"threadId", 1}});
   stopped(page, "breakpoint");
+  EXPECT_EQ(page.good({{"do", "state"}}).at("state").at("playing"), false) << "it stands, and says so";
   const Json frames = dap(page, "stackTrace", {{"threadId", 1}}).at("stackFrames");
   EXPECT_EQ(frames.at(0).at("name"), "main");
   EXPECT_EQ(frames.at(0).at("line"), line_of("e_set_speed_left(speed)"));
