@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/events.h"
 
+#include "viewer/text_file.h"
+
 namespace viewer {
 
 namespace {
 
 using Json = nlohmann::json;
 constexpr std::size_t kMostDiagnoses = 200;
-
-/// Bytes as a JSON text: each is a character.
-std::string latin_to_utf8(const std::string& bytes) {
-  std::string out;
-  for (const char c : bytes) {
-    const auto u = static_cast<unsigned char>(c);
-    if (u < 0x80) {
-      out += c;
-    } else {
-      out += static_cast<char>(0xC0 | u >> 6);
-      out += static_cast<char>(0x80 | (u & 0x3F));
-    }
-  }
-  return out;
-}
 
 }  // namespace
 

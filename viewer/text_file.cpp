@@ -63,16 +63,6 @@ bool is_utf8(std::string_view text) {
   return true;
 }
 
-std::string latin_to_utf8(std::string_view bytes) {
-  std::string out;
-  for (const char c : bytes) {
-    const auto u = static_cast<unsigned char>(c);
-    if (u >= 0x80) out += static_cast<char>(0xC0 | u >> 6);
-    out += u < 0x80 ? c : static_cast<char>(0x80 | (u & 0x3F));
-  }
-  return out;
-}
-
 std::string utf8_to_latin(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size(); ++i) {
@@ -94,6 +84,16 @@ std::string utf8_to_latin(const std::string& text) {
 }
 
 }  // namespace
+
+std::string latin_to_utf8(std::string_view bytes) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto u = static_cast<unsigned char>(c);
+    if (u >= 0x80) out += static_cast<char>(0xC0 | u >> 6);
+    out += u < 0x80 ? c : static_cast<char>(0x80 | (u & 0x3F));
+  }
+  return out;
+}
 
 PlainText plain_text(const std::string& bytes) {
   std::string_view rest = bytes;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace viewer {
 
@@ -19,6 +20,9 @@ class Refusal : public std::runtime_error {
  private:
   nlohmann::json more_;
 };
+
+/// Each byte as the character of Latin-1 that it is.
+std::string latin_to_utf8(std::string_view bytes);
 
 /// Text as a page shows it: UTF-8, lines end with LF, no byte order mark.
 struct PlainText {

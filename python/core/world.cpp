@@ -165,8 +165,8 @@ void World::apply(const inputs::Json& input) {
 }
 
 std::string World::recording() const {
-  inputs::Opening opening{opening_.file, opening_.text, *opening_.seed, opening_.options,
-                          opening_.supervisors};
+  inputs::Opening opening{opening_.file,    opening_.text,        *opening_.seed,
+                          opening_.options, opening_.supervisors, {}};
   return inputs::recording_text(opening, touches_, simulation().now(), simulation().digest());
 }
 

@@ -71,7 +71,7 @@ struct FakeOutside : dspic::Outside {
     }
     return {levels, wired[port]};
   }
-  Cycle levels_horizon(Port port, std::uint16_t pins, Cycle after) override {
+  Cycle levels_horizon(Port port, std::uint16_t /*pins*/, Cycle after) override {
     const auto wave = waves.find(port);
     if (wave == waves.end()) return kNever;
     const auto next = wave->second.upper_bound(after);
