@@ -18,6 +18,7 @@
 #include "outputs/progress.h"
 #include "outputs/serial_text.h"
 #include "outputs/summary.h"
+#include "outputs/terminal_screen.h"
 #include "outputs/terminal_view.h"
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/world_loader.h"
@@ -33,6 +34,7 @@ namespace {
 
 using Wall = std::chrono::steady_clock;
 constexpr double kPictureEvery_s = 0.05;
+constexpr double kLineEvery_s = 1;       // on a terminal that obeys nothing
 constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
 
 struct RunArguments {
@@ -110,10 +112,15 @@ class CommandRun {
   void begin();
   void step(sim::Clicks look);
   void show();
+  void show_terminal();
+  /// p and n, where stdin is a terminal; waits while the run is paused. The ticks to go on by.
+  sim::Clicks obey_keys(sim::Clicks look);
   void keep_pace() const;
   void say(const std::string& line);
   int exit_code(int end_code, bool is_clean, bool kept_budgets) const;
   double wall_s() const { return std::chrono::duration<double>(Wall::now() - start_).count(); }
+  /// Without the time that it was paused.
+  double run_s() const { return wall_s() - paused_s_; }
   double now_s() const { return sim::to_seconds(run_->simulation().now()); }
 
   const RunArguments& a_;
@@ -132,7 +139,8 @@ class CommandRun {
   std::unique_ptr<outputs::TerminalScreen> screen_;
   std::unique_ptr<outputs::SerialText> serial_;
   sim::Clicks end_ = 0;
-  double next_picture_s_ = 0, took_s_ = 0;
+  double next_picture_s_ = 0, took_s_ = 0, paused_s_ = 0;
+  bool is_paused_ = false;
   // while programs run, the outputs are whole up to the last tick
   std::atomic<bool> is_stepping_{false};
   std::unique_ptr<GracefulEnd> guard_;  // looks at outputs from a thread of its own
@@ -154,8 +162,7 @@ bool CommandRun::read_options() {
       !split_choices(a_.uart2, "--uart2", options_.uart2))
     return false;
   if (a_.live && !::isatty(STDOUT_FILENO))
-    problems_.push_back(
-        "command line: --live: got no terminal, expected one of 80 by 24 characters on stdout");
+    problems_.push_back("command line: --live: got no terminal on stdout, expected one");
   return problems_.empty();
 }
 
@@ -223,6 +230,7 @@ void CommandRun::tell_other_ends() {
 // --- running
 
 void CommandRun::say(const std::string& line) {
+  if (screen_ && screen_->is_dumb()) return screen_->line(line);
   if (screen_) return terminal_->say(line);
   progress_->clear();
   std::cout << line << '\n';
@@ -238,8 +246,9 @@ void CommandRun::begin() {
   end_ = replay_ && replay_->end() >= 0 ? replay_->end() : sim::from_seconds(a_.seconds);
   progress_ = std::make_unique<outputs::Progress>(a_.seconds, a_.quiet || a_.live);
   if (a_.live) {
-    terminal_ = std::make_unique<outputs::TerminalView>(twin);
-    screen_ = std::make_unique<outputs::TerminalScreen>();
+    const auto kind = outputs::TerminalKind::of_environment();
+    terminal_ = std::make_unique<outputs::TerminalView>(twin, kind.colours, outputs::TerminalScreen::size());
+    screen_ = std::make_unique<outputs::TerminalScreen>(kind);
   }
   start_ = Wall::now();
   for (int i = 0; i < twin.robots() && !a_.quiet; ++i) {
@@ -272,7 +281,9 @@ void CommandRun::loop() {
   const bool is_seen = a_.live || speed_ > 0 || !run_->team().is_empty();
   const sim::Clicks look = outputs_->wants_ticks() ? 0 : sim::kClicksPerSecond / (is_seen ? 64 : 4);
   while (run_->simulation().now() < end_ && !run_->team().has_ended()) {
-    step(look);
+    const sim::Clicks by = screen_ ? obey_keys(look) : look;
+    if (end_asked()) break;
+    step(by);
     if (end_asked() || outputs_->failed()) break;
     show();
     if (speed_ > 0) keep_pace();
@@ -292,16 +303,51 @@ void CommandRun::step(sim::Clicks look) {
 }
 
 void CommandRun::show() {
-  if (screen_ && wall_s() >= next_picture_s_) {
-    screen_->show(terminal_->frame(now_s() / std::max(wall_s(), 1e-3)));
-    next_picture_s_ = wall_s() + kPictureEvery_s;
-  }
+  if (screen_ && wall_s() >= next_picture_s_) show_terminal();
   if (progress_->is_due()) progress_->show(now_s());
+}
+
+void CommandRun::show_terminal() {
+  const double pace = now_s() / std::max(run_s(), 1e-3);
+  if (screen_->is_dumb()) {
+    screen_->line(terminal_->line(pace));
+    next_picture_s_ = wall_s() + kLineEvery_s;
+    return;
+  }
+  const outputs::TerminalSize size = outputs::TerminalScreen::size();
+  if (!(size == terminal_->size())) terminal_->resize(size);
+  const char* const keys = is_paused_ ? "PAUSED: p go on, n next tick" : "p pause, n next tick";
+  screen_->show(terminal_->picture(pace, screen_->has_keys() ? keys : ""));
+  next_picture_s_ = wall_s() + kPictureEvery_s;
+}
+
+sim::Clicks CommandRun::obey_keys(sim::Clicks look) {
+  const double before_s = run_s();
+  sim::Clicks by = look;
+  for (bool is_told = false; !end_asked();) {
+    const char key = screen_->key();
+    if (key == 'p' || key == 'P') is_paused_ = !is_paused_;
+    if (key == 'n' || key == 'N') {
+      is_paused_ = true;
+      by = 0;  // one tick
+      next_picture_s_ = 0;
+      break;
+    }
+    if (!is_paused_) break;
+    if (key != 0) continue;
+    paused_s_ += run_s() - before_s;
+    // a line on a dumb terminal is said once
+    if (!is_told || (!screen_->is_dumb() && wall_s() >= next_picture_s_)) show_terminal();
+    is_told = true;
+    std::this_thread::sleep_for(std::chrono::duration<double>(kPictureEvery_s / 2));
+  }
+  paused_s_ += run_s() - before_s;
+  return by;
 }
 
 void CommandRun::keep_pace() const {
   const double due_s = now_s() / speed_;
-  for (double ahead_s; (ahead_s = due_s - wall_s()) > 0 && !end_asked();)
+  for (double ahead_s; (ahead_s = due_s - run_s()) > 0 && !end_asked() && !is_paused_;)
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
 }
 
@@ -433,9 +479,10 @@ void add_run(CLI::App& app, int& exit_code) {
           "--opt", a->optimisation,
           "level for controllers built from source; without it, that of a program's project file, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
-  verb->add_flag("--live", a->live,
-                 "show arena, robots, LEDs and serial text in this terminal (80 by 24), in real time unless "
-                 "--speed says otherwise");
+  verb->add_flag(
+      "--live", a->live,
+      "show arena, robots, LEDs and serial text in this terminal, in real time unless --speed says "
+      "otherwise; keys: p pauses, n is the next tick");
   verb->add_flag("-q,--quiet", a->quiet, "no progress, no serial text and no summary on the terminal");
   add_profile_options(*verb, a->profile);
   add_output_options(*verb, a->outputs);

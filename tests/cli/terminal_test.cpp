@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
-// run --live: what stands on a terminal of 80 by 24 after a frame, and that the terminal is given back.
+// run --live: what stands on a terminal after a frame, what is written for it, keys, and that the terminal is
+// given back.
+#include <poll.h>
+#include <pty.h>
+#include <signal.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+
 #include <array>
 #include <map>
 
 #include "hal_sim/twin/world_file.h"
+#include "outputs/terminal_screen.h"
 #include "outputs/terminal_view.h"
 #include "tests/cli/command.h"
 
@@ -17,7 +25,9 @@ struct Terminal {
     std::string sign = " ";
     int fore = -1, back = -1;
   };
-  std::array<std::array<Cell, 80>, 24> cells;
+  static constexpr int kColumns = 130, kRows = 50;
+  std::array<std::array<Cell, kColumns>, kRows> cells;
+  int written = 0;  // characters
   int row = 0, column = 0, fore = -1, back = -1;
 
   void show(const std::string& bytes) {
@@ -33,25 +43,39 @@ struct Terminal {
       } else {
         std::size_t end = i + 1;
         while (end < bytes.size() && (bytes[end] & 0xC0) == 0x80) ++end;
-        ASSERT_LT(row, 24);
-        ASSERT_LT(column, 80) << "row " << row;
+        ASSERT_LT(row, kRows);
+        ASSERT_LT(column, kColumns) << "row " << row;
+        ++written;
         cells[row][column++] = {bytes.substr(i, end - i), fore, back};
         i = end;
       }
     }
   }
   void obey(const std::string& what, char order) {
-    if (order == 'H') row = column = 0;
-    if (order == 'K')
-      for (int x = column; x < 80; ++x) cells[row][x] = {" ", -1, -1};
+    if (order == 'H') {
+      row = column = 0;
+      if (const std::size_t semicolon = what.find(';'); semicolon != std::string::npos) {
+        row = std::stoi(what) - 1;
+        column = std::stoi(what.substr(semicolon + 1)) - 1;
+      }
+    }
+    if (order == 'J') cells = {};
     if (order == 'm' && what == "0") fore = back = -1;
     if (order == 'm' && what.rfind("38;5;", 0) == 0) fore = std::stoi(what.substr(5));
     if (order == 'm' && what.rfind("48;5;", 0) == 0) back = std::stoi(what.substr(5));
   }
-  std::string line(int y) const {
+  std::string line(int y, int columns = 80) const {
     std::string out;
-    for (const Cell& cell : cells[y]) out += cell.sign;
+    for (int x = 0; x < columns; ++x) out += cells[y][x].sign;
     return out;
+  }
+  bool operator==(const Terminal& o) const {
+    for (int y = 0; y < kRows; ++y)
+      for (int x = 0; x < kColumns; ++x) {
+        const Cell &a = cells[y][x], &b = o.cells[y][x];
+        if (a.sign != b.sign || a.fore != b.fore || a.back != b.back) return false;
+      }
+    return true;
   }
   /// How many pixels of that colour, and the mean of their columns and rows.
   struct Spot {
@@ -99,7 +123,8 @@ TEST_F(Live, a_frame_shows_arena_robot_and_text) {
   ASSERT_TRUE(twin) << problems.front();
   outputs::TerminalView view(*twin);
   Terminal terminal;
-  terminal.show(view.frame(1));
+  outputs::TerminalPainter painter;
+  terminal.show(painter.changes(view.picture(1)));
   // 2.02 m on 78 pixels: 38.6 a metre; the middle of the picture is the arena's
   const auto robot = terminal.spot(kGreen), box = terminal.spot(kBlue);
   EXPECT_NEAR(robot.x, 39.5 - 0.5 * 38, 1.2);
@@ -116,7 +141,14 @@ TEST_F(Live, a_frame_shows_arena_robot_and_text) {
   twin->simulation().move(0, {0.0, 0.0, 0}, 0);
   for (int i = 0; i < 9; ++i) view.say("line " + std::to_string(i));
   view.say("\x1b[2J" + std::string(200, 'x'));
-  terminal.show(view.frame(1));
+  terminal.written = 0;
+  terminal.show(painter.changes(view.picture(1)));
+  // only what is another: 5 lines of text, and the places of a robot that was and is
+  EXPECT_LT(terminal.written, 5 * 80 + 60);
+  Terminal anew;
+  anew.show(outputs::TerminalPainter().changes(view.picture(1)));
+  EXPECT_TRUE(terminal == anew);
+  EXPECT_EQ(painter.changes(view.picture(1)), "");
   EXPECT_NEAR(terminal.spot(kGreen).x, 39.5, 1.2);
   EXPECT_NE(terminal.line(22).find("line 8"), std::string::npos);
   EXPECT_EQ(terminal.line(23), "[2J" + std::string(77, 'x'));
@@ -142,13 +174,228 @@ int main(void) {
   twin->simulation().run_until(sim::from_seconds(0.05));
   outputs::TerminalView view(*twin);
   Terminal terminal;
-  terminal.show(view.frame(1));
+  outputs::TerminalPainter painter;
+  terminal.show(painter.changes(view.picture(1)));
   EXPECT_EQ(terminal.spot(kLed).count, 1);
   EXPECT_NE(terminal.line(17).find("LEDs ..2.......  waits"), std::string::npos) << terminal.line(17);
   twin->simulation().run_until(sim::from_seconds(2));
-  terminal.show(view.frame(1));
+  terminal.show(painter.changes(view.picture(1)));
   // the processor resets, and the program goes on from its beginning
   EXPECT_NE(terminal.line(17).find("LEDs ..2.......  RESET "), std::string::npos) << terminal.line(17);
+}
+
+TEST_F(Live, without_colours_a_sign_stands_for_each_thing) {
+  std::vector<std::string> problems;
+  auto twin = twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), {}, problems);
+  ASSERT_TRUE(twin) << problems.front();
+  outputs::TerminalView view(*twin, false);
+  const std::string bytes = outputs::TerminalPainter().changes(view.picture(1));
+  EXPECT_EQ(bytes.find("38;5"), std::string::npos);
+  Terminal terminal;
+  terminal.show(bytes);
+  // the robot is at column 20.5 and pixel row 7.9 of 32: text rows 4 and 5 below the first
+  EXPECT_NE((terminal.line(4) + terminal.line(5)).find('o'), std::string::npos);
+  EXPECT_NE(terminal.line(9).find("####"), std::string::npos)
+      << terminal.line(9);  // the box: 4 characters wide
+  EXPECT_EQ(terminal.cells[9][10].sign, ".");
+}
+
+TEST_F(Live, any_size_of_terminal_is_filled) {
+  std::vector<std::string> problems;
+  auto twin = twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), {}, problems);
+  ASSERT_TRUE(twin) << problems.front();
+  outputs::TerminalView view(*twin, true, {120, 40});
+  Terminal terminal;
+  outputs::TerminalPainter painter;
+  terminal.show(painter.changes(view.picture(1)));
+  EXPECT_EQ(terminal.cells[10][119].back, 234);  // outside the arena
+  EXPECT_EQ(terminal.cells[10][120].back, -1);
+  view.resize({50, 12});
+  terminal.show(painter.changes(view.picture(1)));
+  EXPECT_EQ(terminal.cells[2][49].back, 234);
+  EXPECT_EQ(terminal.cells[2][50].back, -1);
+  EXPECT_EQ(terminal.cells[20][5].sign, " ");
+  for (const outputs::TerminalSize size : {outputs::TerminalSize{1, 1}, {3, 2}, {80, 3}, {2, 49}}) {
+    view.resize(size);
+    Terminal small;
+    small.show(outputs::TerminalPainter().changes(view.picture(1)));
+    EXPECT_EQ(small.cells[0][size.columns].sign, " ");
+  }
+}
+
+TEST_F(Live, text_takes_as_many_columns_as_a_terminal_gives_it) {
+  std::vector<std::string> problems;
+  auto twin = twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), {}, problems);
+  ASSERT_TRUE(twin) << problems.front();
+  outputs::TerminalView view(*twin);
+  view.say(
+      "\xE6\xBC\xA2"
+      "a"
+      "\xC3\xA9"
+      "e"
+      "\xCC\x81"
+      "|\xFF|"
+      "\xC2\x9B"
+      "|");  // a wide one, é, e with an accent, no UTF-8, C1
+  const outputs::TerminalPicture picture = view.picture(1);
+  const auto* const cells = &picture.cells[19 * 80];
+  EXPECT_EQ(cells[0].sign, "\xE6\xBC\xA2");
+  EXPECT_EQ(cells[1].sign, "");
+  EXPECT_EQ(cells[2].sign, "a");
+  EXPECT_EQ(cells[3].sign, "\xC3\xA9");
+  EXPECT_EQ(cells[4].sign, "e\xCC\x81");
+  EXPECT_EQ(cells[5].sign, "|");
+  EXPECT_EQ(cells[6].sign, "?");
+  EXPECT_EQ(cells[7].sign, "|");
+  EXPECT_EQ(cells[8].sign, "|");
+}
+
+/// The command on a terminal of its own.
+class Pty {
+ public:
+  Pty(const std::string& arguments, const std::vector<std::string>& environment, int columns, int rows) {
+    winsize size{};
+    size.ws_col = static_cast<unsigned short>(columns);
+    size.ws_row = static_cast<unsigned short>(rows);
+    pid_ = forkpty(&fd_, nullptr, nullptr, &size);
+    if (pid_ == 0) {
+      unsetenv("NO_COLOR");
+      setenv("TERM", "xterm-256color", 1);
+      for (const std::string& e : environment) putenv(const_cast<char*>(e.c_str()));
+      execl("/bin/sh", "sh", "-c", ("exec '" + executable() + "' " + arguments).c_str(), nullptr);
+      _exit(127);
+    }
+    tcgetattr(fd_, &before_);
+  }
+  ~Pty() {
+    if (pid_ > 0) kill(pid_, SIGKILL), waitpid(pid_, nullptr, 0);
+    close(fd_);
+  }
+  /// Reads until `text` has come behind what was read before; false where it never does.
+  bool until(const std::string& text) {
+    for (int patience = 0; patience < 400; ++patience) {
+      if (const std::size_t at = said.find(text, seen_); at != std::string::npos) {
+        seen_ = at + text.size();
+        return true;
+      }
+      if (!read_some(50) && ended_) return false;
+    }
+    return false;
+  }
+  /// Whatever comes in so many ms, and on a busy machine later.
+  void listen(int ms) {
+    for (int quiet = 0; quiet < ms;) quiet = read_some(50) ? 0 : quiet + 50;
+  }
+  void type(const std::string& keys) {
+    EXPECT_EQ(write(fd_, keys.data(), keys.size()), ssize_t(keys.size()));
+  }
+  void resize(int columns, int rows) {
+    winsize size{};
+    size.ws_col = static_cast<unsigned short>(columns);
+    size.ws_row = static_cast<unsigned short>(rows);
+    ioctl(fd_, TIOCSWINSZ, &size);
+  }
+  void signal(int number) { kill(pid_, number); }
+  bool is_as_before() const {
+    termios now;
+    return tcgetattr(fd_, &now) == 0 && now.c_lflag == before_.c_lflag &&
+           now.c_cc[VSUSP] == before_.c_cc[VSUSP];
+  }
+  /// Its exit code, or 128 and its signal.
+  int end() {
+    for (int patience = 0; !ended_ && patience < 400; ++patience) read_some(50);
+    int status = 0;
+    waitpid(pid_, &status, 0);
+    pid_ = 0;
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  }
+  std::string said;
+
+ private:
+  bool read_some(int ms) {
+    pollfd p{fd_, POLLIN, 0};
+    if (poll(&p, 1, ms) <= 0) return false;
+    std::array<char, 65536> buffer;
+    const ssize_t n = read(fd_, buffer.data(), buffer.size());
+    ended_ = n <= 0;
+    if (n > 0) said.append(buffer.data(), static_cast<std::size_t>(n));
+    return n > 0;
+  }
+  int fd_ = -1;
+  pid_t pid_ = 0;
+  termios before_{};
+  std::size_t seen_ = 0;
+  bool ended_ = false;
+};
+
+TEST_F(Live, the_terminal_has_its_real_size_and_may_change_it) {
+  Pty pty("run " + path("world.toml") + " --live -q --for 1000", {}, 100, 30);
+  ASSERT_TRUE(pty.until("p pause"));
+  pty.resize(60, 20);
+  pty.type("p");
+  ASSERT_TRUE(pty.until("\x1b[2J")) << pty.said;  // all of it anew
+  const std::size_t begin = pty.said.rfind("\x1b[2J");
+  ASSERT_TRUE(pty.until("PAUSED"));
+  Terminal terminal;
+  pty.type("\x03");
+  EXPECT_EQ(pty.end(), 130);
+  const std::size_t end = pty.said.rfind("\x1b[0m\x1b[?25h");
+  ASSERT_NE(end, std::string::npos) << pty.said;
+  ASSERT_LT(begin, end) << pty.said;
+  terminal.show(pty.said.substr(begin, end - begin));
+  EXPECT_EQ(terminal.cells[5][59].back, 234);
+  EXPECT_EQ(terminal.cells[5][60].back, -1);
+}
+
+TEST_F(Live, p_pauses_n_is_one_tick_and_p_goes_on) {
+  Pty pty("run " + path("world.toml") + " --live -q --for 1000", {}, 80, 24);
+  ASSERT_TRUE(pty.until("p pause, n next tick"));
+  const auto shown_s = [&pty] {
+    Terminal terminal;
+    const std::size_t end = pty.said.rfind("\x1b[");  // of whole orders
+    terminal.show(pty.said.substr(pty.said.find("\x1b[0m\x1b[2J"), end - pty.said.find("\x1b[0m\x1b[2J")));
+    return std::stod(terminal.line(0));
+  };
+  pty.type("p");
+  ASSERT_TRUE(pty.until("AUSED")) << pty.said;
+  pty.listen(300);
+  const double paused_s = shown_s();
+  pty.type("n");
+  pty.listen(300);
+  EXPECT_NEAR(shown_s(), paused_s + 1.0 / 512, 0.0011);  // three decimals are shown
+  pty.type("p");
+  ASSERT_TRUE(pty.until("p pause")) << pty.said.substr(pty.said.size() - 300);
+  EXPECT_FALSE(pty.is_as_before());  // keys come without Enter
+  pty.type("\x03");
+  EXPECT_EQ(pty.end(), 130);
+}
+
+TEST_F(Live, every_end_gives_the_terminal_back) {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+    Pty pty("run " + path("world.toml") + " --live -q --for 1000", {}, 80, 24);
+    ASSERT_TRUE(pty.until("p pause")) << number;
+    pty.signal(number);
+    const bool came_back = pty.until("\x1b[?25h\x1b[?1049l");
+    EXPECT_TRUE(came_back) << number;
+    const int code = pty.end();
+    EXPECT_EQ(code, number == SIGINT || number == SIGTERM ? 130 : 128 + number);
+    EXPECT_TRUE(pty.is_as_before()) << number;
+  }
+}
+
+TEST_F(Live, no_color_and_a_dumb_terminal_are_obeyed) {
+  Pty plain("run " + path("world.toml") + " --live -q --for 0.3", {"NO_COLOR=1"}, 80, 24);
+  EXPECT_EQ(plain.end(), 0);
+  EXPECT_NE(plain.said.find("\x1b[?1049h"), std::string::npos);
+  EXPECT_EQ(plain.said.find("38;5"), std::string::npos);
+  EXPECT_NE(plain.said.find("###"), std::string::npos);
+  Pty empty("run " + path("world.toml") + " --live -q --for 0.3", {"NO_COLOR="}, 80, 24);
+  EXPECT_EQ(empty.end(), 0);
+  EXPECT_NE(empty.said.find("38;5"), std::string::npos);  // an empty one says nothing
+  Pty dumb("run " + path("world.toml") + " --live -q --for 0.3", {"TERM=dumb"}, 80, 24);
+  EXPECT_EQ(dumb.end(), 0);
+  EXPECT_EQ(dumb.said.find('\x1b'), std::string::npos) << dumb.said;
+  EXPECT_NE(dumb.said.find("puck         x -0.500 y  0.200 m"), std::string::npos) << dumb.said;
 }
 
 TEST_F(Live, the_terminal_is_given_back) {
