@@ -15,8 +15,8 @@ CMAKE  := cmake -G Ninja -S .
 NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup tool build run test page check-page view test-view dspic check chip-tables format bench asan tsan fuzz second routines levels students clean \
-  product install deb
+.PHONY: help setup tool build dev run test page check-page view test-view dspic check chip-tables alone format bench asan tsan fuzz second routines levels \
+  turn students clean product install deb
 
 ## help: this list
 help:
@@ -44,6 +44,14 @@ tool: setup
 build: setup
 	$(call configure,$(BUILD),)
 	@$(NINJA)
+
+# for work on it: each file by itself, so a touched one is all that is compiled; debug information
+DEV := -DCMAKE_UNITY_BUILD=OFF -DTWINPUCK_OPTIMISE="-Og -g"
+
+## dev: the command with debug information, built file by file, in build-dev/; T=test_program builds that as well
+dev: setup
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@python3 scripts/progress.py $(BUILD)-dev $(JOBS) twinpuck $(T)
 
 ## run: 60 simulated seconds of FW in WORLD: summary, CSV and picture
 run: tool $(if $(findstring --report,$(ARGS)),page)
@@ -124,7 +132,7 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings
+## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings; clang-tidy on what changed
 check: tool
 	@scripts/setup.sh check
 	@scripts/check_pages.py --test
@@ -139,6 +147,8 @@ check: tool
 	@$(NINJA) twinpuck-dev
 	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@scripts/each_file.py $(BUILD)-dev tidy
 
 ## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt
 chip-tables: tool
@@ -146,6 +156,11 @@ chip-tables: tool
 	@$(BUILD)/tests/chip_timing_doc $(BUILD)/chip-timing.md
 	@scripts/instruction_coverage.py >$(BUILD)/instructions.txt
 	@echo $(BUILD)/chip-timing.md $(BUILD)/instructions.txt
+
+## alone: every source compiled by itself, without a result: each includes what it uses
+alone: setup
+	$(call configure,$(BUILD)-dev,$(DEV))
+	@scripts/each_file.py $(BUILD)-dev alone
 
 ## format: format C++ sources in place
 format:
@@ -171,19 +186,23 @@ asan: setup
 ## tsan: the simulator's tests under the thread sanitizer
 tsan: setup
 	@$(CMAKE) -B $(BUILD)-tsan -DTWINPUCK_OPTIMISE="-O1 -g1" -DTWINPUCK_SANITIZE=thread >/dev/null
-	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(SANITIZED)
+	@scripts/run_tests.py $(BUILD)-tsan $(JOBS) --filter '$(T)' --programs $(or $(TSAN),$(SANITIZED))
 
 ## fuzz: ten minutes of broken input of each kind (FUZZ_SECONDS=600, FUZZ_KINDS="world wbt ...")
 fuzz: setup
 	@scripts/setup.sh fuzz
 	@$(CMAKE) -B $(BUILD)-fuzz -DCMAKE_C_COMPILER=clang-14 -DCMAKE_CXX_COMPILER=clang++-14 -DTWINPUCK_FUZZ=ON \
 	  -DTWINPUCK_OPTIMISE="-O1 -g1" >/dev/null
-	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) fuzzers
+	@ninja -C $(BUILD)-fuzz --quiet -j $(JOBS) $(or $(addprefix fuzz_,$(FUZZ_KINDS)),fuzzers)
 	@scripts/fuzz.sh $(BUILD)-fuzz $(ARGS)
 
 ## levels: digests with the simulator at -O0 and -O2 must agree
 levels: tool
 	@scripts/digest_levels.sh $(BUILD)
+
+## turn: one of the long checks (tsan, levels, a minute of three fuzz targets), by the number of commits
+turn: tool
+	@scripts/in_turn.sh
 
 ## students: the students' edition, without the lab's solutions: build/twinpuck-students.tar.gz
 students:
@@ -191,4 +210,4 @@ students:
 
 ## clean: remove everything that was built
 clean:
-	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0
+	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0 $(BUILD)-dev

@@ -20,7 +20,7 @@ using Word = std::uint16_t;
 constexpr double kFrequencyHz = 14745600, kSeconds = 3;
 constexpr double kInstructionsPerCycle = 20.0 / 28;  // of the loop
 
-// --- instructions, as in Atmel's manual -------------------------------------------------------------------
+// --- instructions, as in Atmel's manual
 
 constexpr Word with_two(int opcode, int d, int r) {
   return static_cast<Word>(opcode | (r & 16) << 5 | d << 4 | (r & 15));

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // make bench: processor time per robot-second in the common workload (docs/dev/performance.md), ours with
 // compiled firmware inside, libenki beside it, and the floor under both (floor.h), turn and turn about. Then
-// the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was
-// missed.
+// the chip's core beside simavr, and what a user waits for. Exit code 1 when a promise was missed.
 //
 //   bench [--rounds 5] [--worlds DIR] [N ...]         only these sizes, and nothing but the workload
 //   bench --engines [--rounds 5] [--worlds DIR]      the three motion engines instead (engines.cpp)

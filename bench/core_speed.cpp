@@ -23,8 +23,8 @@ using dspic::Cycle;
 constexpr int kSeconds = 10;                         // simulated
 constexpr double kInstructionsPerCycle = 21.0 / 22;  // of kStraight
 
-// 21 instructions in 22 cycles a round, as a compiler writes them: loads, sums, shifts, compares, a call's
-// stack
+// 21 instructions in 22 cycles a round, as a compiler writes them: loads, sums, shifts,
+// compares, a call's stack
 constexpr const char* kStraight = R"(
 start:
     mov #0x1F00, w15

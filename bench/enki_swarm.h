@@ -9,8 +9,8 @@ namespace bench {
 
 class EnkiSwarm {
  public:
-  /// Arena, boxes and robots of the world; every robot runs the Braitenberg law of docs/dev/performance.md in
-  /// C++.
+  /// Arena, boxes and robots of the world; every robot runs the Braitenberg law of
+  /// docs/dev/performance.md in C++.
   explicit EnkiSwarm(const sim::WorldDesc& world);
   ~EnkiSwarm();
   /// One control period of 64 ms with six physics substeps of 10.7 ms.

@@ -331,8 +331,8 @@ void Floor::Inside::sense(int robot, double (&readings)[kSensors]) const {
         if (enter <= leave && enter < hit[r]) hit[r] = enter;
       }
     }
-    // every ray answers by itself, and the centre ray makes up for the slant of the others [Enki:
-    // IRSensor.cpp]
+    // every ray answers by itself, and the centre ray makes up for the slant of the others
+    // [Enki: IRSensor.cpp]
     double sum = 0;
     for (int r = 0; r < kRays; ++r) sum += response(hit[r]);
     sum -= 2 * response(hit[1] * slant);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the benchmarks share: a twin of a world, its wheels' angles kept and played back without minds, a
-// stopwatch.
+// What the benchmarks share: a twin of a world, its wheels' angles kept and played back without
+// minds, a stopwatch.
 #pragma once
 #include <memory>
 #include <vector>

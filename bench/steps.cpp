@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The yardstick of bench/python_steps.py: a world stepped tick by tick, with a look at all poses and sensors
-// after each, without Python. Usage: bench_steps WORLD SECONDS; prints seconds of processor time and the
-// digest.
+// The yardstick of bench/python_steps.py: a world stepped tick by tick, with a look at all poses and
+// sensors after each, without Python. Usage: bench_steps WORLD SECONDS; prints seconds of processor
+// time and the digest.
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

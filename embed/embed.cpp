@@ -99,14 +99,10 @@ struct Opened {
   }
   const host::Variable& variable(int robot, const std::string& expression) {
     std::string error;
-    const host::Variable* const found = runner(robot).find_variable(expression, error);
+    const host::Variable* const found = runner(robot).data().find_number(expression, error);
     if (!found) refuse("robot '" + name(robot) + "': " + expression + ": " + error);
-    if (found->kind == host::Variable::Kind::Aggregate || found->bytes > kMostNumberBytes)
-      refuse("robot '" + name(robot) + "': " + expression +
-             ": got an array or a struct, expected a number; name one of its elements");
     return *found;
   }
-  static constexpr std::size_t kMostNumberBytes = 8;
 };
 
 Error::Error(std::vector<std::string> lines) : std::runtime_error(joined(lines)), lines_(std::move(lines)) {}
@@ -228,19 +224,11 @@ void Robot::send(const std::string& bytes, int port) {
 }
 
 double Robot::variable(const std::string& expression) const {
-  const host::Variable& found = opened_->variable(index_, expression);
-  std::array<char, Opened::kMostNumberBytes> bytes{};
-  opened_->runner(index_).read_memory(found.address, bytes.data(), found.bytes);
-  return host::variable_value(found, bytes.data());
+  return opened_->runner(index_).data().number(opened_->variable(index_, expression));
 }
 
 void Robot::set_variable(const std::string& expression, double value) {
-  const host::Variable& found = opened_->variable(index_, expression);
-  std::array<char, Opened::kMostNumberBytes> bytes{};
-  host::Runner& runner = opened_->runner(index_);
-  runner.read_memory(found.address, bytes.data(), found.bytes);
-  host::set_variable_value(found, bytes.data(), value);
-  runner.write_memory(found.address, bytes.data(), found.bytes);
+  opened_->runner(index_).data().set_number(opened_->variable(index_, expression), value);
 }
 
 std::vector<std::string> Robot::traps() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Writes a program into a robot's flash, through its bootloader and a serial line (hal_dspic/bootloader has
-// the protocol).
+// Writes a program into a robot's flash, through its bootloader and a serial line
+// (hal_dspic/bootloader has the protocol).
 //
 //   FirmwareFile --plan_upload--> UploadPlan: rows --upload(line)--> Upload: what the robot holds now
 //

@@ -10,7 +10,7 @@
 #include "firmware/library/adc_arrays.h"
 #include "motor_led/e_epuck_ports.h"
 
-/* --- LEDs --------------------------------------------------------------------------------------------- */
+/* --- LEDs */
 
 #define RING_LEDS 8
 /** 0 off, 1 on, above toggles; of other values bit 0 counts. */
@@ -31,19 +31,19 @@ void hal_set_rings(unsigned int value);
 #define hal_set_front(value) HAL_SET_PIN(FRONT_LED, value)
 #define hal_set_body(value) HAL_SET_PIN(BODY_LED, value)
 
-/* --- motors ------------------------------------------------------------------------------------------- */
+/* --- motors */
 
 /** Coils of wheel 0 (left) or 1 (right); bit 0 is phase A. */
 void hal_coils(int wheel, unsigned char bits);
 /** Coils of the driver's phase 0 to 3: two of four energised, neighbours differ in one pair. */
 extern const unsigned char hal_phase_coils[4];
 
-/* --- time --------------------------------------------------------------------------------------------- */
+/* --- time */
 
 /** Rounds of an empty loop over a long; what one takes is the compiler's (4 cycles at -O1). */
 void hal_pause(unsigned int rounds);
 
-/* --- converter ---------------------------------------------------------------------------------------- */
+/* --- converter */
 
 /** Newest accelerometer sample of an axis; times the scan was started. */
 #define hal_acc_newest(axis) (e_acc_scan[axis][e_last_acc_scan_id])
@@ -52,7 +52,7 @@ extern unsigned int hal_starts;
 /** The counter of interrupts begins anew. */
 #define hal_restart_ticks() (tickAdcIsr = 0)
 
-/* --- remote control ----------------------------------------------------------------------------------- */
+/* --- remote control */
 
 /** In firmware/library: what a falling edge of the receiver does. */
 void hal_remote_edge(void);
@@ -60,19 +60,19 @@ void hal_remote_edge(void);
 void hal_remote_arm(void);
 void hal_remote_disarm(void);
 
-/* --- camera ------------------------------------------------------------------------------------------- */
+/* --- camera */
 
 /** A low pulse at the camera's reset pin. */
 void hal_camera_reset(void);
 /** Word of the data EEPROM, offset 0xF000 to 0xFFFE. */
 int hal_eeprom_word(unsigned int offset);
 
-/* --- Bluetooth ---------------------------------------------------------------------------------------- */
+/* --- Bluetooth */
 
 /** Holds UART 1's line low for about 100 ms. */
 void hal_uart1_break(void);
 
-/* --- memory ------------------------------------------------------------------------------------------- */
+/* --- memory */
 
 /** Ends the program, as a full heap does on the robot. */
 #define hal_out_of_memory(text) exit(1)

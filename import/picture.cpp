@@ -46,6 +46,7 @@ bool read_jpeg(const std::string& bytes, std::vector<unsigned char>& row, double
     jpeg_destroy_decompress(&info);
     return false;
   }
+  // It is read at an eighth of its size, which is enough for its mean colour.
   jpeg_create_decompress(&info);
   info.progress = &progress;
   jpeg_mem_src(&info, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());

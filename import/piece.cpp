@@ -80,6 +80,7 @@ std::optional<Piece> prism(std::vector<Vec2> hull, double z_low, double z_high) 
   const double n = sim::length(edge);
   if (!(n > 1e-6)) return std::nullopt;
   const Vec2 u{edge.x / n, edge.y / n}, v{-u.y, u.x};
+  // How far it reaches along that edge, and across it.
   double u0 = 1e300, u1 = -1e300, v0 = 1e300, v1 = -1e300;
   for (const Vec2 p : hull) {
     u0 = std::min(u0, sim::dot(p, u)), u1 = std::max(u1, sim::dot(p, u));
@@ -104,6 +105,7 @@ std::optional<Piece> prism(std::vector<Vec2> hull, double z_low, double z_high) 
     if (least > close && hull.size() <= kMostCorners) break;
     hull.erase(hull.begin() + static_cast<std::ptrdiff_t>(flattest));
   }
+  // What is left is a polygon, about its middle.
   Piece out;
   out.kind = ObjectKind::Polygon;
   for (const Vec2 p : hull) out.at = out.at + (1.0 / static_cast<double>(hull.size())) * p;
@@ -176,6 +178,7 @@ std::optional<Piece> round_piece(const std::vector<Vec2>& rings, bool plain, con
   for (const Vec2 r : rings) {
     low = std::min(low, r.x), high = std::max(high, r.x), radius = std::max(radius, r.y);
   }
+  // It stands upright: a cylinder.
   if (n > 0 && std::abs(axis.z) > kUprightZ * n) {
     Piece out;
     out.kind = ObjectKind::Cylinder;
@@ -189,6 +192,7 @@ std::optional<Piece> round_piece(const std::vector<Vec2>& rings, bool plain, con
     if (!plain) out.approximation = "carried as the cylinder around it";
     return out;
   }
+  // It lies: the prism around points of its rings.
   std::vector<Vec3> points;
   for (const Vec2 r : rings) {
     for (int i = 0; i < 24; ++i) {
@@ -263,6 +267,7 @@ std::vector<Piece> mesh_pieces(const Mesh& m) {
     }
     return out;
   }
+  // Each part is a prism, or, where it is hollow, its faces are walls.
   for (const auto& [first, faces] : parts) {
     std::vector<Vec3> points;
     for (const int f : faces) {
@@ -400,6 +405,7 @@ bool is_geometry(const std::string& t) {
 }
 
 std::vector<Piece> pieces_of(const Node& g, const Affine& frame, bool z_up, std::string& why) {
+  // Measures that are missing are Webots' defaults.
   std::vector<Piece> out;
   std::optional<Piece> one;
   const double r = std::abs(g.number("radius", g.type == "Cone" ? g.number("bottomRadius", 1) : 1));
@@ -451,6 +457,7 @@ std::vector<Piece> pieces_of(const Node& g, const Affine& frame, bool z_up, std:
   } else {
     why = g.type == "Mesh" ? "its shape is in another file" : "has no volume";
   }
+  // What makes no sense is left out.
   if (one) out.push_back(std::move(*one));
   for (const Piece& p : out) {
     const double far = std::max({std::abs(p.at.x), std::abs(p.at.y), std::abs(p.z_low), std::abs(p.z_high)});

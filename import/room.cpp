@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Webots lets bodies begin inside each other and pushes them apart; our loader refuses such worlds. Asks its
-// check which bodies are meant and gives way: movable objects are fixed, robots step aside, what has no room
-// goes.
+// Webots lets bodies begin inside each other and pushes them apart; our loader refuses such worlds.
+// Asks its check which bodies are meant and gives way: movable objects are fixed, robots step aside,
+// what has no room goes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -73,6 +73,7 @@ void make_room(Carried& c, const Options& options, Report& report) {
   if (options.model.name.empty()) return;
   round_as_written(c.world);
   int moved = 0;
+  // A few rounds, as whoever steps aside may be in another's way then.
   for (int round = 0; round < 6; ++round) {
     sim::WorldDesc w = numbered(c);
     const std::set<int> lines = in_the_way(w);
@@ -101,6 +102,7 @@ void make_room(Carried& c, const Options& options, Report& report) {
             fmt::format("\"{}\" has no room at [{:.3f}, {:.3f}]", c.world.robots[i].name, was.x_m, was.y_m));
       }
     }
+    // Robots without room go, from the last one on.
     for (auto i = gone.rbegin(); i != gone.rend(); ++i) {
       const auto at = static_cast<std::ptrdiff_t>(*i);
       c.world.robots.erase(c.world.robots.begin() + at);

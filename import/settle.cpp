@@ -117,12 +117,14 @@ class Settler {
   }
 
   void find_floor() {
+    // An arena has the floor.
     for (const FoundArena& a : scene_.arenas) {
       if (!is_sensible(a)) continue;
       floor_z_ = a.z_m;
       have_floor_ = true;
       return;
     }
+    // Else the largest flat piece under the robots.
     double best = 0;
     for (const Body& b : scene_.bodies) {
       for (const Piece& p : b.pieces) {
@@ -154,6 +156,7 @@ class Settler {
         }
       }
     }
+    // The arena is that rectangle, without walls.
     sim::ArenaDesc a;
     a.size_m = {std::clamp(x1 - x0, 0.01, kFarthestM), std::clamp(y1 - y0, 0.01, kFarthestM)};
     a.centre_m = {(x0 + x1) / 2, (y0 + y1) / 2};
@@ -187,6 +190,7 @@ class Settler {
   void arena(const FoundArena& a) {
     const std::string source = from(a.type, "", "", a.line);
     if (!is_sensible(a)) return report_.add(a.line, a.type, "its measures make no sense");
+    // Ours lies square to the axes; one that is turned by a quarter has its sides exchanged.
     const double height = std::clamp(a.wall_height_m, 0.0, kFarthestM);
     const double thickness = std::clamp(a.wall_thickness_m, kLeastM, 10.0);
     const double quarter = a.heading_rad / (sim::kPi / 2);
@@ -208,6 +212,7 @@ class Settler {
     } else if (!straight && !out_.world.arena && a.floor) {
       out_.world.floor.colour = a.floor->colour;
     }
+    // What cannot be an arena of ours gets its walls one by one.
     if (height <= 0) {
       if (out_.arena_from != source)
         report_.add(a.line, a.type, "a second floor, or one that lies askew", "the floor goes on");
@@ -285,6 +290,7 @@ class Settler {
   }
 
   void place(const Body& b, Piece& p, const std::string& title) {
+    // What is part of the floor, or nothing that a robot could touch, is no object.
     const bool in_floor = have_floor_ && p.z_high <= floor_z_ + kFlatM;
     if (!b.movable && in_floor) {
       const bool is_part = &b == floor_body_;
@@ -299,12 +305,14 @@ class Settler {
       return report_.add(b.line, title, "only cameras notice it (it has no boundingObject)");
     if (p.endless_floor && p.z_high - p.z_low < kFlatM)
       return report_.add(p.line, title, "a flat sheet above the floor");
+    // A slope is a ramp where the engine knows heights.
     if (!p.approximation.empty() && !(p.ramp && !b.movable))
       report_.add(p.line, title, "its exact shape", p.approximation);
     if (p.ramp && !b.movable && !scene_.planar && !is_furniture_ && ramp(b, p)) return;
     if (p.ramp && !b.movable) report_.add(p.line, title, "its exact shape", p.approximation);
     if (static_cast<int>(out_.world.objects.size()) >= kMostBodies)
       return report_.add(p.line, title, fmt::format("more than {} objects", kMostBodies));
+    // What it is called, and where it stands.
     sim::ObjectDesc o;
     o.kind = p.kind;
     o.name = clean(b.name);
@@ -316,6 +324,7 @@ class Settler {
     o.movable = b.movable && movable_ < kMostMovable;
     if (b.movable && ++movable_ > kMostMovable)
       report_.add(p.line, title, fmt::format("more than {} movable objects", kMostMovable), "it is fixed");
+    // Heights above the floor; what nearly lies on it does.
     double low = p.z_low - floor_z_, high = p.z_high - floor_z_;
     if (b.movable && low < 0) high -= low, low = 0;
     if (low < (b.movable ? kTouchM : kGapM)) {
@@ -329,6 +338,7 @@ class Settler {
     o.corners_m = p.corners;
     o.material.colour = p.surface.colour;
     o.material.roughness = p.surface.roughness;
+    // Friction, bounce and mass.
     if (const Contact* c = contact_of(b.contact)) {
       if (c->friction >= 0) o.floor_friction = std::clamp(c->friction, 0.0, 10.0);
       o.material.restitution = std::clamp(c->bounce, 0.0, 1.0);
@@ -389,6 +399,7 @@ class Settler {
 
   // the controller's own sources beside the world, a controller of the project, or just its name
   std::string program(const std::string& name, int line, const std::string& type, const char* what) {
+    // Names that stand for something else than a program.
     if (options_.without_firmware) return {};
     if (name == "<extern>") return name;
     if (name.empty() || name == "void" || name == "<none>" || name == "<generic>") {
@@ -396,11 +407,13 @@ class Settler {
         report_.add(line, type, "controller \"" + name + "\"", std::string("no ") + what);
       return {};
     }
+    // A program of ours may have that name.
     const std::string plain = clean(name);
     const bool for_robot = std::string(what) == "firmware";
     const auto& is_ours = for_robot ? options_.has_firmware : options_.has_program;
     const bool ours = is_ours && plain == name && is_ours(name);
     const std::string home = std::string(for_robot ? "firmware/" : "supervisor/programs/") + plain;
+    // The controller's own sources, where they are.
     if (!options_.folder.empty() && plain == name && name.find('/') == std::string::npos && name != "..") {
       const char* kSources[] = {".c", ".cpp", ".cc", ".cxx", ".py", ".java", ".class", ".jar"};
       const fs::path here = options_.folder;
@@ -427,6 +440,7 @@ class Settler {
         return ours ? std::string() : plain;
       }
     }
+    // No sources: ours runs in its place, or its name is kept.
     if (ours)
       report_.add(line, type, fmt::format("controller \"{}\", whose sources are not beside the world", plain),
                   fmt::format("{} has its name and runs in its place", home));
@@ -464,6 +478,7 @@ class Settler {
   }
 
   void robot(const FoundRobot& f) {
+    // A name of its own, that programs can be told by.
     sim::RobotDesc r;
     const std::string plain = robot_name(f.name);
     if (plain != f.name && !f.name.empty())
@@ -478,6 +493,7 @@ class Settler {
     r.custom_data = clean_line(f.custom_data);
     r.recognition_colours = f.recognition;
     r.node = f.line;
+    // Its program, and what it is equipped with.
     r.firmware = program(f.controller, f.line, f.type, "firmware");
     if (f.controller.empty() && f.by_proto)
       report_.add(f.line, f.type, "the controller that its PROTO names", "no firmware");
@@ -486,6 +502,7 @@ class Settler {
     if (f.battery_wh) r.battery_wh = *f.battery_wh;
     r.proximity = f.proximity;
     r.sensors = f.sensors;
+    // A world has one unit of speed.
     if (f.speed_unit_rad_s) {
       double& unit = out_.world.webots.speed_unit_rad_s;
       if (unit > 0 && std::abs(unit - *f.speed_unit_rad_s) > 1e-9)

@@ -53,6 +53,7 @@ class Writer {
   explicit Writer(const Carried& c) : c_(c), w_(c.world) {}
 
   std::string text(const Options& options, const std::vector<Remark>& report, const std::string& version) {
+    // What the reader has to know: where this is from, and what is not in it.
     line("# Made by `twinpuck import` from " + printable(options.file, 200) + " (Webots " + version + ").");
     for (const std::string& i : c_.info) comment(i);
     if (!report.empty()) {
@@ -74,6 +75,7 @@ class Writer {
         list += (i ? ", " : "") + printable(c_.cosmetic[i]);
       line("# Left out, nothing here depends on it: " + list + ".");
     }
+    // The world, in the order of docs/worlds.md.
     line("twinpuck = 1");
     if (!w_.title.empty()) key("title", quoted(w_.title));
     world();
@@ -215,6 +217,7 @@ class Writer {
     section(heads[static_cast<int>(o.kind)], c_.object_from[i]);
     if (!o.name.empty()) key("name", quoted(o.name));
     if (!o.def.empty()) key("def", quoted(o.def));
+    // Where it is, and how large.
     key("position", pair(o.pose.x_m, o.pose.y_m));
     if (metres(o.z_m) != "0.0") key("z", metres(o.z_m));
     if (o.kind == sim::ObjectKind::Box) key("size", three(o.size_m.x, o.size_m.y, o.size_m.z));
@@ -232,6 +235,7 @@ class Writer {
     const bool round = o.kind == sim::ObjectKind::Cylinder || o.kind == sim::ObjectKind::Ball;
     if (degrees(o.pose.heading_rad) != "0.0" && (!round || o.movable))
       key("heading", degrees(o.pose.heading_rad));
+    // How it moves, and what it is made of.
     if (o.movable) {
       key("movable", "true");
       key("mass", num(o.mass_kg));
@@ -305,6 +309,7 @@ class Writer {
     if (!r.args.empty()) key("args", quoted(r.args));
     if (r.supervisor) key("supervisor", "true");
     if (!r.custom_data.empty()) key("custom_data", quoted(r.custom_data));
+    // Where it begins, then what differs from the usual robot.
     key("position", pair(r.pose.x_m, r.pose.y_m));
     key("heading", degrees(r.pose.heading_rad));
     if (r.battery_wh > 0) key("battery_wh", num(r.battery_wh));

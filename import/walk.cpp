@@ -128,6 +128,7 @@ void Walk::children(const Node& n, const char* field, const Affine& frame, int d
 
 void Walk::visit(const Node& n, const Affine& frame, int depth) {
   if (depth > 2 * kDeepestNode || !afford(n)) return;
+  // What Webots knows by its own nodes.
   const std::string& t = n.type;
   if (is_cosmetic(t)) {
     scene_.cosmetic.push_back(fmt::format("{} (line {})", t, n.line));
@@ -155,7 +156,7 @@ void Walk::visit(const Node& n, const Affine& frame, int depth) {
     b.untouched = true;
     gather(n, frame, depth, b.pieces, nullptr, false);
     add_body(std::move(b));
-  } else if (known_proto(n, frame, depth)) {
+  } else if (known_proto(n, frame)) {
   } else if (const NodePtr body = unfolded(n)) {
     kept_.push_back(body);
     visit(*body, frame, depth + 1);
@@ -175,6 +176,7 @@ void Walk::world_info(const Node& n) {
     if (!(std::sqrt(squares) >= kGravityMin))
       report_.add(n, *g, "no gravity", fmt::format("{} m/s2", kGravityMin));
   }
+  // The seed, the engine, and how materials touch.
   const double seed = n.number("randomSeed", -1);
   if (seed >= 1 && seed < 9e18) scene_.seed = static_cast<std::uint64_t>(seed);
   const std::string fast2d = n.text("fast2d");
@@ -208,6 +210,7 @@ void Walk::lamp(const Node& n, const Affine& frame) {
   FoundLamp out;
   out.type = n.type;
   out.line = n.line;
+  // What all kinds of lamps have.
   const sim::Colour c{std::clamp(n.number("color", 1, 0), 0.0, 1.0),
                       std::clamp(n.number("color", 1, 1), 0.0, 1.0),
                       std::clamp(n.number("color", 1, 2), 0.0, 1.0)};
@@ -216,6 +219,7 @@ void Walk::lamp(const Node& n, const Affine& frame) {
   out.lamp.on = n.truth("on", true);
   out.lamp.intensity_w_m2 = std::clamp(n.number("intensity", 1), 0.0, kLightMax);
   double at_once = 1;  // share of the ambient part that arrives
+  // A lamp far away shines as from a direction; others have a place, and fade.
   if (n.type == "DirectionalLight") {
     const Vec3 d = frame.turn(vector_of(n, "direction", {0, 0, -1}));
     const double far = length(d);
@@ -245,6 +249,7 @@ void Walk::lamp(const Node& n, const Affine& frame) {
       report_.add(n, *n.field("ambientIntensity"), "ambient light that fades with the distance",
                   "everywhere as much as in the middle of the world");
   }
+  // Ambient light is part of the sky's.
   if (out.lamp.on)
     out.ambient_w_m2 =
         std::clamp(n.number("ambientIntensity", 0), 0.0, kLightMax) * (c.r + c.g + c.b) / 3 / at_once;
@@ -305,6 +310,7 @@ std::vector<sim::Colour> Walk::recognition_of(const Node& n) {
 }
 
 void Walk::solid(const Node& n, const Affine& frame, int depth) {
+  // What it is, and whether it moves.
   Body b = body_of(n);
   b.contact = n.text("contactMaterial", "default");
   b.robot_like = is_robot(n.type);
@@ -314,6 +320,7 @@ void Walk::solid(const Node& n, const Affine& frame, int depth) {
     b.density_kg_m3 = physics->number("density", kDensityKgM3);
     if (n.truth("locked", false)) b.movable = true;  // locked for the mouse only
   }
+  // What it looks like, and what is to be looked at by itself.
   std::vector<Piece> shown, touched;
   const Field* list = n.field("children");
   for (std::size_t i = 0; list && i < list->nodes.size(); ++i) {

@@ -39,7 +39,7 @@ class Walk {
   NodePtr unfolded(const Node& n, bool without_script = false);
 
   // walk_proto.cpp: PROTOs known by name
-  bool known_proto(const Node& n, const Affine& frame, int depth);
+  bool known_proto(const Node& n, const Affine& frame);
   void arena(const Node& n, const Affine& frame);
   void floor_proto(const Node& n, const Affine& frame);
   void circle_arena(const Node& n, const Affine& frame);

@@ -46,7 +46,7 @@ void Walk::known_fields(const Node& n, const std::set<std::string>& carried) {
   }
 }
 
-bool Walk::known_proto(const Node& n, const Affine& frame, int depth) {
+bool Walk::known_proto(const Node& n, const Affine& frame) {
   const std::string& t = n.type;
   if (t == "RectangleArena") return arena(n, inside(n, frame)), true;
   if (t == "CircleArena") return circle_arena(n, inside(n, frame)), true;
@@ -75,11 +75,13 @@ FoundArena arena_at(const Node& n, const Affine& frame) {
 
 void Walk::arena(const Node& n, const Affine& frame) {
   FoundArena a = arena_at(n, frame);
+  // Its measures, and how it lies.
   a.size = {std::abs(n.number("floorSize", kArenaSizeM, 0)), std::abs(n.number("floorSize", kArenaSizeM, 1))};
   a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
   if (std::hypot(frame.axes[0].x, frame.axes[0].y) < 0.99) a.heading_rad = 0;
   a.wall_height_m = n.number("wallHeight", kArenaWallHeightM);
   a.wall_thickness_m = n.number("wallThickness", kArenaWallThicknessM);
+  // The floor: one picture that covers it all can be carried, else its colour.
   if (const Node* look = n.node("floorAppearance")) {
     a.floor = surfaces_.of(look);
     const bool once = std::abs(n.number("floorTileSize", 0.5, 0) - a.size.x) < 1e-6 &&
@@ -96,6 +98,7 @@ void Walk::arena(const Node& n, const Affine& frame) {
   } else if (const Field* url = n.field("floorTextureUrl")) {
     report_.add(n, *url, "a picture on the floor", "the colour of parquet");
   }
+  // Walls and floor without a look of their own have the PROTO's.
   if (const Node* look = n.node("wallAppearance")) a.walls = surfaces_.of(look);
   if (n.field("wallColor"))
     a.walls = Surface{

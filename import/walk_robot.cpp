@@ -105,6 +105,7 @@ constexpr Vec3 kTurretAt{-0.0095, 0, 0.0486};
 
 // sensors that come with Webots as PROTOs, as the nodes that these are; null: it is none
 NodePtr known_device(const Node& n) {
+  // What the user wrote stays; what the PROTO would add is given here.
   const auto made = std::make_shared<Node>(n);
   const auto give = [&](const char* name, std::vector<double> numbers) {
     made->fields.push_back({name, n.line, std::move(numbers), {}, {}, {}});
@@ -208,6 +209,7 @@ void Walk::robot(const Node& n, const Affine& frame, int depth) {
                         placed.fields.end());
     return epuck(placed, frame, false);
   }
+  // Anything else is a body; where it has a program, that runs as a supervisor's does.
   const std::string controller = n.text("controller");
   const bool runs =
       !controller.empty() && controller != "void" && controller != "<none>" && controller != "<generic>";
@@ -254,6 +256,7 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   out.line = n.line;
   out.name = n.text("name", by_proto ? "e-puck" : "");
   out.controller = n.text("controller", by_proto ? "" : "void");
+  // Where it stands and where it looks. An axis of the node points ahead, which one the world's age says.
   const Affine place = inside(n, frame);
   const Vec3 ahead = place.turn(z_up_ ? Vec3{1, 0, 0} : Vec3{0, 0, -1});
   const Vec3 up = place.turn(z_up_ ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
@@ -266,6 +269,7 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   const std::string lower = n.type;
   if (lower.find("NoPhysics") != std::string::npos || n.truth("kinematic", false)) out.kinematic = true;
   if (!by_proto && !n.field("physics")) out.kinematic = true;
+  // What it is equipped with, by the fields of its PROTO or by the nodes of an older one.
   if (by_proto) {
     proto_fields(n, out);
     proto_body(n, out, 0);
@@ -330,6 +334,7 @@ void Walk::proto_body(const Node& n, FoundRobot& out, int depth) {
   kept_.push_back(body);
   if (!n.field("controller")) out.controller = body->text("controller");
   program_fields(*body, out);  // the world's own go before, in epuck()
+  // Its own equipment, of which what the world's file says goes before.
   FoundRobot own;
   equipment(*body, own);
   if (!own.sensors.empty()) out.sensors = own.sensors;
@@ -355,6 +360,7 @@ void Walk::proto_fields(const Node& n, FoundRobot& out) {
   if (text_.year == 0) out.speed_unit_rad_s = kProtoSpeedUnitRadS;
   if (n.number("version", 1) == 2 || n.text("version") == "2" || n.type.find('2') != std::string::npos)
     report_.add(n, "that it is an e-puck 2 (faster motors, time of flight, Wi-Fi)", "an e-puck");
+  // Each field that means something here; the rest is told.
   for (const Field& f : n.fields) {
     if (kSilent.count(f.name) || f.name == "kinematic" || f.name == "customData" ||
         f.name == "controllerArgs" || f.name == "supervisor" || f.name == "battery" || f.name == "version" ||
@@ -436,6 +442,7 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
     sim::SensorDesc s;
     s.index = ps_index(d->text("name"));
     sim::ProximitySettings& p = s.proximity;
+    // Its table, where it is one that a profile can have.
     if (const Field* table = d->field("lookupTable")) {
       std::vector<sim::ResponseRow> rows;
       for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
@@ -457,6 +464,7 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
             fmt::format("a table with fewer than two rows, without order, or beyond {} m", kFarthestRowM),
             "the profile's");
     }
+    // Its type and its rays.
     const std::string type = d->text("type", "generic");
     p.type = type == "generic" ? sim::SensorType::Generic : sim::SensorType::InfraRed;
     if (type != "generic" && type != "infra-red")
@@ -471,6 +479,7 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
                      [&](const auto& o) { return o.index == s.index; }))
       out.sensors.push_back(std::move(s));
   }
+  // Eight sensors alike are one setting of the robot.
   std::sort(out.sensors.begin(), out.sensors.end(),
             [](const auto& a, const auto& b) { return a.index < b.index; });
   const bool alike = out.sensors.size() == 8 &&
@@ -540,6 +549,7 @@ void Walk::ranging(const Node& n, const Affine& at, Device& made) {
 }
 
 void Walk::device(const Node& n, const Affine& at, FoundRobot& out, int depth) {
+  // Ground sensors are a part of the real robot.
   if (depth > kDeepestNode || !afford(n)) return;
   if (n.type.find("GroundSensors") != std::string::npos ||
       (n.type == "DistanceSensor" && is_floor_sensor(n.text("name")))) {
@@ -569,6 +579,7 @@ void Walk::device(const Node& n, const Affine& at, FoundRobot& out, int depth) {
                   {"PositionSensor", "position", "position sensor"},
                   {"Speaker", "speaker", "speaker"},
                   {"Pen", "pen", "pen"}};
+  // A device of a known kind, with what a program asks about it.
   for (const auto& d : kDevices) {
     if (n.type != d.type) continue;
     Device made;
@@ -584,6 +595,7 @@ void Walk::device(const Node& n, const Affine& at, FoundRobot& out, int depth) {
     if (made.kind == "distance" || made.kind == "lidar" || made.kind == "range-finder") ranging(n, at, made);
     if (n.type == "Camera" || n.type == "TouchSensor" || n.type == "LightSensor")
       report_.add(n, "what this sensor measures", "it is there for the program, and measures nothing");
+    // emitters and receivers
     if (talks) {
       made.channel = static_cast<int>(std::clamp(n.number("channel", 0), -1.0, 32767.0));
       if (n.number("range", -1) > 0) made.range_m = std::min(n.number("range", -1), kFarthestM);
@@ -616,6 +628,7 @@ void Walk::device(const Node& n, const Affine& at, FoundRobot& out, int depth) {
     }
     return;
   }
+  // No device itself: a group, a PROTO of Webots or of the project, or nothing that is carried.
   if (n.type == "Group" || n.type == "Transform" || n.type == "Pose" || n.type == "Solid") {
     const Field* f = n.field("children");
     bool shapes = false;

@@ -200,6 +200,7 @@ class Reader {
   /// From behind the word PROTO and its name. `skip_body`: read on behind its closing brace.
   Proto proto(bool skip_body) {
     Proto out;
+    // Its fields, with their defaults.
     mark("[", "a list of fields");
     while (!is_mark("]")) {
       word("`field`");
@@ -218,6 +219,7 @@ class Reader {
     }
     lexer_.take();
     if (!is_mark("{")) fail(lexer_.now(), "'{'");
+    // Its body, kept as text.
     const std::size_t begin = lexer_.behind();
     std::size_t end = lexer_.all().size();
     if (skip_body) {
@@ -350,6 +352,7 @@ class Reader {
     if (depth > kDeepestNode)
       fail(lexer_.now(), fmt::format("at most {} nodes in one another", kDeepestNode));
     const Token first = lexer_.now();
+    // No node, or one that was defined before.
     if (is_word("NULL")) {
       lexer_.take();
       return nullptr;
@@ -363,6 +366,7 @@ class Reader {
           {first.line, first.column, "USE " + name + ": not carried: no DEF of that name above"});
       return nullptr;
     }
+    // A node: its name, its type, its fields.
     auto out = std::make_shared<Node>();
     if (is_word("DEF")) {
       lexer_.take();

@@ -52,10 +52,10 @@ WorldText read_nodes_text(std::string_view text, const WorldText& of,
 /// Reads a .proto file. False when it cannot be understood.
 bool read_proto_text(std::string_view text, Proto& proto);
 
-/// The node that `instance` of a PROTO stands for; null when it has a script or is broken. Its lines are the
-/// instance's. `budget`: how many nodes it may still make; lowered by what it made. `without_script`: one
-/// with a script is read as if its conditions held, all of them; what it computes is 0, or the field that it
-/// begins with.
+/// The node that `instance` of a PROTO stands for; null when it has a script or is broken. Its lines are
+/// the instance's. `budget`: how many nodes it may still make; lowered by what it made. `without_script`:
+/// one with a script is read as if its conditions held, all of them; what it computes is 0, or the field
+/// that it begins with.
 NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget, bool without_script = false);
 
 }  // namespace wbt

@@ -14,13 +14,13 @@
 
 namespace places {
 
-/// Holds firmware/, worlds/, docs/ and the rest that people name: TWINPUCK_ROOT where that is set, else
-/// product_share().
+/// Holds firmware/, worlds/, docs/ and the rest that people name: TWINPUCK_ROOT where that is
+/// set, else product_share().
 std::filesystem::path share_root();
 
-/// Holds what belongs to this very compiler: firmware/include, firmware/libc, firmware/library, hal_dspic.
-/// Empty path when the program lies neither in a build folder nor below a PREFIX, and no `twinpuck` on PATH
-/// does.
+/// Holds what belongs to this very compiler: firmware/include, firmware/libc, firmware/library,
+/// hal_dspic. Empty path when the program lies neither in a build folder nor below a PREFIX, and no
+/// `twinpuck` on PATH does.
 std::filesystem::path product_share();
 
 /// What files of product_share() are called in what was compiled with the product: below this folder,

@@ -30,8 +30,8 @@ class Budgets {
     bool passes = true;
     std::string text;  ///< "pass  control: max 1,204 of 2,949 cycles"
   };
-  /// `program`: what was measured. `most`: what functions take at most by their code, for those that were not
-  /// called.
+  /// `program`: what was measured. `most`: what functions take at most by their code, for those
+  /// that were not called.
   std::vector<Verdict> judge(const chip::ProfileReport& report, const dspic::FirmwareFile& program,
                              const std::map<std::string, double>& most = {}) const;
 

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <map>
 
+#include "sim_core/world/world_desc.h"
+
 namespace outputs {
 
 bool make_output_folder(const std::string& folder, const char* option, std::vector<std::string>& problems) {

@@ -5,7 +5,9 @@
 #include <utility>
 #include <vector>
 
-#include "sim_core/world/world_desc.h"
+namespace sim {
+struct WorldDesc;
+}
 
 namespace outputs {
 

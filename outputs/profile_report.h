@@ -42,8 +42,8 @@ class Profiles {
 double micros(double cycles);
 /// A path below the current folder, or the project's, is named from there.
 std::string from_here(const std::string& path);
-/// Does such a path belong to the library and what serves it, and not to the program? One without a source
-/// does.
+/// Does such a path belong to the library and what serves it, and not to the program? One
+/// without a source does.
 bool is_library_place(const std::string& place);
 std::string to_text(const std::string& robot, const chip::ProfileReport& report);
 std::string to_json(const std::vector<Profiles::Named>& profiles);

@@ -16,8 +16,8 @@ namespace outputs {
 class SavedImages {
  public:
   explicit SavedImages(std::string folder) : folder_(std::move(folder)) {}
-  /// Makes the folder and listens to every robot's camera. False and a line in `problems` when it cannot be
-  /// made.
+  /// Makes the folder and listens to every robot's camera. False and a line in `problems`
+  /// when it cannot be made.
   bool open(twin::Twin& twin, std::vector<std::string>& problems);
   /// A file could not be written.
   bool failed() const { return failed_; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// One proximity or light sensor of a robot explained from the world to the library's number: what
-// `twinpuck inspect` prints. Rays and lamps come from sim_core/light/explain.h, volts and counts from the
-// board.
+// One proximity or light sensor of a robot explained from the world to the library's number:
+// what `twinpuck inspect` prints. Rays and lamps come from sim_core/light/explain.h, volts and
+// counts from the board.
 #pragma once
 #include <nlohmann/json.hpp>
 #include <string>

@@ -51,7 +51,8 @@ MAY_INCLUDE = {
                      "install"],
     "hal_sim/debug": ["hal_sim/chip", "hal_sim/host", "hal_sim/twin", "dspic30", "sim_core"],
     "hal_sim/signals": ["hal_sim/board", "hal_sim/chip", "hal_sim/debug", "hal_sim/host", "hal_sim/trace", "hal_sim/twin", "sim_core"],
-    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "dspic30", "sim_core/base", "install"],
+    "hal_sim/chip": ["hal_sim/api", "hal_sim/board", "hal_sim/host/runner.h", "hal_sim/host/program_data.h", "hal_sim/host/chip_view.h",
+                     "dspic30", "sim_core/base", "install"],
     "hal_sim/faults": ["hal_sim/board", "hal_sim/host", "hal_sim/signals", "hal_sim/twin", "sim_core"],
     "hal_sim/inputs": ["hal_sim/", "sim_core/", "compiler/cache"],
     "hal_dspic": ["firmware/include", "firmware/library"],
@@ -65,7 +66,7 @@ MAY_INCLUDE = {
     "programs/controller": ["programs/link", "firmware/include"],
     "hal_sim/runs": ["hal_sim/", "sim_core/", "programs/team/team.h"],
     "outputs": ["hal_sim/", "sim_core/", "dspic30/periph/vectors.h", "viewer/report.h", "install"],
-    "lab": ["hal_sim/", "sim_core/", "outputs", "compiler/cache/child_process.h", "programs/build/build.h", "install"],
+    "exercises": ["hal_sim/", "sim_core/", "outputs", "compiler/cache/child_process.h", "programs/build/build.h", "install"],
     "flash": ["dspic30"],
     "embed": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for other people's programs
     "python": ["hal_sim/", "sim_core/", "programs/team/team.h", "install"],  # a whole twin, for a language

@@ -10,7 +10,7 @@ set -eu
 folder=$1
 shift
 seconds=${FUZZ_SECONDS:-600}
-kinds=${FUZZ_KINDS:-world wbt proto lab project source elf picture wav options firmware assembler code}
+kinds=${FUZZ_KINDS:-world wbt proto lab project source elf picture wav options firmware assembler code faults}
 found=$folder/fuzz/found
 mkdir -p "$found"
 

@@ -176,8 +176,8 @@ void Simulation::gather_due(Clicks end) {
   std::inplace_merge(due_.begin(), due_.begin() + known, due_.end());
 }
 
-/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed share of the
-/// robots.
+/// Minds see only the frozen scene, so they may run side by side; each worker has a fixed
+/// share of the robots.
 void Simulation::run_minds(Clicks end) {
   const auto run = [&](std::size_t first, std::size_t last) {
     const auto begin = std::lower_bound(due_.begin(), due_.end(), static_cast<int>(first));
@@ -230,6 +230,7 @@ void Simulation::turn_wheels(int robot, Clicks end) {
   WheelCourse& course = courses_[r];
   RimCourse& rims = rims_[r];
   const Clicks tick = scene_->tick_clicks();
+  // The course so far, and the one that the robot says it takes from here.
   const WheelCourse last = course;
   course = minds_[r]->wheel_course(end);
   const WheelAngles before = last.at(end - tick), foreseen = last.at(end), after = course.at(end);
@@ -237,6 +238,7 @@ void Simulation::turn_wheels(int robot, Clicks end) {
   // angles of a course that goes on would bring nothing but rounding
   const bool goes_on = last.until >= end && same(after.left_rad, foreseen.left_rad) &&
                        same(after.right_rad, foreseen.right_rad);
+  // How fast the wheels turned in this tick.
   const double per_s = static_cast<double>(kClicksPerSecond);
   const double left_rad_s =
       goes_on ? last.left_rate * per_s : (after.left_rad - before.left_rad) / scene_->tick_s();
@@ -245,6 +247,8 @@ void Simulation::turn_wheels(int robot, Clicks end) {
   if (w.slipped_at == kEver &&
       ((w.left_hold != 1 && left_rad_s != 0) || (w.right_hold != 1 && right_rad_s != 0)))
     w.slipped_at = end;
+  // What the rims did, and what they will do next if the course holds. It is news when it is
+  // other than expected.
   const bool is_known = course.until > end;
   const RimSpeed expected = rims.next;
   rims.tick = rim_speed(w, left_rad_s, right_rad_s, end);

@@ -46,8 +46,6 @@ class Simulation {
   const SoundField& sound() const { return *sound_; }
   int robots() const { return scene_->robots(); }
   const Minds& minds() const { return minds_; }
-  RobotMind& mind(int robot) { return *minds_[static_cast<std::size_t>(robot)]; }
-  const RobotMind& mind(int robot) const { return *minds_[static_cast<std::size_t>(robot)]; }
 
   /// Where a robot or a movable object is (robots come first).
   Pose2 pose(int body) const { return scene_->pose(body, now()); }
@@ -65,9 +63,9 @@ class Simulation {
   void attend(Attendant* attendant) { attendant_ = attendant; }
 
   // Changes by hand, between ticks only; each becomes part of the history that the digest sees.
-  /// Everything but the robots becomes as `world` says, which has the same robots; their programs, places and
-  /// speeds stay. `before`: for each movable object of it the body it was; -1: a new one. Not changed: tick,
-  /// engine.
+  /// Everything but the robots becomes as `world` says, which has the same robots; their programs, places
+  /// and speeds stay. `before`: for each movable object of it the body it was; -1: a new one. Not
+  /// changed: tick, engine.
   void refurnish(const WorldDesc& world, const std::vector<int>& before);
   /// Puts a body somewhere else, at rest.
   void move(int body, const Pose2& pose, double z_m = 0);
@@ -86,12 +84,12 @@ class Simulation {
   /// When a wheel first turned that did not hold on to all of it, since the last set_wheel_grip(); kEver: not
   /// yet. The end of that tick.
   Clicks slipped_at(int robot) const { return wheels_[static_cast<std::size_t>(robot)].slipped_at; }
-  /// A robot that was put back stands as when the world began: its wheels at rest, their noise from its first
-  /// draw on.
+  /// A robot that was put back stands as when the world began: its wheels at rest, their noise
+  /// from its first draw on.
   void begin_again(int robot);
-  /// All robots did: with the next tick the world begins again, from where bodies are then. Nothing is in the
-  /// air, nobody remembers where bodies were or what they touched; the digest begins anew; time and counts go
-  /// on.
+  /// All robots did: with the next tick the world begins again, from where bodies are then. Nothing
+  /// is in the air, nobody remembers where bodies were or what they touched; the digest begins anew;
+  /// time and counts go on.
   void begin_again() { begins_ = true; }
   /// When the world began, or began again, last; now() when it is about to.
   Clicks begun() const { return begins_ ? now() : begun_; }

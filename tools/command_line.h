@@ -18,8 +18,8 @@ CLI::Validator between(double least, double most);
 /// line in `problems`, when there is none.
 std::string find_world(const std::string& name, std::vector<std::string>& problems);
 
-/// That world, read and checked; none, with lines in `problems`, when there is no such file or it has
-/// mistakes.
+/// That world, read and checked; none, with lines in `problems`, when there is no such file
+/// or it has mistakes.
 std::optional<sim::WorldDesc> open_world(const std::string& name, std::vector<std::string>& problems);
 
 /// After parse() has thrown: one line that says what was wrong, and where help is. Returns the exit code.
@@ -28,8 +28,8 @@ int usage_error(const CLI::App& app, const CLI::ParseError& e, int argc, char** 
 /// `twinpuck help` and `twinpuck help VERB`.
 void add_help(CLI::App& app);
 
-/// An option that may be given several times, each time with one value: so that what follows is not
-/// swallowed.
+/// An option that may be given several times, each time with one value: so that what
+/// follows is not swallowed.
 CLI::Option* one_each(CLI::Option* option);
 /// "--hal sim|dspic" of a verb that builds or runs controllers; --way, which came before it, says so.
 void add_hal(CLI::App& verb, std::string& hal);

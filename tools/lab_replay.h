@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/run.h"
+#include "exercises/run.h"
 
 namespace tools {
 

@@ -9,13 +9,13 @@
 #include <iostream>
 #include <memory>
 
+#include "exercises/class.h"
+#include "exercises/class_table.h"
+#include "exercises/mine.h"
+#include "exercises/report.h"
+#include "exercises/run.h"
 #include "hal_sim/twin/firmware_store.h"
 #include "install/places.h"
-#include "lab/class.h"
-#include "lab/class_table.h"
-#include "lab/mine.h"
-#include "lab/report.h"
-#include "lab/run.h"
 #include "outputs/output_folder.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck list: what there is to run: controllers, worlds and parts of robots; and by what names things are
-// asked for.
+// twinpuck list: what there is to run: controllers, worlds and parts of robots; and by what names
+// things are asked for.
 #include <algorithm>
 #include <filesystem>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/robot_desc.h"
 
 namespace tools {
 

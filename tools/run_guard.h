@@ -11,8 +11,8 @@
 
 namespace tools {
 
-/// Once, at the start of main(): signals end the process from now on. `verb` is named where nothing better is
-/// known.
+/// Once, at the start of main(): signals end the process from now on. `verb` is named where
+/// nothing better is known.
 void guard_process();
 
 /// 0, or the exit code to end with: kInterrupted, kHostTime.

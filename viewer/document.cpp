@@ -161,6 +161,7 @@ std::vector<int> Document::edit(const Json& request) {
 
 std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) const {
   const auto op = request.at("op").get<std::string>();
+  // The piece that is meant; keys are judged before anything is written.
   const auto piece = [&]() -> const sim::WorldText::Element& {
     const auto* element = next.find(request.at("thing").get<int>());
     if (!element) refuse("thing: got one that is not there");
@@ -238,6 +239,7 @@ std::vector<int> Document::paste(sim::WorldText& next, const Json& request) cons
       next.set(id, "name", fmt::format("\"{}{}\"", stem, number));
     }
     names.insert(next.value(id, "name"));
+    // It lies elsewhere, by its place or by its points.
     if (std::vector<double> at = numbers_in(next.value(id, "position")); at.size() >= 2) {
       at[0] += dx;
       at[1] += dy;

@@ -27,10 +27,10 @@ class Document {
   bool can_undo() const { return !undo_.empty(); }
   bool can_redo() const { return !redo_.empty(); }
 
-  /// An edit (docs/connecting.md, "edit"), or a list of them in `edits`: all or none. Returns the ids of what
-  /// is new, 0 for an edit that makes nothing. Throws std::runtime_error when it cannot be done, Refusal with
-  /// `conflict` when the text is another than the one that was edited. Edits of one `group` other than 0 are
-  /// undone together.
+  /// An edit (docs/connecting.md, "edit"), or a list of them in `edits`: all or none. Returns the ids of
+  /// what is new, 0 for an edit that makes nothing. Throws std::runtime_error when it cannot be done,
+  /// Refusal with `conflict` when the text is another than the one that was edited. Edits of one `group`
+  /// other than 0 are undone together.
   std::vector<int> edit(const nlohmann::json& request);
   /// As it was before the last edit(), as if that had not been.
   void take_back();

@@ -170,6 +170,7 @@ void Report::add_sources(Json& programs, Json& sources) const {
 }
 
 std::string Report::finish(const std::string& summary) {
+  // All that the page would have been told in the course of the run.
   hear();
   for (const auto& trap : twin_.traps()) events_.push_back(trap_event(trap));
   if (trace_) {
@@ -178,6 +179,7 @@ std::string Report::finish(const std::string& summary) {
   }
   Json programs = Json::array(), sources = Json::object();
   add_sources(programs, sources);
+  // The world as a page gets it that connects, of a run that stands and cannot be steered.
   const sim::FloorDesc& floor = twin_.world().floor;
   sim::LoadedWorld loaded;
   loaded.world = twin_.world();
@@ -212,6 +214,7 @@ std::string Report::finish(const std::string& summary) {
       {"names", names_},
       {"units", units_},
       {"frame_bytes", frames_.empty() ? 0 : frames_.front().size()}};
+  // One file: style, data and script stand in the page itself.
   replace(script_, "</script", "<\\/script");
   std::string page = html_;
   replace(page, "<link rel=\"stylesheet\" href=\"page.css\">", "<style>\n" + style_ + "</style>");

@@ -37,6 +37,7 @@ Field robot(bool needed = true) { return text("robot", "its name", needed); }
 const Field kAnew = flag("anew", "the run may begin anew for it");
 const Field kOverwrite = flag("overwrite", "whatever lies there now");
 
+// A row a request; requests.h says what the columns are.
 std::vector<Request> make_requests() {
   return {
       {"play", Right::Steer, {}, "", "goes on"},
@@ -200,6 +201,7 @@ std::vector<Request> make_requests() {
   };
 }
 
+// A row an event: its name, its members, when it comes.
 std::vector<Event> make_events() {
   return {
       {"hello",

@@ -29,11 +29,13 @@ RobotLook::~RobotLook() {
 Json RobotLook::take() {
   const host::FirmwareMind& mind = std::as_const(twin_).mind(robot_);
   Json look{{"event", "look"}, {"robot", twin_.world().robots[static_cast<std::size_t>(robot_)].name}};
+  // Where its program is.
   if (const host::Runner* program = mind.runner()) {
-    const host::Place place = program->place_now();
+    const host::Place place = program->data().place_now();
     look["place"] = {{"function", place.function}, {"file", place.file}, {"line", place.line}};
     look["hal"] = twin_.hal(robot_);
   }
+  // What its parts and its camera show.
   Json parts = Json::array();
   for (const auto& part : mind.board().parts())
     parts.push_back({{"kind", part->settings().kind()}, {"shows", part->shows(mind.now())}});
@@ -57,6 +59,7 @@ Json RobotLook::take() {
                          {"rgb", pixels_}};
     }
   }
+  // Only what is new is told.
   if (look == told_) return {};
   told_ = look;
   look["time_s"] = sim::to_seconds(twin_.simulation().now());

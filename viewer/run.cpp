@@ -100,7 +100,10 @@ void Run::apply(const Json& request, const sim::WorldDesc* world) {
   const int robot = traced ? before->robot() : 0;
   const auto signals = traced ? before->asked() : std::vector<std::string>();
   before.reset();
-  inputs_->apply(request, world);
+  if (world)
+    inputs_->refurnish(request, *world);
+  else
+    inputs_->apply(request);
   if (traced) trace(robot, signals);
 }
 

@@ -2,8 +2,8 @@
 // One run of the world from time 0 on: the twin, its programs of the PC, all that was done to it, and what it
 // says. The twin is the run's own, or a debugger's, which makes it anew whenever it goes back.
 //
-//   script:  done, done, done | to come ...         an input is done at its tick, also when a debugger
-//   repeats
+//   script:  done, done, done | to come ...
+//   An input is done at its tick, also when a debugger repeats the run.
 #pragma once
 #include <functional>
 #include <map>
@@ -23,8 +23,8 @@ using Json = nlohmann::json;
 
 class Run {
  public:
-  /// `script`: inputs with their ticks, "at"; `is_replay`: of a recording, which goes on whatever is done
-  /// besides.
+  /// `script`: inputs with their ticks, "at"; `is_replay`: of a recording, which goes on
+  /// whatever is done besides.
   Run(std::vector<Json> script, bool is_replay) : script_(std::move(script)), is_replay_(is_replay) {}
   ~Run();
   Run(const Run&) = delete;
@@ -61,8 +61,8 @@ class Run {
   /// Does it, and writes it down. Throws std::runtime_error where it cannot be done; nothing is done then.
   /// `world`: what the text of a "world" says; null: it is read.
   void input(const Json& request, const sim::WorldDesc* world = nullptr);
-  /// The same at the next tick; what was done later than now, in a time that the debugger went back from, has
-  /// not been.
+  /// The same at the next tick; what was done later than now, in a time that the debugger went back
+  /// from, has not been.
   void input_later(const Json& request);
   /// What was done until now.
   std::vector<Json> done() const;

@@ -143,6 +143,7 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
     return false;
   }
   sim::WorldDesc world = *loaded.world;
+  // The run opens what the document says now, with the options that the user gave.
   opening_.file = document_.file();
   opening_.text = document_.text().text();
   world.seed = opening_.seed;
@@ -160,6 +161,7 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
     for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
       choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
   programs_.clear();
+  // Each robot's program is known from here on, whether the run opens or not.
   auto run = std::make_unique<Run>(std::move(script), replay_ != nullptr);
   const bool opened = run->open(world, options, opening_.supervisors, problems);
   for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) {
@@ -277,6 +279,7 @@ void Session::debug_robot(int robot) {
   auto* const runner = dynamic_cast<chip::ChipRunner*>(twin.mind(robot).runner());
   if (!runner) throw std::runtime_error("robot: got '" + name + "', which runs no firmware");
   const debug::Cycle from = twin.mind(robot).cycle_at(now());
+  // The debugger opens the same world, with the same images.
   debug::Session::Setup setup;
   setup.world = twin.world();
   setup.options = opening_.options;
@@ -287,6 +290,7 @@ void Session::debug_robot(int robot) {
       setup.options.firmware.push_back(
           {twin.world().robots[static_cast<std::size_t>(i)].name, twin.image_path(i)});
   setup.robot = name;
+  // A run like this one does again all that was done; pages see the debugger's twin.
   auto repeated = std::make_unique<Run>(run_->done(), replay_ != nullptr);
   Run* const run = repeated.get();
   setup.opened = [this, run](twin::Twin& opened) {
@@ -302,6 +306,7 @@ void Session::debug_robot(int robot) {
   setup.repeated = [run] {
     for (auto& line : run->lines()) line->text.clear();
   };
+  // Only now the old run goes.
   pace_.play(false, now());
   close_run();
   std::vector<std::string> problems;

@@ -34,8 +34,8 @@ class Session {
  public:
   /// `opening.text` is what `opening.file` holds. `record`: file for the inputs; empty: none.
   Session(inputs::Opening opening, std::string record, Outlet outlet);
-  /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its end.
-  /// Before open().
+  /// Each run from time 0 gets the inputs of a recording, each at its tick, and stands still at its
+  /// end. Before open().
   void replay(std::unique_ptr<inputs::Replay> recording) { replay_ = std::move(recording); }
   ~Session();
   Session(const Session&) = delete;
@@ -50,8 +50,8 @@ class Session {
     mail_.post(client, Mailbox::Kind::Said, std::move(text));
   }
   void client_left(ClientId client) { mail_.post(client, Mailbox::Kind::Left, ""); }
-  /// Told at once, on the thread, when the recording cannot be written any more; may be empty. Before
-  /// start().
+  /// Told at once, on the thread, when the recording cannot be written any more; may be
+  /// empty. Before start().
   std::function<void(const std::string&)> on_recording_error;
   /// Ends the thread and the run; nothing is sent any more. What is wrong with the recording; empty: nothing.
   std::string stop();

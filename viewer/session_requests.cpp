@@ -54,6 +54,7 @@ struct Handlers {
 };
 
 void Session::handle(const Mailbox::Message& message) {
+  // Clients come and go; the first that is there steers.
   if (message.kind == Mailbox::Kind::Left) {
     pages_.leave(message.client);
     if (steering_ == message.client) {
@@ -78,6 +79,7 @@ void Session::handle(const Mailbox::Message& message) {
                                  {"schema", schema_json()}});
     return;
   }
+  // A request always gets an answer, an error if need be.
   Json reply;
   const Json request = Json::parse(message.text, nullptr, false);
   try {

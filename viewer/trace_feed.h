@@ -15,8 +15,8 @@ namespace viewer {
 
 class TraceFeed {
  public:
-  /// `signals`: names of docs/looking.md; empty: the usual ones. Throws std::runtime_error for a name that
-  /// nothing has.
+  /// `signals`: names of docs/looking.md; empty: the usual ones. Throws std::runtime_error for a
+  /// name that nothing has.
   TraceFeed(twin::Twin& twin, int robot, const std::vector<std::string>& signals);
 
   /// What happened since the last call, times in s; of many spans, or changes, only the last `most`.

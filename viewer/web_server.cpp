@@ -29,17 +29,20 @@ constexpr auto kLongestStrange = std::chrono::seconds(1);
 constexpr const char* kThreads = "80";  // one a connection: clients, strangers, and what browsers open beside
 constexpr int kMostOpen = 4096;         // open files, among which a connection's is looked for
 
-/// Hangs up on the connection from this port of this machine to that one, if it is still there.
-void hang_up(int their_port, int our_port) {
+/// This process's connections to that port of this machine: their files, and the ports of their other ends.
+std::map<int, int> connections_to(int our_port) {
   const auto port_of = [](int (*name)(int, sockaddr*, socklen_t*), int file) {
     sockaddr_in address{};
     socklen_t size = sizeof address;
     const bool is_there = name(file, reinterpret_cast<sockaddr*>(&address), &size) == 0;
     return is_there && address.sin_family == AF_INET ? ntohs(address.sin_port) : -1;
   };
+  std::map<int, int> all;
   for (int file = 3; file < kMostOpen; ++file)
-    if (port_of(::getpeername, file) == their_port && port_of(::getsockname, file) == our_port)
-      ::shutdown(file, SHUT_RDWR);
+    if (const int theirs = port_of(::getpeername, file);
+        theirs >= 0 && port_of(::getsockname, file) == our_port)
+      all[file] = theirs;
+  return all;
 }
 
 std::string random_token() {
@@ -124,14 +127,14 @@ struct WebServer::Calls {
   static int page(mg_connection* c, void* data) { return of(data).serve_file(c); }
 
   static int came(const mg_connection* c, void**) {
-    const mg_request_info* info = mg_get_request_info(c);
-    if (info && info->user_data) of(info->user_data).came(info->remote_port);
+    of(mg_get_user_data(mg_get_context(c))).someone_came();
     return 0;
   }
 
   static void left(const mg_connection* c) {
-    const mg_request_info* info = mg_get_request_info(c);
-    if (info && info->user_data) of(info->user_data).is_known(c);
+    WebServer& me = of(mg_get_user_data(mg_get_context(c)));
+    std::lock_guard<std::mutex> lock(me.strangers_mutex_);
+    if (const mg_request_info* info = mg_get_request_info(c)) me.known_.erase(info->remote_port);
   }
 
   static int connect(const mg_connection* c, void* data) {
@@ -264,31 +267,31 @@ bool WebServer::is_trusted(const mg_connection* connection) const {
   return false;
 }
 
-void WebServer::came(int their_port) {
-  std::vector<int> gone;
-  {
-    std::lock_guard<std::mutex> lock(strangers_mutex_);
-    const auto now = std::chrono::steady_clock::now();
-    while (!strangers_.empty() &&
-           (strangers_.size() >= kMostStrangers || now - strangers_.front().second > kLongestStrange)) {
-      gone.push_back(strangers_.front().first);
-      strangers_.pop_front();
-    }
-    strangers_.emplace_back(their_port, now);
+/// Of those that have not shown the token, who is there for too long goes, and of too many the oldest.
+void WebServer::someone_came() {
+  std::lock_guard<std::mutex> lock(strangers_mutex_);
+  const auto now = std::chrono::steady_clock::now();
+  std::map<int, std::chrono::steady_clock::time_point> there;  // by the port of their other end
+  std::multimap<std::chrono::steady_clock::time_point, int> by_age;
+  for (const auto& [file, port] : connections_to(port_)) {
+    if (known_.count(port) > 0) continue;
+    const auto before = strangers_.find(port);
+    there[port] = before == strangers_.end() ? now : before->second;
+    by_age.emplace(there[port], file);
   }
-  for (const int port : gone) hang_up(port, port_);
+  std::size_t left = by_age.size();
+  for (const auto& [since, file] : by_age) {
+    if (left <= kMostStrangers && now - since <= kLongestStrange) break;
+    ::shutdown(file, SHUT_RDWR);
+    --left;
+  }
+  strangers_ = std::move(there);
 }
 
-/// It has shown the token, or is gone.
 void WebServer::is_known(const mg_connection* connection) {
   const mg_request_info* info = mg_get_request_info(connection);
-  if (!info) return;
   std::lock_guard<std::mutex> lock(strangers_mutex_);
-  for (auto it = strangers_.begin(); it != strangers_.end(); ++it)
-    if (it->first == info->remote_port) {
-      strangers_.erase(it);
-      return;
-    }
+  if (info) known_.insert(info->remote_port);
 }
 
 int WebServer::serve_file(mg_connection* connection) {
@@ -297,6 +300,7 @@ int WebServer::serve_file(mg_connection* connection) {
     mg_send_http_error(connection, code, "%s", text);
     return code;
   };
+  // /TOKEN/NAME
   const char* path = info->local_uri ? info->local_uri : "";
   const char* name = std::strchr(path + (*path == '/'), '/');
   if (!is_trusted(connection) || *path != '/' || !name ||
@@ -305,6 +309,7 @@ int WebServer::serve_file(mg_connection* connection) {
   is_known(connection);
   if (std::strcmp(info->request_method, "GET") != 0) return refuse(405, "expected GET");
   ++name;
+  // Only the files of the list can be asked for.
   for (const FileType& file : kFiles) {
     if (std::strcmp(name, *name ? file.name : "") != 0 && !(!*name && &file == kFiles)) continue;
     std::string bytes;

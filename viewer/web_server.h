@@ -14,11 +14,11 @@
 #pragma once
 #include <chrono>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
+#include <set>
 #include <string>
 
 struct mg_context;
@@ -72,11 +72,12 @@ class WebServer {
   std::mutex clients_mutex_;
   std::map<ClientId, std::shared_ptr<Client>> clients_;
   ClientId next_id_ = 1;
-  // --- connections that have not shown the token: port of their other end, and since when they are there
-  void came(int their_port);
+  // --- connections by the port of their other end: who has shown the token, and who not, since when
+  void someone_came();
   void is_known(const mg_connection* connection);
   std::mutex strangers_mutex_;
-  std::deque<std::pair<int, std::chrono::steady_clock::time_point>> strangers_;  // the oldest first
+  std::set<int> known_;
+  std::map<int, std::chrono::steady_clock::time_point> strangers_;
 };
 
 }  // namespace viewer

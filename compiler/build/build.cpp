@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 #include <sstream>
@@ -60,8 +61,8 @@ void check_main(const std::vector<CompileOutcome>& outcomes, const Plan& p, std:
   }
 }
 
-/// The forms of drivers that the program shall call (driver_variants.h), which the linker sees to by
-/// `renames`.
+/// The forms of drivers that the program shall call (driver_variants.h), which the linker
+/// sees to by `renames`.
 std::vector<DriverChoice> choose_drivers(const std::vector<CompileOutcome>& user,
                                          const std::vector<CompileOutcome>& members,
                                          const std::vector<CompileJob>& jobs, const Program& program,
@@ -148,63 +149,93 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
                               o.optimisation + " may read it once and wait for ever");
 }
 
-}  // namespace
+/// A build on its way from a folder to an image. Each step returns whether there is anything to go on with;
+/// `result` says why not.
+class Building {
+ public:
+  explicit Building(const BuildOptions& asked) : o(asked) {}
 
-static BuildResult build_here(const BuildOptions& asked) {
-  BuildOptions o = asked;
-  auto start = std::chrono::steady_clock::now();
-  BuildResult result;
-  auto finish = [&]() -> BuildResult& {
+  BuildResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    result.ok = find() && add_settings() && compile() && choose() && link();
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
-  };
+  }
+
+ private:
+  bool find();
+  bool add_settings();
+  bool compile();
+  bool choose();
+  bool link();
+
+  bool is_of_library(std::size_t i) const { return i >= own && i < p.user.size(); }
+  bool refuse(std::string why) {
+    result.errors.push_back(std::move(why));
+    return false;
+  }
+
+  BuildOptions o;
+  BuildResult result;
+  Program program;
+  LibraryCopies split;  // what the program's files are: its own, and members of copies of the library
+  Plan p;
+  std::size_t own = 0;                   // of p.user, what is no member of a copy of the library
+  std::vector<CompileOutcome> outcomes;  // of p.user, then of p.assembler
+  Library library;
+  std::vector<CompileOutcome> user, members;  // of the outcomes: the program's, those of copies
+  Renames renames;
+};
+
+/// Which files are the program, and what they are compiled with.
+bool Building::find() {
   std::error_code ec;
-  if (!fs::is_directory(o.source_dir, ec)) {
-    result.errors.push_back(o.source_dir.string() +
-                            ": controller: got no such folder, expected one with a main.c");
-    return finish();
-  }
-  Program program = program_of(o, result);
+  if (!fs::is_directory(o.source_dir, ec))
+    return refuse(o.source_dir.string() + ": controller: got no such folder, expected one with a main.c");
+  program = program_of(o, result);
   if (o.optimisation.empty()) o.optimisation = !program.level.empty() ? program.level : "-O1";
-  const auto& sources = program.sources;
-  if (sources.empty() && program.assembler.empty()) {
-    result.errors.push_back(no_program(o.source_dir));
-    return finish();
-  }
+  if (program.sources.empty() && program.assembler.empty()) return refuse(no_program(o.source_dir));
   // drivers that a project brings along reach the registers they were written for
-  const LibraryCopies split =
-      find_library_members(o.source_dir, sources, program.unlisted, program.assembler);
-  std::size_t own = split.kept.size();  // of p.user, what is not a member of a copy of the library
+  split = find_library_members(o.source_dir, program.sources, program.unlisted, program.assembler);
   LibraryCopies copies = split;
   copies.kept.insert(copies.kept.end(), split.members.begin(), split.members.end());
-  own = program.order(copies, own);
+  own = program.order(copies, split.kept.size());
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
-  Plan p = plan(o, copies, program, false);
+  p = plan(o, copies, program, false);
+  return true;
+}
+
+/// A program for Webots' interfaces gets what the world says of them as one more file.
+bool Building::add_settings() {
   const bool has_settings = p.is_webots && !o.webots_settings.empty();
   if (has_settings) {
+    std::error_code ec;
     const fs::path settings = o.cache_dir / ("webots-" + content_hash(o.webots_settings) + ".c");
-    if (!fs::exists(settings, ec) && !write_text(settings, o.webots_settings)) {
-      result.errors.push_back(settings.string() + ": cannot be written");
-      return finish();
-    }
+    if (!fs::exists(settings, ec) && !write_text(settings, o.webots_settings))
+      return refuse(settings.string() + ": cannot be written");
     CompileJob job = p.user.front();
     job.source = settings;
     p.user.push_back(job);
   }
   if (p.is_webots) own = p.user.size();
   result.files = int(own + p.assembler.size()) - (has_settings ? 1 : 0);
+  // Compile all of it, and the library; variables that handlers share may ask for a second time.
   for (std::size_t i = own; i < p.user.size(); ++i) p.user[i].flags.push_back("--weak");
+  return true;
+}
+
+bool Building::compile() {
   std::vector<CompileJob> all = p.user;
   all.insert(all.end(), p.assembler.begin(), p.assembler.end());
-  auto outcomes = compile_all(all, compiler_path(), {o.cache_dir, {}}, o.jobs);
-  const Library library = provide_library(o, p.is_webots);
+  outcomes = compile_all(all, compiler_path(), {o.cache_dir, {}}, o.jobs);
+  library = provide_library(o, p.is_webots);
   result.compiled += library.compiled;
   result.reused += library.reused;
   read_shared_variables_in_place(all, outcomes, own, p.user.size(), library, o, result);
-  bool ok = true;
-  for (size_t i = 0; i < outcomes.size(); ++i) {
-    if (!outcomes[i].ok && i >= own && i < p.user.size()) {
+  bool ok = library.ok;
+  for (std::size_t i = 0; i < outcomes.size(); ++i) {
+    if (!outcomes[i].ok && is_of_library(i)) {
       // a copy of the library holds files that the project never compiled
       result.warnings.push_back(p.user[i].source.string() + ": does not compile and is left out, as " +
                                 (program.unlisted.count(p.user[i].source)
@@ -213,33 +244,39 @@ static BuildResult build_here(const BuildOptions& asked) {
                                 outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
       continue;
     }
-    const bool is_member = i >= own && i < p.user.size();  // of a library: its warnings are not the user's
-    if (!is_member) sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
+    // warnings of a library are not the user's
+    if (!is_of_library(i)) sort_messages(outcomes[i].messages, result, !outcomes[i].ok);
     ok = ok && outcomes[i].ok;
     ++(outcomes[i].reused ? result.reused : result.compiled);
   }
   sort_messages(library.messages, result, !library.ok);
-  if (!ok || !library.ok) return finish();
-  std::vector<CompileOutcome> user(outcomes.begin(), outcomes.begin() + long(own));
-  std::vector<CompileOutcome> members(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()));
-  members.erase(std::remove_if(members.begin(), members.end(), [](const auto& m) { return !m.ok; }),
-                members.end());
+  return ok;
+}
+
+/// One main(), one form of each driver, one definition of each function, one owner of each timer.
+bool Building::choose() {
+  user.assign(outcomes.begin(), outcomes.begin() + long(own));
+  std::copy_if(outcomes.begin() + long(own), outcomes.begin() + long(p.user.size()),
+               std::back_inserter(members), [](const auto& m) { return m.ok; });
   check_main(outcomes, p, own, o, result);
-  if (!result.errors.empty()) return finish();
-  Renames renames;
+  if (!result.errors.empty()) return false;
   const auto choices = choose_drivers(user, members, p.user, program, o, result, renames);
   std::vector<bool> is_linked(outcomes.size());
   for (std::size_t i = 0; i < outcomes.size(); ++i)
     is_linked[i] = i < own || (i >= p.user.size() && !p.assembler_members.count(outcomes[i].source));
   check_second_definitions(outcomes, is_linked, program, choices, result);
-  if (!result.errors.empty()) return finish();
+  if (!result.errors.empty()) return false;
   std::vector<std::pair<std::string, std::string>> texts;
   for (const auto& s : split.kept)
     if (!program.unlisted.count(s)) texts.emplace_back(s.filename().string(), read_text(s));
   for (auto& conflict : timer_conflicts(texts, replaced_headers(choices)))
     result.conflicts.push_back(std::move(conflict));
+  return true;
+}
 
-  fs::path output = fs::absolute(o.output);
+bool Building::link() {
+  std::error_code ec;
+  const fs::path output = fs::absolute(o.output);
   fs::create_directories(output.parent_path(), ec);
   std::vector<CompileOutcome> drivers;  // linked for their handlers, too
   for (auto it = outcomes.begin() + long(p.user.size()); it != outcomes.end(); ++it)
@@ -251,9 +288,12 @@ static BuildResult build_here(const BuildOptions& asked) {
   std::copy_if(members.begin(), members.end(), std::back_inserter(drivers), is_listed);
   members.erase(std::remove_if(members.begin(), members.end(), is_listed), members.end());
   link_chip(user, drivers, members, program, library, renames, o, output, result);
-  result.ok = result.errors.empty();
-  return finish();
+  return result.errors.empty();
 }
+
+}  // namespace
+
+static BuildResult build_here(const BuildOptions& asked) { return Building(asked).run(); }
 
 /// Variables that a handler writes: whoever reads one in a loop waits for ever on the robot. What is told of
 /// a line already is not told twice.

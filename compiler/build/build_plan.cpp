@@ -107,6 +107,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
        "--fallback", contract.string(), "--fallback", (libc / "include").string(), "--fallback",
        o.source_dir.string(), "--project", fs::weakly_canonical(o.source_dir).string()});
 
+  // What holds for all C files of the program.
   Plan p;
   std::vector<std::string> flags = {o.optimisation};
   if (o.sanitize) flags.push_back("--sanitize");
@@ -122,6 +123,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
     flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
+  // One job a file. The names of all headers go into its key: a new one may be found before another.
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
        p.is_webots && !program.is_exact ? webots_sources(o.source_dir, copies.kept) : copies.kept)

@@ -91,6 +91,7 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
 }
 
 std::optional<BuildResult> BuildRecord::recall() const {
+  // What came of the same question last time.
   Texts record(bytes_of(file_));
   if (record.next() != question_) return std::nullopt;
   BuildResult result;
@@ -105,6 +106,7 @@ std::optional<BuildResult> BuildRecord::recall() const {
   result.warnings = record.list();
   result.conflicts = record.list();
   result.notes = record.list();
+  // It holds while every file that was read is as it was then.
   std::map<std::string, BuildInputs::Input> inputs;
   bool is_touched = false;  // the same content at another time: the record learns it
   while (!record.is_over()) {

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     std::cerr << "usage: twinpuck-library STAMP DEPFILE\n";
     return 2;
   }
+  // The libraries as a user's build asks for them; what they are made of is kept.
   cc::BuildInputs inputs;
   const cc::NotingInputs noting(inputs);
   std::string wrong;
@@ -36,6 +37,7 @@ int main(int argc, char** argv) {
   if (wrong.empty())
     for (const auto& entry : fs::directory_iterator(fs::absolute(argv[1]).parent_path(), none))
       if (!kept.count(entry.path().filename().string())) fs::remove(entry.path(), none);
+  // The rule that tells make, or ninja, what this depends on.
   std::string rule = std::string(argv[1]) + ":";
   for (const auto& [path, input] : inputs.all) {
     std::string escaped;

@@ -20,8 +20,8 @@ struct Renames {
   std::map<std::string, std::string> of_program, of_library;
 };
 
-/// `user` is linked as it is, `drivers` for their handlers too, of `members` and the library what is asked
-/// for.
+/// `user` is linked as it is, `drivers` for their handlers too, of `members` and the
+/// library what is asked for.
 void link_chip(const std::vector<CompileOutcome>& user, const std::vector<CompileOutcome>& drivers,
                const std::vector<CompileOutcome>& members, const Program& program, const Library& library,
                const Renames& renames, const BuildOptions& options, const std::filesystem::path& output,

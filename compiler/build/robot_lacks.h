@@ -5,8 +5,8 @@
 
 namespace cc {
 
-/// "an e-puck has no GPS; count the steps of its wheels with a position sensor"; empty for any other
-/// function.
+/// "an e-puck has no GPS; count the steps of its wheels with a position sensor"; empty for
+/// any other function.
 std::string what_the_robot_lacks(const std::string& function);
 
 }  // namespace cc

@@ -76,6 +76,7 @@ pid_t start(char* const* argv, int output, int input, int& why) {
 
 ProcessResult run_process(const std::vector<std::string>& argv) {
   ProcessResult result;
+  // It reads nothing, and what it writes comes through a pipe.
   int ends[2];
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   if (nothing < 0 || pipe2(ends, O_CLOEXEC) != 0) {
@@ -96,6 +97,7 @@ ProcessResult run_process(const std::vector<std::string>& argv) {
     return result;
   }
   const std::size_t slot = note_child(pid);
+  // Read it to the end, so that it never waits for us; what is too much is thrown away.
   char buffer[4096];
   for (ssize_t n; (n = read(ends[0], buffer, sizeof buffer)) != 0;) {
     if (n < 0 && errno != EINTR) break;

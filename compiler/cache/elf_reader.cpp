@@ -63,6 +63,7 @@ ElfFile read_elf(const std::filesystem::path& path) {
   if (!head || std::memcmp(head->e_ident, ELFMAG, SELFMAG) != 0 || head->e_ident[EI_CLASS] != ELFCLASS32)
     return file;
   file.ok = true;
+  // All symbols of all symbol tables.
   for (unsigned i = 0; i < head->e_shnum; ++i) {
     const auto table = section_header(file.bytes, i);
     if (!table || table->sh_type != SHT_SYMTAB) continue;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// See object_cache.h. `<key>.deps` holds the name of what came of a compilation, then a line per file read,
-// its hash before it. That name is a hash of `<key>.<name>.o`, .txt (messages) and .facts together, so what
-// is there is never replaced: whoever has found an object, such as the linker of another build, keeps it, or
-// misses it.
+// See object_cache.h. `<key>.deps` holds the name of what came of a compilation, then a line per file
+// read, its hash before it. That name is a hash of `<key>.<name>.o`, .txt (messages) and .facts together,
+// so what is there is never replaced: whoever has found an object, such as the linker of another build,
+// keeps it, or misses it.
 #include "object_cache.h"
 
 #include <fcntl.h>

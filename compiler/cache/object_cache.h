@@ -40,8 +40,8 @@ struct CompileJob {
   std::vector<std::string> flags;
   std::string salt = {};          // anything else the result hangs on
   std::string listed_below = {};  // a folder of which the salt says which headers there are
-  /// A folder that may lie elsewhere when the object is used: what is below it is told, in the object too, as
-  /// below `called`.
+  /// A folder that may lie elsewhere when the object is used: what is below it is told, in the object
+  /// too, as below `called`.
   std::string home = {}, called = {};
   bool has_facts = false;  // the compiler tells what the file does with addresses (shared_variables.h)
 };

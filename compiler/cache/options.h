@@ -34,8 +34,8 @@ struct BuildResult {
   std::vector<std::string> errors;     ///< "file:line: what: got X, expected Y; hint"
   std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
-  /// hal sim: which drivers are not the simulator's: "agenda: the chip's own driver, since main.c:12 uses
-  /// T2CON"
+  /// hal sim: which drivers are not the simulator's: "agenda: the chip's own driver, since
+  /// main.c:12 uses T2CON"
   std::vector<std::string> notes;
   int compiled = 0, reused = 0;  ///< translation units compiled now, taken from the cache
   int files = 0;                 ///< sources of the program itself

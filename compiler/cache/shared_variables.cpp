@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// See shared_variables.h. The points-to sets are Andersen's: constraints between nodes, solved by a work
-// list.
+// See shared_variables.h. The points-to sets are Andersen's: constraints between nodes,
+// solved by a work list.
 #include "shared_variables.h"
 
 #include <algorithm>
@@ -147,6 +147,7 @@ class SharedSolver {
       std::istringstream words(line);
       std::string kind, a, b;
       words >> kind >> a >> b;
+      // Constraints between nodes.
       if (kind == "C" || kind == "L" || kind == "S") {
         const int first = node_or_part(a, file), second = node_or_part(b, file);
         if (kind == "C") copy(first, second);
@@ -154,6 +155,7 @@ class SharedSolver {
         if (kind == "S") nodes_[std::size_t(first)].stored_from.push_back(second);
         continue;
       }
+      // What a function does. Of one with several bodies only the linked one's counts.
       if (kind != "W" && kind != "R" && kind != "K" && kind != "N") continue;
       const int f = object(a, file);
       if (const auto home = home_.find(f); home == home_.end() || home->second != file) continue;
@@ -169,6 +171,7 @@ class SharedSolver {
       } else if (kind == "N") {
         name_in_assembler(f, node("&" + b, file));
       } else {
+        // a call: who is called, and the nodes of result and arguments
         CallSite site{f, -1, {}};
         std::string word;
         words >> word;
@@ -233,6 +236,7 @@ class SharedSolver {
   void bind(const CallSite& site, int o) {
     objects_[std::size_t(site.caller)].callees.insert(o);
     const bool is_known = objects_[std::size_t(o)].has_body;
+    // Arguments go into the parameters, and the result comes back.
     if (is_known) {
       const bool is_variadic = objects_[std::size_t(o)].is_variadic;
       for (std::size_t i = 0; i < site.arguments.size(); ++i) {
@@ -242,6 +246,7 @@ class SharedSolver {
       if (site.result >= 0) copy(site.result, node_of(o, "r"));
       if (objects_[std::size_t(o)].is_program) return;
     }
+    // What is handed to others may be used by them.
     for (int argument : site.arguments)
       if (argument >= 0) handed_out_.insert(argument);
     if (is_known) return;
@@ -252,6 +257,7 @@ class SharedSolver {
       copy(site.result, argument);
     }
     const std::string& name = objects_[std::size_t(o)].name;
+    // these copy what their arguments point to
     if ((name == "memcpy" || name == "memmove") && site.arguments.size() >= 2 && site.arguments[0] >= 0 &&
         site.arguments[1] >= 0) {
       const int between = node_of(o, "between " + std::to_string(&site - calls_.data()));

@@ -6,9 +6,9 @@
 // or functions they call may write is shared. Pointers are followed by what they may point at, wherever they
 // are stored (no order, no fields: an answer may name too many variables, never too few).
 //
-// Facts of a file are lines of words. Nodes: "&x" the address of x, "f^0" the first parameter of f, "f^r" its
-// result, "f^v" what stands behind its "...", "%7" a value of the file. A name that begins with "." is the
-// file's own.
+// Facts of a file are lines of words. Nodes: "&x" the address of x, "f^0" the first parameter of f,
+// "f^r" its result, "f^v" what stands behind its "...", "%7" a value of the file. A name that begins
+// with "." is the file's own.
 //
 //   F f flags         f has a body here; h: a handler, v: takes "..."
 //   C to from         to may be what from is
@@ -55,8 +55,8 @@ struct SharedVariables {
 /// program has one of that name.
 SharedVariables shared_variables(const std::vector<FileFacts>& files);
 
-/// What C calls a variable that is "flag", "main.flag" or "main.flag.3" (the fourth of that name) in the
-/// compiler.
+/// What C calls a variable that is "flag", "main.flag" or "main.flag.3" (the fourth of that
+/// name) in the compiler.
 std::string name_in_c(const std::string& name);
 
 /// The nodes of the line M.

@@ -58,12 +58,14 @@ class Translation {
       : unit_(unit), call_(call), read_(read), result_(result), b_(&call) {}
 
   void write(const Form& form) {
+    // Which accumulator it works on, and where its result goes.
     const char taken = form.takes ? accumulator(0) : 0;
     acc_ = form.gives ? result_ : taken;
     if (form.gives && !result_)
       return fail("the result is in an accumulator, so it belongs into one: register int x asm(\"A\")");
     text_ = form.instruction;
     unsigned next = form.takes ? 1 : 0;
+    // The instruction's text: operands that may lie anywhere are $0, $1 ..., others have their registers.
     switch (form.kind) {
       case Form::Both: {
         const char other = accumulator(1);
@@ -267,6 +269,7 @@ void lower_in(Function& f, Unit& unit) {
                    " is used like a number; only built-in functions of the DSP unit take it, "
                    "__builtin_sac() and __builtin_sacr() give its value");
   };
+  // Loads and stores of such a variable say which calls read and give it; anything else is a mistake.
   for (const auto& [variable, acc] : take_variables(f))
     for (User* user : variable->users()) {
       auto* i = cast<Instruction>(user);
@@ -280,6 +283,7 @@ void lower_in(Function& f, Unit& unit) {
         misused(*i, acc);
       if (!isa<BitCastInst>(i)) gone.push_back(i);
     }
+  // Then each call becomes its instruction.
   for (Instruction& i : make_early_inc_range(instructions(f))) {
     if (!is_call_of_unit(&i)) continue;
     Translation(unit, cast<CallInst>(i), read, kept.lookup(&i)).write(form_of_call(&i));

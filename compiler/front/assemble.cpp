@@ -47,8 +47,8 @@ std::string file_below(const std::string& folder, StringRef name) {
   return !parts.empty() && sys::fs::is_regular_file(at) ? at.str().str() : "";
 }
 
-/// `.include "E_Common.INC"` and .incbin say the file that is meant. Lines stay where they are. `found`:
-/// those files.
+/// `.include "E_Common.INC"` and .incbin say the file that is meant. Lines stay where they are.
+/// `found`: those files.
 std::string with_found_files(StringRef text, const std::vector<std::string>& folders,
                              std::vector<std::string>& found) {
   std::string out;
@@ -128,6 +128,7 @@ int assemble_for_chip(const Options& options) {
     errs() << options.input << ": cannot read: expected a file\n";
     return kUsersFault;
   }
+  // The text, preprocessed where its name says so, with the files that it includes found.
   auto text = MemoryBuffer::getFile(options.input);
   if (!text) {
     errs() << options.input << ": cannot read: " << text.getError().message() << "\n";
@@ -147,6 +148,7 @@ int assemble_for_chip(const Options& options) {
   std::unique_ptr<MCObjectFileInfo> files(target.createMCObjectFileInfo(context, /*PIC=*/false));
   context.setObjectFileInfo(files.get());
 
+  // LLVM's assembler writes the object as it reads.
   OutputFile out(options.output);
   if (!out.is_open()) return kUsersFault;
   std::unique_ptr<MCAsmBackend> backend(target.createMCAsmBackend(*subtarget, *registers, mc_options));
@@ -162,6 +164,7 @@ int assemble_for_chip(const Options& options) {
   parser->setTargetParser(*of_target);
   const bool has_failed = parser->Run(/*NoInitialTextSection=*/false);
   if (!out.finish() || has_failed) return kUsersFault;
+  // Who builds has to know what was read.
   const bool is_told =
       options.depfile.empty() || write_depfile(options.depfile, options.input, sources, found);
   return is_told ? 0 : kUsersFault;

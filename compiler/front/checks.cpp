@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// --sanitize: local variables that can be missed, or read before they are written, stay in memory with a gap
-// on both sides, and are told when they come into being; clang's checks of 16-bit arithmetic call functions
-// without arguments, whose place says all. What is looked at, and how, is no affair of the program's
-// (dspic30/core/memory_check.h).
+// --sanitize: local variables that can be missed, or read before they are written, stay in memory with
+// a gap on both sides, and are told when they come into being; clang's checks of 16-bit arithmetic
+// call functions without arguments, whose place says all. What is looked at, and how, is no affair of
+// the program's (dspic30/core/memory_check.h).
 #include <map>
 
 #include "chip.h"
@@ -73,6 +73,7 @@ void watch_local(AllocaInst& local, Instruction* behind_locals, FunctionCallee t
   Type* gap = ArrayType::get(Type::getInt8Ty(context), dspic::kLocalGap);
   auto* padded = StructType::get(context, {gap, local.getAllocatedType(), gap});
   const auto offset = layout.getStructLayout(padded)->getElementOffset(1);
+  // The variable moves into a wider one, with a gap before and behind it; the debugger follows.
   IRBuilder<> b(&local);
   AllocaInst* wide = b.CreateAlloca(padded, nullptr, local.getName() + ".checked");
   wide->setAlignment(std::max(Align(2), local.getAlign()));
@@ -87,6 +88,7 @@ void watch_local(AllocaInst& local, Instruction* behind_locals, FunctionCallee t
         if (auto* of_life = dyn_cast<IntrinsicInst>(life); of_life && of_life->isLifetimeStartOrEnd())
           of_life->eraseFromParent();
   local.replaceAllUsesWith(inside);
+  // The checker is told its address, size and name.
   Value* arguments[] = {
       b.CreatePointerCast(inside, b.getInt8PtrTy()),
       ConstantInt::get(b.getInt16Ty(), layout.getTypeAllocSize(local.getAllocatedType()).getFixedValue()),
@@ -116,6 +118,7 @@ void watch_locals(Function& f, FunctionCallee tell) {
 /// clang's checks tell where they stand and what they have met; the place of the call says as much.
 void name_failed_checks(Module& m) {
   constexpr const char* kOfClang = "__ubsan_handle_";
+  // Each call of clang's gives way to one without arguments, at the same place in the source.
   std::vector<Function*> handlers;
   for (Function& f : m)
     if (f.isDeclaration() && f.getName().startswith(kOfClang)) handlers.push_back(&f);

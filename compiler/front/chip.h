@@ -3,8 +3,7 @@
 //
 //   target.cpp        what clang must know of the chip; XC16's attributes
 //   accumulators.cpp  built-in functions of the DSP unit
-//   lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator
-//                     takes
+//   lower.cpp         registers, attributes, bit-fields, lists of arguments: what the code generator takes
 //   shared_reads.cpp  loads of what an interrupt may change, done where they stand
 //   checks.cpp        --sanitize: locals and failed checks are told
 //   pipeline.cpp      the optimiser's passes, in our own order
@@ -35,8 +34,8 @@ inline constexpr const char* kAttributePrefix = "tp_";
 /// Gives variables whose attributes were read since the last call their sections.
 void place_variables(clang::ASTContext& context);
 
-/// Prefix of annotations by which attributes of functions and variables travel from clang to the later
-/// stages: "dspic:save=_a,_b".
+/// Prefix of annotations by which attributes of functions and variables travel from clang to the
+/// later stages: "dspic:save=_a,_b".
 inline constexpr const char* kNote = "dspic:";
 /// What the text of an annotation says behind it; empty when it is nobody's of ours.
 llvm::StringRef note_in(const llvm::Value* text);

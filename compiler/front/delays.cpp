@@ -130,11 +130,13 @@ unsigned cycles_of_comparison(const Delay& d) {
 
 /// The counter becomes one that goes down to 0. False: how often is not known before the loop.
 bool count_rounds_down(Loop& loop, Delay& d, ScalarEvolution& evolution) {
+  // Nobody may look at the counter behind the loop.
   for (Instruction* i : {static_cast<Instruction*>(d.count), static_cast<Instruction*>(d.next)})
     for (User* u : i->users())
       if (!loop.contains(cast<Instruction>(u))) return false;
   for (LoadInst* load : d.loads)
     if (d.keeps_memory) load->moveBefore(d.before->getTerminator());
+  // How often the loop goes round.
   evolution.forgetLoop(&loop);
   const SCEV* rounds = evolution.getExitCount(&loop, d.asks);
   // from n down to 0: the larger of both, and not what LLVM takes from n
@@ -147,6 +149,7 @@ bool count_rounds_down(Loop& loop, Delay& d, ScalarEvolution& evolution) {
   auto* type = evolution.getTypeSizeInBits(rounds->getType()) > 16 ? Type::getInt32Ty(context)
                                                                    : Type::getInt16Ty(context);
   if (evolution.getTypeSizeInBits(rounds->getType()) > 32) return false;
+  // That number is worked out before the loop, and counted down to 0 in it.
   SCEVExpander expander(evolution, d.header->getModule()->getDataLayout(), "rounds");
   Value* all =
       expander.expandCodeFor(evolution.getZeroExtendExpr(rounds, type), type, d.before->getTerminator());
@@ -160,6 +163,7 @@ bool count_rounds_down(Loop& loop, Delay& d, ScalarEvolution& evolution) {
   b.SetInsertPoint(d.latch->getTerminator());
   left->addIncoming(all, d.before);
   left->addIncoming(b.CreateAdd(left, ConstantInt::getSigned(type, -1)), d.latch);
+  // the old counter goes
   RecursivelyDeleteTriviallyDeadInstructions(d.test);
   RecursivelyDeleteDeadPHINode(d.count);
   return true;

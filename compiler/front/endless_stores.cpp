@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a loop that never ends counts is seen. LLVM keeps a variable in a register for as long as a loop takes
-// and writes it behind the loop: of main()'s `while (1)` nobody would ever see it, no handler, no debugger
-// and no test. While such a loop is looked at, its stores count as volatile; loads and all other passes are
-// as ever.
+// What a loop that never ends counts is seen. LLVM keeps a variable in a register for as long as a loop
+// takes and writes it behind the loop: of main()'s `while (1)` nobody would ever see it, no handler, no
+// debugger and no test. While such a loop is looked at, its stores count as volatile; loads and all other
+// passes are as ever.
 #include "llvm/Analysis/LoopInfo.h"
 #include "llvm/Analysis/ValueTracking.h"
 #include "llvm/IR/InstIterator.h"

@@ -176,6 +176,7 @@ class FieldWidths {
       e->setType(cast<Expr>(right)->getType());
       return width;
     }
+    // An assignment has the width of the field that it stores to.
     if (e->getOpcode() == BO_Assign) {
       settle(left);
       settle(right);
@@ -192,6 +193,7 @@ class FieldWidths {
       visit(right);
       return llvm::None;
     }
+    // A shift has the width of its left side alone.
     const QualType type = e->getLHS()->getType();
     const MaybeWidth a = visit_operand(left);
     if (e->isShiftOp()) {
@@ -205,6 +207,7 @@ class FieldWidths {
       if (e->getOpcode() == BO_Shl) cut(slot, promoted(*a));
       return promoted(*a);
     }
+    // All others have a width that holds both sides; where that is clang's own, nothing is to be done.
     const MaybeWidth b = visit_operand(right);
     const Width w = a && b ? common(*a, *b) : width_of(type);
     if (w == width_of(type)) {
@@ -216,6 +219,7 @@ class FieldWidths {
     make(right, *b, w);
     if (e->isComparisonOp()) return llvm::None;
     e->setType(whole(w));
+    // Carries out of the width have to go, as they do in gcc.
     const bool stays_inside =
         e->isBitwiseOp() || e->getOpcode() == BO_Rem || (e->getOpcode() == BO_Div && w.is_unsigned);
     if (!stays_inside) cut(slot, w);
@@ -342,7 +346,6 @@ class FieldWidths {
 
   // --- widths
 
-  static constexpr unsigned kLongLongBits = 64;
   MaybeWidth width_of_field(const Expr* lvalue) const {
     const FieldDecl* field = const_cast<Expr*>(lvalue)->getSourceBitField();
     if (!field) return llvm::None;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Old C calls a function before it is defined and later defines it with a result other than int. XC16 warns
-// and goes on; clang refuses. A second attempt with declarations in front of the file compiles what XC16
-// compiles.
+// Old C calls a function before it is defined and later defines it with a result other than int. XC16
+// warns and goes on; clang refuses. A second attempt with declarations in front of the file compiles
+// what XC16 compiles.
 #pragma once
 #include <string>
 

@@ -251,6 +251,7 @@ class RobotAction : public EmitLLVMOnlyAction {
 const std::vector<const char*> kForChip = {"--target=msp430", "-ffreestanding", "-fno-builtin", "-gdwarf-3"};
 
 std::vector<std::string> clang_arguments(const Options& o, const std::string& standard) {
+  // C as XC16's gcc has it, without clang's passes, and without warnings about what old programs do freely.
   std::vector<std::string> a = {"/usr/lib/llvm-14/bin/clang",
                                 "-c",
                                 "-x",  // whatever the name says: MAIN.C would be C++
@@ -314,6 +315,7 @@ std::vector<std::string> clang_arguments(const Options& o, const std::string& st
           "-Wsizeof-pointer-memaccess", "-Wstrncat-size", "-Wreturn-type", "-Wreturn-stack-address",
           "-Wnull-dereference", "-Wbool-operation", "-Wshift-count-overflow"})
       a.push_back(w);
+  // what is worth a look, for who asks for it
   if (o.strict || o.lint)
     for (const char* w :
          {"-Wall", "-Wextra", "-Wimplicit-function-declaration", "-Wshadow", "-Wwrite-strings",

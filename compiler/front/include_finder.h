@@ -19,11 +19,11 @@ inline constexpr const char* kFallbackRoot = "/twinpuck-fallback";
 inline constexpr const char* kVendorRoot = "/twinpuck-vendor";
 
 /// The real file system, forgiving about case and separators in names of header files. `project`: the
-/// controller's own folder. A copy of the e-puck library that lies outside it ("../lib/motor_led/e_led.h") is
-/// passed over in favour of the first fallback folder's header of the same place and name, because our
-/// library is what is linked. So is the chip's own p30Fxxxx.h wherever the project has one. `missing` gets
-/// the names that were looked up and are not there as they were asked for: a file of such a name would be
-/// taken.
+/// controller's own folder. A copy of the e-puck library that lies outside it
+/// ("../lib/motor_led/e_led.h") is passed over in favour of the first fallback folder's header of the
+/// same place and name, because our library is what is linked. So is the chip's own p30Fxxxx.h wherever
+/// the project has one. `missing` gets the names that were looked up and are not there as they were asked
+/// for: a file of such a name would be taken.
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
     std::vector<std::string> fallback_folders, std::string project, std::set<std::string>& missing);
 

@@ -45,8 +45,8 @@ struct KeepZeroArgumentsPass : llvm::PassInfoMixin<KeepZeroArgumentsPass> {
 struct CountDownPass : llvm::PassInfoMixin<CountDownPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
-/// Within the pass of loops, a loop that never ends keeps its stores to variables; behind it, they are
-/// plain again.
+/// Within the pass of loops, a loop that never ends keeps its stores to variables; behind it,
+/// they are plain again.
 struct KeepEndlessStoresPass : llvm::PassInfoMixin<KeepEndlessStoresPass> {
   llvm::PreservedAnalyses run(llvm::Loop& loop, llvm::LoopAnalysisManager& analyses,
                               llvm::LoopStandardAnalysisResults& results, llvm::LPMUpdater& updater);

@@ -82,8 +82,8 @@ struct MergeFieldReadsPass : PassInfoMixin<MergeFieldReadsPass> {
   }
 
  private:
-  /// The next access is the store of a value made of both readings, each masked to bits the other does not
-  /// take.
+  /// The next access is the store of a value made of both readings, each masked to bits the
+  /// other does not take.
   static bool is_modified(LoadInst& rest, LoadInst& bit) {
     using namespace PatternMatch;
     for (Instruction* i = rest.getNextNode(); i; i = i->getNextNode()) {
@@ -153,6 +153,7 @@ ModulePassManager passes_for(const Options& options) {
     m.addPass(createModuleToFunctionPassAdaptor(KeepPlainDivisionsPass()));
     return m;
   }
+  // Before functions are inlined: what the loops of XC16 tell, and plain tidying.
   FunctionPassManager first, second;
   if (options.level == 1) {
     // before anything is moved: the form of a loop says what XC16 makes of it
@@ -163,11 +164,13 @@ ModulePassManager passes_for(const Options& options) {
   add_tidying(first, false);
   first.addPass(MergeFieldReadsPass());
   m.addPass(createModuleToFunctionPassAdaptor(std::move(first)));
+  // Inlining, and what it shows across functions.
   const bool more = options.level >= 2 && !options.for_size;
   m.addPass(KeepZeroArgumentsPass());
   m.addPass(ModuleInlinerWrapperPass(getInlineParams(more ? kInlineMore : kInlineFew)));
   m.addPass(GlobalOptPass());
   m.addPass(IPSCCPPass());
+  // Behind it: copies, loops, and tidying once more; last the loops that count down.
   second.addPass(AlignCopiesPass());
   add_tidying(second, true);
   add_loops(second);

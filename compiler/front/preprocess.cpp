@@ -100,6 +100,7 @@ bool preprocess_assembler(const Options& options, std::string& text, std::vector
   std::vector<const char*> argv;
   for (const std::string& word : arguments) argv.push_back(word.c_str());
 
+  // clang's driver makes the arguments of the preprocessor of these.
   IntrusiveRefCntPtr<DiagnosticOptions> of_driver = new DiagnosticOptions;
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*of_driver,
                                 new TextDiagnosticPrinter(llvm::errs(), &*of_driver));
@@ -111,6 +112,7 @@ bool preprocess_assembler(const Options& options, std::string& text, std::vector
   if (!CompilerInvocation::CreateFromArgs(*invocation, compilation->getJobs().begin()->getArguments(),
                                           diagnostics))
     return false;
+  // The text comes from memory, and includes are found as for C.
   invocation->getPreprocessorOpts().addRemappedFile(
       options.input,
       llvm::MemoryBuffer::getMemBufferCopy(with_device_files_left(text), options.input).release());

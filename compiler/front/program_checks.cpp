@@ -249,6 +249,7 @@ class Checker : public RecursiveASTVisitor<Checker> {
 
   // for (i = 0; i <= 10; i++) a[i] of int a[10]
   bool VisitForStmt(ForStmt* loop) {
+    // Is this a loop that counts one variable up to a known end?
     const auto* condition =
         dyn_cast_or_null<BinaryOperator>(loop->getCond() ? loop->getCond()->IgnoreParenImpCasts() : nullptr);
     if (!condition || !loop->getBody() || !is_of_program_at(loop->getBeginLoc())) return true;
@@ -261,6 +262,7 @@ class Checker : public RecursiveASTVisitor<Checker> {
     if (condition->getOpcode() != BO_LT && condition->getOpcode() != BO_LE) return true;
     if (!condition->getRHS()->EvaluateAsInt(bound, context_)) return true;
     const std::int64_t last = bound.Val.getInt().getExtValue() - (condition->getOpcode() == BO_LT ? 1 : 0);
+    // Its body: does it leave early, or change the counter, and does it index an array of a known size?
     struct Indices : RecursiveASTVisitor<Indices> {
       Checker& checker;
       const VarDecl* counter;
@@ -338,6 +340,7 @@ class Checker : public RecursiveASTVisitor<Checker> {
   }
 
   void check_handlers() {
+    // What handlers and agendas may run, and which variables they write.
     std::vector<const FunctionDecl*> interrupting(handlers_.begin(), handlers_.end());
     interrupting.insert(interrupting.end(), agendas_.begin(), agendas_.end());
     std::set<const FunctionDecl*> inside;
@@ -347,6 +350,7 @@ class Checker : public RecursiveASTVisitor<Checker> {
         inside.insert(g);
         for (const auto& [v, at] : uses_[g].written) writer.emplace(v, f);
       }
+    // What is slow, or wrong, within a handler.
     for (const FunctionDecl* f : handlers_) {
       for (const FunctionDecl* g : within(f)) {
         for (const auto& [name, at] : uses_[g].slow)
@@ -362,6 +366,7 @@ class Checker : public RecursiveASTVisitor<Checker> {
                          .str());
       }
     }
+    // What the rest of the program reads of a handler's variables in more than one piece.
     for (const FunctionDecl* f : bodies_) {
       const FunctionDecl* key = f->getCanonicalDecl();
       const Uses& uses = uses_[key];

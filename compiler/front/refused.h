@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a PC offers and a robot does not: named here once, for headers and for functions, with what to use
-// instead.
+// What a PC offers and a robot does not: named here once, for headers and for functions, with
+// what to use instead.
 #pragma once
 #include <string>
 

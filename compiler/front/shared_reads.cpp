@@ -70,7 +70,7 @@ class FactWriter {
     return (g.hasLocalLinkage() ? "." : "") + name.str();
   }
   std::string node_of(const Instruction& i) const {
-    const std::string number = "%" + std::to_string(numbers_.lookup(&i));
+    std::string number = "%" + std::to_string(numbers_.lookup(&i));
     if (!isa<AllocaInst>(i)) return number;
     const auto declared = FindDbgAddrUses(const_cast<Instruction*>(&i));
     return "&" + number + "." + (declared.empty() ? "" : declared.front()->getVariable()->getName().str());
@@ -105,7 +105,7 @@ class FactWriter {
     const auto found = nodes(v);
     if (found.empty()) return "-";
     if (found.size() == 1) return *found.begin();
-    const std::string made = "%c" + std::to_string(made_++);
+    std::string made = "%c" + std::to_string(made_++);
     for (const std::string& n : found) out_ << "C " << made << " " << n << "\n";
     return made;
   }
@@ -133,6 +133,7 @@ class FactWriter {
 
   void write(Instruction& i, const std::string& f) {
     if (isa<DbgInfoIntrinsic>(i)) return;
+    // What becomes of addresses: copies (C), loads (L), stores (S), and what the function writes (W).
     if (auto* load = dyn_cast<LoadInst>(&i)) {
       if (may_be_address(load->getType()))
         for (const std::string& n : nodes(load->getPointerOperand()))
@@ -161,6 +162,7 @@ class FactWriter {
       for (Use& operand : i.operands())
         if (!isa<BasicBlock>(operand)) copies(i, operand);
     }
+    // What it reads (R), and whether once is enough.
     if (Value* pointer = read_by(i); pointer && !is_private(pointer))
       for (const std::string& n : nodes(pointer))
         out_ << "R " << f << " " << n << " " << (may_be_once(i) ? 1 : 0) << " " << place(i) << "\n";

@@ -123,10 +123,10 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 }
 
 /// twinpuck-cc --link -o x.elf a.o b.o [--library c.o]... [--driver d.o]... [--source O=C]... [--heap N]
-/// Of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
-/// [--host-shortcut DRIVER:FUNCTION=PLACE]...
-/// [--register DRIVER:VARIABLE=BYTES]... [--owned DRIVER:T2CON]...; --fill SUM fills them. --no-texts:
-/// neither .lst nor .map.
+///   of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
+///     [--host-shortcut DRIVER:FUNCTION=PLACE]... [--register DRIVER:VARIABLE=BYTES]...
+///     [--owned DRIVER:T2CON]...; --fill SUM fills them
+///   --no-texts: neither .lst nor .map
 int link(int argc, char** argv) {
   dspic::link::Options o;
   o.moved_from = places::kUsualShare;

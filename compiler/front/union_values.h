@@ -9,9 +9,9 @@ class Decl;
 
 namespace cc {
 
-/// Between clang's semantic analysis and its code generator, C only: a union within a function whose value is
-/// made at run time is cleared first where the member that gets it leaves bytes over. clang leaves them as
-/// they are.
+/// Between clang's semantic analysis and its code generator, C only: a union within a function whose
+/// value is made at run time is cleared first where the member that gets it leaves bytes over. clang
+/// leaves them as they are.
 void clear_unions(clang::Decl* decl, clang::ASTContext& context);
 
 }  // namespace cc

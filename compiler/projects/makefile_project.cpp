@@ -60,6 +60,7 @@ class Makefile {
     std::error_code ec;
     look_at(file);
     if (!fs::is_regular_file(file, ec) || !read_.insert(fs::canonical(file, ec)).second) return;
+    // Line by line: assignments, rules, search paths and other Makefiles count; recipes do not.
     static const sim::Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
     static const sim::Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
     std::istringstream lines(std::regex_replace(read_text(file), kContinued, " "));
@@ -175,6 +176,7 @@ class Makefile {
       while (!word.empty() && std::isspace(static_cast<unsigned char>(word.back()))) word.pop_back();
       return word;
     };
+    // Functions of one argument, then of two, then of three.
     if (name == "wildcard") return wildcard(last(0));
     if (name == "sort" || name == "strip" || name == "realpath") return last(0);
     if (name == "abspath") return last(0);
@@ -423,12 +425,14 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   MplabProject project;
   project.file = file;
 
+  // Where sources may lie.
   std::vector<fs::path> places = {home};
   for (const std::string& name :
        sim::words_of(makefile.value("VPATH") + " " + makefile.source_folders(), " \t:;"))
     if (const fs::path found = resolve_path(home, name).lexically_normal();
         fs::is_directory(found, ec) && std::find(places.begin(), places.end(), found) == places.end())
       places.push_back(found);
+  // What the lists of sources and objects name.
   static const sim::Pattern kSources(R"((C_?)?(SRCS?|SOURCES?)(_C|_FILES)?|\w*OBJ(S|ECTS|_?FILES)?)",
                                      std::regex::icase);
   std::vector<std::string> words;  // of all lists of sources
@@ -448,6 +452,7 @@ std::optional<MplabProject> read_makefile(const fs::path& folder) {
   project.sources = listed.sources;
   project.assembler = listed.assembler;
   project.library_places = listed.library_places;
+  // The compiler's options.
   const CompilerOptions found = options_in(makefile);
   project.defines = found.defines;
   project.standard = found.standard;

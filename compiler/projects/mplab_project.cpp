@@ -91,6 +91,7 @@ Listed read_configurations(const std::string& text) {
   static const sim::Pattern kProject(R"re(<makeArtifact\s[^>]*?\bPL="([^"]*)"[^>]*?\bOP="([^"]*)")re");
   for (std::sregex_iterator it(text.begin(), text.end(), kProject), end; it != end; ++it)
     listed.archives.push_back(without_entities((*it)[1]) + "/" + without_entities((*it)[2]));
+  // Its files, but for those that this configuration leaves out, and folders of headers.
   std::vector<std::string> excluded;
   for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
     excluded.push_back((*it)[1]);
@@ -135,6 +136,7 @@ void add_archive(MplabProject& project, const fs::path& home, const std::string&
     project.objects.push_back(file);
     return;
   }
+  // No file yet: the project beside this one that would make it.
   std::string written = archive;
   std::replace(written.begin(), written.end(), '\\', '/');
   const std::size_t made = written.rfind("/dist/");
@@ -146,6 +148,7 @@ void add_archive(MplabProject& project, const fs::path& home, const std::string&
   const std::size_t name = made + std::char_traits<char>::length("/dist/");
   const Listed listed = read_configurations(
       part_of_configuration(read_text(file), written.substr(name, written.find('/', name) - name)));
+  // Its files are there for whatever asks for them, and so are its folders of headers.
   for (const std::string& source : listed.files) {
     const fs::path found = resolve_path(sister, source).lexically_normal();
     if (found.empty() || !fs::is_regular_file(found, ec)) continue;
@@ -171,6 +174,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
   project.defines = listed.options.defines;
   project.standard = listed.options.standard;
   project.level = listed.options.level;
+  // Files that are there, by kind. One that is missing may be the library's.
   bool has_main = false;
   std::error_code ec;
   for (const std::string& name : listed.files) {
@@ -192,6 +196,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
     project.sources.push_back(found);
     has_main = has_main || defines_main(found);
   }
+  // A project without a main() makes a library.
   if (!has_main) return std::nullopt;
   for (const std::string& archive : listed.archives) add_archive(project, home, archive);
   const auto add_folder = [&](const std::string& name) {
@@ -277,6 +282,7 @@ bool defines_main(const fs::path& source) {
 
 std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::string& told) {
   const fs::path home = fs::absolute(folder).lexically_normal();
+  // All projects of this folder, and those of them that make a program.
   std::vector<std::pair<fs::path, fs::path>> files;  // project, its home
   const auto add_configurations = [&](const fs::path& place) {
     const fs::path file = place / "nbproject/configurations.xml";
@@ -298,6 +304,7 @@ std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::stri
     if (auto project = read_project(file, at)) projects.push_back(*project);
   if (projects.empty()) return std::nullopt;
 
+  // They may agree; else one that stands out is taken, and the user is told.
   const auto sorted = [](std::vector<fs::path> list) {
     std::sort(list.begin(), list.end());
     return list;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The project files of Microchip's MPLAB beside a controller: which C files belong to the program, and where
-// it looks for headers. A folder often holds more than its program: older versions of a file, a second
-// main().
+// The project files of Microchip's MPLAB beside a controller: which C files belong to the program,
+// and where it looks for headers. A folder often holds more than its program: older versions of a
+// file, a second main().
 //
 // Read are *.mcp (MPLAB 6 to 8) and nbproject/configurations.xml (MPLAB X), also in a folder *.X, which name
 // files relative to themselves or by the path they had on their author's PC. Of an absolute path the longest

@@ -109,6 +109,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
   program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
   if (!o.sources.empty()) return program;
+  // A project of MPLAB says what the program is, else a Makefile does.
   const bool is_webots = names_webots(program.sources, files_below(o.source_dir, ".h"));
   std::string told;
   auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
@@ -134,12 +135,14 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
     program.is_exact = true;
     return program;
   }
+  // Without a project all that lies in the folder may be the program's.
   program.assembler = project ? project->assembler : files_below(o.source_dir, ".s");
   program.objects = project ? project->objects : archives_below(o.source_dir);
   if (!project || is_webots) {
     if (!is_webots) leave_out_other_programs(program, o.source_dir, result);
     return program;
   }
+  // With one, what it lists is the program; other files of the folder are linked only when asked for.
   program.defines = project->defines;
   program.standard = project->standard;
   program.level = project->level;
@@ -158,6 +161,7 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
       program.sources.push_back(source);
     else
       program.library_places.push_back(place);
+  // Files of archives that the project links.
   const std::size_t of_program = program.sources.size();
   for (const fs::path& source : project->library_sources)
     if (std::none_of(program.sources.begin(), program.sources.end(), [&](const fs::path& known) {

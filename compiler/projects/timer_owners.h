@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which driver of the e-puck library owns which timer and interrupt vector, and which pairs cannot live in
-// one program.
+// Which driver of the e-puck library owns which timer and interrupt vector, and which pairs cannot
+// live in one program.
 #pragma once
 #include <map>
 #include <string>

@@ -381,6 +381,7 @@ class Assembly final : private SourceLines::Listener {
         return complain(
             "", 0,
             "a section of constants has " + std::to_string(s.size) + " bytes, a page of the window 32768");
+      // Up to the next place where nothing lies that has an address.
       for (bool moved = true; moved && at <= kFlashEnd + kEepromStart;) {
         moved = false;
         at = (at + to - 1) / to * to;
@@ -395,6 +396,7 @@ class Assembly final : private SourceLines::Listener {
       s.base = at;
       at += (s.size + 1) & ~1u;
     }
+    // The stack begins behind all data.
     stack_start_ = ram;
     for (const Section& s : sections_)
       stack_start_ = std::max(stack_start_, s.kind == Kind::Ram ? (s.base + s.size + 1) & ~1u : 0);

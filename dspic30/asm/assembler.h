@@ -5,12 +5,10 @@
 //   text --lines, macros, conditions--> statements --sizes--> sections placed --values--> words
 //
 // Sections: code and .const (psv) in flash from 0x100, data and bss in RAM from 0x800, .eedata, or at
-// address(N).
-// `__reset`, else the first instruction, is jumped to from 0; `__T1Interrupt` and the like fill the vectors,
-// and
-// __DefaultInterrupt the rest. Registers are known by name, with and without underscore; __SP_init and
-// __SPLIM_init are where the stack begins and ends. Not supported: initialised .data (there is no start-up
-// code), relocatable output.
+// address(N). `__reset`, else the first instruction, is jumped to from 0; `__T1Interrupt` and the like fill
+// the vectors, and __DefaultInterrupt the rest. Registers are known by name, with and without underscore;
+// __SP_init and __SPLIM_init are where the stack begins and ends. Not supported: initialised .data (there is
+// no start-up code), relocatable output.
 #pragma once
 #include <cstdint>
 #include <functional>

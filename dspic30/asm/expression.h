@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Expressions of assembler text: numbers (10, 0x1F, 0b101, 017, 'a'), symbols, operators of C with C's
-// precedence, and what XC16 offers on addresses: tblpage, tbloffset, psvpage, psvoffset, paddr, handle, lo16,
-// hi16.
+// precedence, and what XC16 offers on addresses: tblpage, tbloffset, psvpage, psvoffset, paddr,
+// handle, lo16, hi16.
 #pragma once
 #include <cstdint>
 #include <functional>

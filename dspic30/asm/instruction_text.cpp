@@ -22,7 +22,7 @@ std::string hex(std::int64_t value) {
   return text;
 }
 
-// --- reading operands -----------------------------------------------------------------------------------
+// --- reading operands
 
 // "w12" -> 12; -1: no register
 int register_number(const std::string& text) {
@@ -73,6 +73,7 @@ bool read_indirect(const std::string& inside, Written& out) {
 Written read_operand(const std::string& text) {
   Written out;
   out.text = text;
+  // Its form alone says what it is; which row it fits, fits() says.
   if (const int n = register_number(text); n >= 0) {
     out.kind = Written::Register;
     out.n = static_cast<unsigned>(n);
@@ -103,7 +104,7 @@ Written read_operand(const std::string& text) {
   return out;
 }
 
-// --- does an operand look like what the row wants? ------------------------------------------------------
+// --- does an operand look like what the row wants?
 
 bool is_accumulator(const Written& o) {
   return o.kind == Written::Plain && (lower(o.text) == "a" || lower(o.text) == "b");
@@ -277,7 +278,7 @@ bool fits_row(const Row& row, const std::vector<Written>& all, Choice& choice) {
   return at == all.size() && (!row.legal || row.legal(f));
 }
 
-// --- mnemonics ------------------------------------------------------------------------------------------
+// --- mnemonics
 
 bool takes_byte(const Row& row) {
   for (const Operand kind : row.kinds)
@@ -416,7 +417,7 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
   return {};
 }
 
-// --- values ---------------------------------------------------------------------------------------------
+// --- values
 
 namespace {
 

@@ -35,6 +35,7 @@ bool read_section(const std::string& operands, SectionText& section, const Compl
   section.name = parts[0];
   section.kind = kind_by_name(section.name);
   section.is_zeroed = section.kind == SectionKind::Ram && contains(section.name, "bss");
+  // Attributes of XC16 and of gcc, in any order.
   for (std::size_t i = 1; i < parts.size(); ++i) {
     std::string a = lower(parts[i]);
     const std::string inside = argument(a);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Assembler text line by line, as statements: comments gone, .include, .macro, .rept, .irp and .if carried
-// out.
+// Assembler text line by line, as statements: comments gone, .include, .macro, .rept, .irp
+// and .if carried out.
 #pragma once
 #include <functional>
 #include <map>

@@ -8,7 +8,7 @@ namespace {
 
 using namespace operands;
 
-// --- what is done with two operands ---------------------------------------------------------------------
+// --- what is done with two operands
 
 template <bool Byte>
 unsigned inverse(unsigned x) {
@@ -73,7 +73,7 @@ struct Ior {
   }
 };
 
-// --- what is done with one ------------------------------------------------------------------------------
+// --- what is done with one
 
 template <int Step>
 struct Inc {
@@ -161,7 +161,7 @@ struct Same {  // MOV f
   }
 };
 
-// --- instructions ---------------------------------------------------------------------------------------
+// --- instructions
 
 template <class Op, bool Byte, class A, class B, class To>
 const Decoded* binary(Cpu& cpu, const Decoded* d) {
@@ -292,6 +292,7 @@ const Decoded* shift(Cpu& cpu, const Decoded* d) {
   case Insn::Name##_Wb_Wns_Wnd:  \
     return &shift<Op, Rs>;
 
+// The function of each form of the arithmetic instructions; null: it is none of them.
 Run choose_arithmetic(Insn id, const Fields& f) {
   switch (id) {
     BINARY(Add, Add)

@@ -8,7 +8,7 @@ namespace {
 
 using operands::kMask;
 
-// --- where the bit is: read and written through one address ---------------------------------------------
+// --- where the bit is: read and written through one address
 
 struct AtFile {
   static constexpr bool kIsMemory = true;
@@ -39,7 +39,7 @@ struct AtRegister {
   }
 };
 
-// --- which bit ------------------------------------------------------------------------------------------
+// --- which bit
 
 struct ByLiteral {
   static unsigned bit(Cpu&, const Decoded* d) { return d->b; }
@@ -48,7 +48,7 @@ struct ByRegister {
   static unsigned bit(Cpu& cpu, const Decoded* d) { return cpu.w[d->b] & 15; }
 };
 
-// --- what is done ---------------------------------------------------------------------------------------
+// --- what is done
 
 // kChanges: whatever the bit was, what is left of the old word and what is flipped then is known
 template <bool Keeps, bool Flips>
@@ -111,7 +111,7 @@ Run on_either(const Fields& f) {
   return f.p == 0 ? &change<Op, true, AtRegister, ByLiteral> : &change<Op, true, AtMemory, ByLiteral>;
 }
 
-// --- skips: register d holds the words of the next instruction -------------------------------------------
+// --- skips: register d holds the words of the next instruction
 
 const Decoded* skip_if(Cpu& cpu, const Decoded* d, bool yes) {
   if (!yes) return d + 1;
@@ -150,7 +150,7 @@ Run choose_compared(const Fields& f) {
   return f.B ? &compare_and_skip<How, true> : &compare_and_skip<How, false>;
 }
 
-// --- finds ----------------------------------------------------------------------------------------------
+// --- finds
 
 struct FirstOneLeft {
   static unsigned of(unsigned x) { return x ? static_cast<unsigned>(__builtin_clz(x)) - 15 : 0; }
@@ -184,6 +184,7 @@ Run choose_find(const Fields& f) {
 
 }  // namespace
 
+// The function of each form of the bit instructions; null: it is none of them.
 Run choose_bit(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Bset_f_bit:

@@ -79,7 +79,7 @@ Decoded& Decoded::operator=(const Decoded& o) {
   return *this;
 }
 
-// --- one table ------------------------------------------------------------------------------------------
+// --- one table
 
 CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told,
                      std::shared_ptr<const KnownCalls> known)
@@ -121,6 +121,7 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
 void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot) {
   const std::uint8_t again = hot == 0 ? 1 : 0xFF;
   bool only_ready, is_warm = false;
+  // One thread at a time translates a place. What runs seldom is only asked whether a translation lies ready.
   {
     const std::lock_guard lock(mutex_);
     d->heat.store(0, std::memory_order_relaxed);
@@ -139,6 +140,7 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
     if (!only_ready) warmth.times = 0;
     warmth.is_busy = true;
   }
+  // Translating takes long, so others may use the table meanwhile.
   const Translation translation = translator.translate(cpu, d, only_ready);
   if (is_warm && !translation.run) translator.note_warm(cpu, d);
   const std::lock_guard lock(mutex_);
@@ -194,7 +196,7 @@ void CodeTable::forget() {
   translated_ = 0;
 }
 
-// --- all of an image ------------------------------------------------------------------------------------
+// --- all of an image
 
 bool CodeStore::tell(const std::vector<std::uint32_t>& addresses) {
   const std::lock_guard lock(mutex_);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The words of an image made ready to run, and their translations, for all robots that run it, on whatever
-// thread.
+// The words of an image made ready to run, and their translations, for all robots that run it,
+// on whatever thread.
 //
 //   image --CodeStore--> CodeTable of {registers written, special pointers} <--runs on-- Cpu, Cpu, ...
 //
@@ -114,8 +114,7 @@ class CodeTable {
   const KnownRoutine* known_at(unsigned address) const { return known_ ? known_->find(address) : nullptr; }
   /// Handlers of interrupts that are known by heart; null: none.
   KnownHandler known_handlers() const { return known_ ? known_->handlers() : nullptr; }
-  /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as
-  /// Cpu::hot.
+  /// The jumps are over that Decoded::heat counts: translates it, unless it is too early. `hot`: as Cpu::hot.
   void warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot);
   /// A wait is known to begin at a word that was met: `stop` runs there each time, and what ran before is
   /// beside_wait(). What was translated with it would go round past it, so it is forgotten.

@@ -34,6 +34,7 @@ struct Kind {
   bool reads_flags = false, sets_flags = false;  // all four
 };
 
+// What an instruction does to values that move; Other: it cannot be followed.
 Kind kind_of(Insn id) {
   switch (id) {
     case Insn::Nop:
@@ -359,6 +360,7 @@ class CountProof {
   }
   void pointer(unsigned n) { stays(of_register(n)); }
 
+  // notes what an operand reads, by which pointers, and where the result goes
   void operand(Operand kind, Insn id, const Fields& f) {
     switch (kind) {
       case Operand::Wb:
@@ -458,6 +460,7 @@ class CountProof {
 
   bool follows(const CountStep& step) {
     const unsigned address = cpu_.address_of(step.at);
+    // What cannot be followed ends the proof.
     if (address >= kFlashEnd || step.touched.count > step.touched.places.size()) return false;
     const Row* const row = find_row(cpu_.program.read(address));
     if (!row) return false;
@@ -470,6 +473,7 @@ class CountProof {
       return false;
     if (kind.reads_flags && !flags_are_set_) count_.reads_flags_ = true;
     flags_are_set_ = flags_are_set_ || kind.sets_flags;
+    // The operands, with those that the row does not name: stack pointer and frame pointer.
     step_ = &step;
     touch_ = {};
     sources_count_ = 0;
@@ -490,6 +494,7 @@ class CountProof {
   }
 
   bool works(Does does, const Row& row) {
+    // A result moves as its operands do: their multiples of the counter are added or subtracted.
     const Line a = sources_[0], b = sources_[1];
     const auto times = [](int value) { return static_cast<std::uint16_t>(value); };
     switch (does) {

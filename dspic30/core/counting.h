@@ -10,9 +10,9 @@
 // no moving value leaves its half of the 16 bits, and no result comes to 0, all flags stay as they are round
 // by round, and with them the way and the time of a round.
 //
-// One word counts: W register, word of RAM, or the count of a DO loop; it forms no address. What is read of
-// it may pass through other words, which are then written before they are read. All else that the round looks
-// at stays.
+// One word counts: W register, word of RAM, or the count of a DO loop; it forms no address. What is read
+// of it may pass through other words, which are then written before they are read. All else that the
+// round looks at stays.
 #pragma once
 #include <array>
 #include <cstdint>

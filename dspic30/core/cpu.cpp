@@ -52,7 +52,7 @@ Cpu::Cpu(ChipParts& chip, ProgramMemory& memory, std::shared_ptr<CodeStore> stor
   reset();
 }
 
-// --- code -----------------------------------------------------------------------------------------------
+// --- code
 
 // `is_other`: flash was written
 void Cpu::forget_code(bool is_other) {
@@ -179,7 +179,7 @@ void Cpu::reset() {
   choose_code();
 }
 
-// --- flow -----------------------------------------------------------------------------------------------
+// --- flow
 
 unsigned Cpu::address_of_any(const Decoded* d) const {
   if (const unsigned place = address_of_host_place(d)) return place;
@@ -187,7 +187,7 @@ unsigned Cpu::address_of_any(const Decoded* d) const {
   return index < kFlashWords ? 2 * index : bad_address_;
 }
 
-const Decoded* Cpu::jump(unsigned address, const Decoded* from) {
+const Decoded* Cpu::jump(unsigned address, const Decoded* /*from*/) {
   if (address < kFlashEnd) return arrive(code_ + address / 2);
   // nobody gets to a function there but by the linker's handle
   if (address == kHostHandlerReturn && host_handlers > 0) {
@@ -287,7 +287,7 @@ void Cpu::tell_null_pointer(unsigned from) {
   if (onlooker) onlooker->went_to_reset_vector(from);
 }
 
-// --- loops ----------------------------------------------------------------------------------------------
+// --- loops
 
 void Cpu::begin_do(unsigned count, const Decoded* first, const Decoded* last) {
   outer_loop = loop;
@@ -350,7 +350,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
   return d;
 }
 
-// --- status ---------------------------------------------------------------------------------------------
+// --- status
 
 unsigned Cpu::sr_low() const {
   return static_cast<unsigned>(flag_c()) | flag_z() << 1 | flag_ov() << 2 | flag_n() << 3 | repeating << 4 |
@@ -384,7 +384,7 @@ void Cpu::set_sr(unsigned value, unsigned lanes) {
   sb = sb && both_stay && (value & kSb);
 }
 
-// --- registers 0x000 to 0x052 ---------------------------------------------------------------------------
+// --- registers 0x000 to 0x052
 
 std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
   if (address < kSplim) return w[address / 2];
@@ -504,6 +504,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       break;
     default: {
       if (address == kPcl || address == kPch) break;
+      // the modulo and bit-reversed pointers decide which table the code runs on
       const auto special = special_registers();
       if (address == kModcon) modcon = wanted;
       if (address == kXbrev) xbrev = wanted;
@@ -516,7 +517,7 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   }
 }
 
-// --- pointers -------------------------------------------------------------------------------------------
+// --- pointers
 
 std::array<std::uint32_t, 2> Cpu::special_registers() const {
   const auto chosen = [](unsigned n) { return n == kNoPointer ? 0u : 1u << n; };
@@ -558,7 +559,7 @@ unsigned Cpu::special_pointer(unsigned reg, int pre, int post, bool is_write) {
   return ea;
 }
 
-// --- data space beyond RAM ------------------------------------------------------------------------------
+// --- data space beyond RAM
 
 Cpu::Saved Cpu::saved_register(unsigned ea) {
   switch (ea) {
@@ -613,6 +614,7 @@ unsigned Cpu::read_other(unsigned ea, unsigned bits, Cycle t) {
     if (watching) watched_until = std::min(watched_until, horizon(ea & ~1u, t));
     return bits == 16 ? word : word >> 8 * (ea & 1) & 0xFF;
   }
+  // what a peripheral's register says holds until its horizon
   if (ea < kSfrBytes) {
     const unsigned value = parts.read(ea, bits, t);
     if (!watching) return value;
@@ -641,6 +643,7 @@ unsigned Cpu::read_psv(unsigned ea, unsigned bits) {
 void Cpu::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsigned bits) {
   const unsigned word = ea & ~1u;
   const Cycle t = true_now() + at->lead;
+  // flags and latches change in one step, so what the hardware sets meanwhile survives
   const bool are_flags = parts.are_flags(word, t);
   if ((!are_flags && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
     return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
@@ -676,6 +679,7 @@ void Cpu::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
     return;
   }
   note_effect();
+  // what handlers save and give back is the core's own affair
   if (ea < kDisicnt && bits == 16)
     if (const Saved saved = saved_register(ea); saved.word) {
       this->*saved.word = static_cast<std::uint16_t>(value & saved.bits);

@@ -58,7 +58,7 @@ class Translator {
   /// noted it as warm.
   virtual Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) = 0;
   /// It runs often, though not so often that this run would gain by a translation: the next one would.
-  virtual void note_warm(const Cpu& cpu, const Decoded* head) {}
+  virtual void note_warm(const Cpu& /*cpu*/, const Decoded* /*head*/) {}
 };
 
 // jumps within translated code are the translator's affair
@@ -203,8 +203,8 @@ class Cpu final : public SfrOwner {
   /// Does somebody hear when it begins, or is it known by heart? Then it is not translated, nor is anything
   /// with it in the middle.
   bool is_told(const Decoded* d) const { return table_->tells(d); }
-  /// Runs up to `deadline` as long as not all registers are written, when each instruction has to be looked
-  /// at.
+  /// Runs up to `deadline` as long as not all registers are written, when each instruction
+  /// has to be looked at.
   bool looks_at_each() const { return looks_at_each_; }
   void run_each();
   void run_checked();
@@ -362,8 +362,8 @@ class Cpu final : public SfrOwner {
     return ea - plain_start < plain_ram() && !(ea & 1) ? load(ea - kRamStart) : read_elsewhere(ea, 16);
   }
 
-  /// What handlers save and give back: a word that is nobody's affair but the core's, and its bits. Null:
-  /// another address.
+  /// What handlers save and give back: a word that is nobody's affair but the core's, and its bits.
+  /// Null: another address.
   struct Saved {
     std::uint16_t Cpu::*word = nullptr;
     std::uint16_t bits = 0;
@@ -399,8 +399,8 @@ class Cpu final : public SfrOwner {
     }
     return ea;
   }
-  /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address
-  /// generator.
+  /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the
+  /// Y address generator.
   unsigned stepped(unsigned n, unsigned value, int step, bool y_space) const;
   /// Pointers that need more than an addition, one bit a register: when they read, and when they write.
   std::array<std::uint32_t, 2> special_registers() const;
@@ -455,8 +455,8 @@ class Cpu final : public SfrOwner {
   void enter_handler();
   /// What the handler does next, behind its entry or a return to it. The clock is where that begins.
   const Decoded* go_on_with_handler(const Decoded* from);
-  /// RETFIE's work: level, flags and place of the program from the stack. `rest`: cycles of it that are not
-  /// counted yet.
+  /// RETFIE's work: level, flags and place of the program from the stack. `rest`: cycles of it that
+  /// are not counted yet.
   const Decoded* return_from_handler(const Decoded* from, Cycle rest);
   /// A function of the host waits here.
   void stand(Cycle until, const Decoded* d);
@@ -494,8 +494,8 @@ class Cpu final : public SfrOwner {
     OwnHead* const own = own_head(head);
     return own ? own->ends++ : 0;
   }
-  /// A look from there found a wait, or none: then the program does not stop there for a while, each time for
-  /// longer.
+  /// A look from there found a wait, or none: then the program does not stop there for a while,
+  /// each time for longer.
   void pause_head(const Decoded* head, bool is_wait);
   /// The program comes to one: does it stop?
   bool stops_at(const Decoded* head);

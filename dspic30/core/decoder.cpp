@@ -20,7 +20,7 @@ void pointer_steps(unsigned mode, int step, std::int8_t& pre, std::int8_t& post)
   post = static_cast<std::int8_t>(mode == 2 ? -step : mode == 3 ? step : 0);
 }
 
-// --- registers of a word, for stalls and for pointers never written --------------------------------------
+// --- registers of a word, for stalls and for pointers never written
 
 struct Registers {
   std::uint16_t written = 0;       // as a destination, directly
@@ -55,6 +55,7 @@ void add_prefetch(Registers& r, const Fields& f, bool y_target) {
   if (y.on && y_target) r.written |= bit(4 + f.y);
 }
 
+// What an operand does to registers: points with them, moves them on, writes them.
 void add_operand(Registers& r, Operand kind, const Row& row, const Fields& f) {
   switch (kind) {
     case Operand::Source:
@@ -110,6 +111,7 @@ void add_operand(Registers& r, Operand kind, const Row& row, const Fields& f) {
 Registers registers_of(const Row& row, const Fields& f) {
   Registers r;
   for (const Operand kind : row.kinds) add_operand(r, kind, row, f);
+  // Some instructions write or point with registers that no operand of their row names.
   switch (row.id) {
     case Insn::Mul_UU_Wb_lit5_Wnd:
     case Insn::Mul_UU_Wb_Ws_Wnd:
@@ -169,6 +171,7 @@ Registers registers_of(const Row& row, const Fields& f) {
   return r;
 }
 
+// Cycles that an access through the PSV window adds.
 std::uint8_t psv_cycles(Insn id) {
   switch (id) {
     case Insn::Mov_f_Wnd:
@@ -199,7 +202,7 @@ Run choose(Insn id, const Fields& f) {
   return nullptr;
 }
 
-// --- operands of a Decoded ------------------------------------------------------------------------------
+// --- operands of a Decoded
 
 void fill_registers(Decoded& d, const Row& row, const Fields& f) {
   d.s = static_cast<std::uint8_t>(f.s);
@@ -336,6 +339,7 @@ void lead_to_host(Decoded& d, const Row& row, const ProgramMemory& program, unsi
 
 namespace {
 
+// W registers that an operand names. Of a kind that is not listed it may be any, so all count.
 unsigned touched_by(Operand kind, const Fields& f) {
   switch (kind) {
     case Operand::File:
@@ -386,6 +390,7 @@ std::uint16_t touched_by(const Decoded& d, const Row& row, const Fields& f, cons
   unsigned all = bit(15) | r.written | r.moved | r.sources | r.destinations | r.offsets;
   for (const Operand kind : row.kinds) all |= touched_by(kind, f);
   if (begins("MUL") || begins("DIV") || begins("MOV.D")) all |= all << 1;  // pairs
+  // Some use registers that no operand names.
   switch (row.id) {
     case Insn::Cp_f:
     case Insn::Cpb_f:
@@ -444,20 +449,24 @@ Decoded decode_word(const ProgramMemory& program, unsigned address, const CodeSt
   }
   const Fields f = fields_of(*row, word);
   const Registers r = registers_of(*row, f);
+  // What it does, and its operands in the form in which that function wants them.
   d.run = choose(row->id, f);
   fill_registers(d, *row, f);
   fill_pointers(d, *row, f, state, r);
   fill_literal(d, *row, f, word, second);
   d.psv = psv_cycles(row->id);
+  // It stalls for a cycle where the instruction before it writes a register that it points with.
   d.writes = r.written | r.moved;
   d.pointers = r.sources | r.offsets;
   d.lead = address >= 2 && (registers_written(program.read(address - 2)) & d.pointers) ? 1 : 0;
   d.cycles = static_cast<std::uint8_t>(row->cycles + d.lead);
+  // A skip has to know how many words it may leave out.
   if (is_skip(row->id)) {
     const Row* next = find_row(second);
     d.d = static_cast<std::uint8_t>(next ? next->words : 1);
   }
   lead_to_host(d, *row, program, address);
+  // The search for waits and the look-out for registers never written want to know this.
   registers.touches = touched_by(d, *row, f, r);
   registers.flags = flags_of(row->id);
   registers.uses = (r.sources | r.destinations) & kAllWritten;

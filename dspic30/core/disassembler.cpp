@@ -51,7 +51,7 @@ std::uint32_t branch_target(unsigned n, std::uint32_t next) {
   return next + 2 * static_cast<std::uint32_t>(sign_extend(n, 16));
 }
 
-// --- words that nobody writes ---------------------------------------------------------------------------
+// --- words that nobody writes
 
 bool is_free_of_oddities(const Row& row, const Fields& f, std::uint32_t word, std::uint32_t second,
                          std::uint32_t address) {
@@ -74,8 +74,9 @@ bool is_free_of_oddities(const Row& row, const Fields& f, std::uint32_t word, st
   return !row.has(Operand::Branch) || !(branch_target(f.n, address + 2) & ~kPcMask);
 }
 
-// --- operands -------------------------------------------------------------------------------------------
+// --- operands
 
+// an operand as XC16 writes it
 std::string operand(Operand kind, const Fields& f, std::uint32_t second, std::uint32_t address) {
   switch (kind) {
     case Operand::File:

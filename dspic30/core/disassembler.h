@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Words of program memory as assembler text, in XC16's syntax: "add.b w1, [w2++], w3".
 //
-// The text is one that the assembler turns into the same words. What it would not write that way (bits that
-// nothing reads, two codes for one operand, odd addresses of words) and illegal opcodes come as ".pword
-// 0x...".
+// The text is one that the assembler turns into the same words. What it would not write that way
+// (bits that nothing reads, two codes for one operand, odd addresses of words) and illegal opcodes
+// come as ".pword 0x...".
 #pragma once
 #include <cstdint>
 #include <string>

@@ -28,7 +28,7 @@ std::int64_t wrapped_40(std::int64_t v) {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(v) << 24) >> 24;
 }
 
-// --- results --------------------------------------------------------------------------------------------
+// --- results
 
 // saturation, flags and traps of a result of any width
 void put_accumulator(Cpu& cpu, unsigned a, std::int64_t v, bool saturation_flags = true) {
@@ -69,7 +69,7 @@ unsigned stored(const Cpu& cpu, std::int64_t v, bool round) {
   return static_cast<unsigned>(v >> 16) & 0xFFFF;
 }
 
-// --- prefetch and write back ----------------------------------------------------------------------------
+// --- prefetch and write back
 
 unsigned fetched(Cpu& cpu, const PrefetchMode& mode, bool y_space) {
   const auto n = static_cast<unsigned>(mode.pointer);
@@ -112,7 +112,7 @@ void write_back(Cpu& cpu, const Prefetch& p) {
   }
 }
 
-// --- products -------------------------------------------------------------------------------------------
+// --- products
 
 enum class Into { Sum, Difference, Product, Negated };
 
@@ -162,7 +162,7 @@ const Decoded* clear_or_move(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- accumulators alone ---------------------------------------------------------------------------------
+// --- accumulators alone
 
 const Decoded* add_accumulators(Cpu& cpu, const Decoded* d) {
   put_accumulator(cpu, d->imm >> 15 & 1, cpu.acc[0] + cpu.acc[1]);
@@ -195,7 +195,7 @@ const Decoded* shift_register(Cpu& cpu, const Decoded* d) {
   return shift_by(cpu, d, sign_extend(cpu.w[d->s], 16));
 }
 
-// --- loads and stores; shift in bits 10:7 ----------------------------------------------------------------
+// --- loads and stores; shift in bits 10:7
 
 int slit4(const Decoded* d) { return sign_extend(static_cast<unsigned>(d->imm) >> 7, 4); }
 
@@ -228,6 +228,7 @@ const Decoded* store(Cpu& cpu, const Decoded* d) {
 
 }  // namespace
 
+// The function of each instruction of the DSP engine; null: it is none of them.
 Run choose_dsp(Insn id, const Fields&) {
   switch (id) {
     case Insn::Add_Acc:

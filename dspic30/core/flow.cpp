@@ -7,7 +7,7 @@ namespace dspic {
 
 namespace {
 
-// --- conditions -----------------------------------------------------------------------------------------
+// --- conditions
 
 bool is_ov(const Cpu& c) { return c.flag_ov(); }
 bool is_c(const Cpu& c) { return c.flag_c(); }
@@ -28,7 +28,7 @@ const Decoded* branch_if(Cpu& cpu, const Decoded* d) {
   return cpu.offset(d, d->imm);
 }
 
-// --- branches and calls; imm of a branch counts words from the instruction itself ------------------------
+// --- branches and calls; imm of a branch counts words from the instruction itself
 
 const Decoded* branch(Cpu& cpu, const Decoded* d) { return cpu.offset(d, d->imm); }
 const Decoded* branch_register(Cpu& cpu, const Decoded* d) {
@@ -58,7 +58,7 @@ const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
   return branch_register(cpu, d);
 }
 
-// --- returns: 3 cycles, or 2 when an exception is pending -------------------------------------------------
+// --- returns: 3 cycles, or 2 when an exception is pending
 
 void hurry_to_exception(Cpu& cpu) {
   if (cpu.deadline > cpu.now + kInterruptReturnCycles) return;  // nothing comes so soon
@@ -82,7 +82,7 @@ const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
   return cpu.return_from_handler(d, d->cycles);
 }
 
-// --- loops ----------------------------------------------------------------------------------------------
+// --- loops
 
 const Decoded* do_literal(Cpu& cpu, const Decoded* d) {
   cpu.begin_do(static_cast<unsigned>(d->imm), d + 2,
@@ -127,6 +127,7 @@ const Decoded* Cpu::return_from_handler(const Decoded* from, Cycle rest) {
   return jump_back(address, from);
 }
 
+// The function of each instruction that moves the program's place; null: it does not.
 Run choose_flow(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Bra_OV_Expr:

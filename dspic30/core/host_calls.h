@@ -54,8 +54,8 @@ class HostCalls {
   virtual std::uint16_t peek(unsigned address, Cycle at) const = 0;
 
   // --- handlers known by heart
-  /// When the next one comes that calls the program; kNever: none. Read after host_changed() and after each
-  /// handler.
+  /// When the next one comes that calls the program; kNever: none. Read after host_changed() and
+  /// after each handler.
   virtual Cycle due() const = 0;
   /// What handlers that call nothing take of each cycle, as a fraction of 2^32. Read as due() is.
   virtual std::uint64_t share_q32() const = 0;
@@ -66,9 +66,9 @@ class HostCalls {
   virtual HandlerStep next_in_handler(Cycle at) = 0;
   /// Behind its last step; registers are given back and RETFIE comes.
   virtual void end_handler(Cycle at) = 0;
-  /// Vectors of the handlers known by heart (vectors.h): the one that calls the program, then one that does
-  /// not; kNoVector: there is none. Their IEC bits and priorities say whether they can come. Stay as they
-  /// are.
+  /// Vectors of the handlers known by heart (vectors.h): the one that calls the program, then one
+  /// that does not; kNoVector: there is none. Their IEC bits and priorities say whether they can
+  /// come. Stay as they are.
   virtual int vector(int handler) const = 0;
   /// From `at` on the program holds this handler off (its level, DISI, its IEC bit), or does no longer. A
   /// held one takes no share, and its flag is the chip's: set at each source_event(), cleared and set by the
@@ -76,8 +76,8 @@ class HostCalls {
   virtual void hold_handler(int handler, bool held, bool pending, Cycle at) = 0;
   /// The first instant after `after` at which its source sets its flag; kNever: none.
   virtual Cycle source_event(int handler, Cycle after) const = 0;
-  /// What the handler that calls nothing takes when it comes because it was pending, entry and RETFIE
-  /// included.
+  /// What the handler that calls nothing takes when it comes because it was pending, entry
+  /// and RETFIE included.
   virtual Cycle pending_cycles() const = 0;
   /// Registers that the handler's own code saves before it calls anything, as bits W0 to W14, and other words
   /// that it pushes (RCOUNT, PSVPAG ...): the stack grows by so much.

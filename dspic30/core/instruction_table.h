@@ -100,7 +100,7 @@ constexpr int sign_extend(unsigned value, int bits) {
   return static_cast<int>((value & (2 * sign - 1)) ^ sign) - static_cast<int>(sign);
 }
 
-// --- DSP prefetch -----------------------------------------------------------------------------------------
+// --- DSP prefetch
 
 /// What i or j of a MAC-class instruction says.
 struct PrefetchMode {
@@ -116,8 +116,8 @@ inline PrefetchMode prefetch_mode(unsigned code, bool y_space) {
   if (code == 12) return {true, pointer, true, 0};
   return {true, pointer, false, low < 4 ? 2 * low : 2 * low - 16};
 }
-/// Registers W4 to W7 of m, for rows with Operand::Product: 0 W4*W5, 1 W4*W6, 2 W4*W7, 4 W5*W6, 5 W5*W7, 6
-/// W6*W7.
+/// Registers W4 to W7 of m, for rows with Operand::Product: 0 W4*W5, 1 W4*W6, 2 W4*W7, 4
+/// W5*W6, 5 W5*W7, 6 W6*W7.
 inline void product_registers(unsigned m, int& first, int& second) {
   constexpr int kFirst[] = {4, 4, 4, 0, 5, 5, 6, 0}, kSecond[] = {5, 6, 7, 0, 6, 7, 7, 0};
   first = kFirst[m & 7];

@@ -35,8 +35,8 @@ class KnownCalls {
   void add_handlers(KnownHandler handlers) { handlers_ = handlers; }
   KnownHandler handlers() const { return handlers_; }
 
-  /// W registers that count as written once a known routine has been called: the ones that C's callees use
-  /// freely.
+  /// W registers that count as written once a known routine has been called: the ones that C's
+  /// callees use freely.
   static constexpr unsigned kWrites = 0x00FF;
   /// Bytes of stack that a routine of registers alone may use. Where the stack has less, it runs.
   static constexpr unsigned kStack = 128;

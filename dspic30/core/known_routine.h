@@ -19,10 +19,10 @@ struct KnownAnswer {
 /// W0 to W3 as it is called.
 using KnownFunction = KnownAnswer (*)(std::uint64_t w0_to_w3);
 
-/// Of a routine that reads or writes RAM, or more than W0 to W3: `limit` cycles at most. Cpu::at is its first
-/// instruction, Cpu::deadline - 1 - limit when that begins. Returns its cycles and has done what it does; 0:
-/// it has done nothing, and the routine runs. One that settles the clocks leaves the deadline by the clock of
-/// its end.
+/// Of a routine that reads or writes RAM, or more than W0 to W3: `limit` cycles at most. Cpu::at is its
+/// first instruction, Cpu::deadline - 1 - limit when that begins. Returns its cycles and has done what it
+/// does; 0: it has done nothing, and the routine runs. One that settles the clocks leaves the deadline by
+/// the clock of its end.
 using KnownAction = int (*)(Cpu& cpu, std::int64_t limit);
 
 /// Of an interrupt's handler, whose vector is about to be entered, at Cpu::now; clocks are settled. True: it

@@ -34,6 +34,7 @@ __attribute__((always_inline)) inline std::uint64_t state_word(const Cpu& c, std
     case 4:
       return four(c.shadow.w.data());
     case 5: {
+      // flags as SR would show them, RCOUNT, and the flags that PUSH.S has kept
       const std::uint64_t z = c.z == 0, carry = c.c & 1, ov = c.ov & 0x8000, dc = c.dc & 0x100;
       return std::uint64_t{c.n & 0x8000u} << 48 | std::uint64_t{c.rcount} << 32 | ov << 16 | dc << 16 |
              z << 16 | carry << 17 | c.shadow.flags;

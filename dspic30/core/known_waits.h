@@ -115,8 +115,8 @@ class KnownWaits {
     unsigned registers = 0xFFFF;  // W registers that an instruction of it may read or write, a bit each
     RoundMemory memory;
   };
-  /// If the program goes round from cpu.next on, reading nothing that can change without an interrupt; null:
-  /// not known.
+  /// If the program goes round from cpu.next on, reading nothing that can change without an
+  /// interrupt; null: not known.
   const Wait* find(const Cpu& cpu) const;
   /// The one that begins at an instruction; null: none is known.
   const Wait* at(const Decoded* first) const {

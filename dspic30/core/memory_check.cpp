@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// RAM and the stack's end; what each instruction costs: memory_check_each.h; what it does with values:
-// value_check.cpp.
+// RAM and the stack's end; what each instruction costs: memory_check_each.h; what it does
+// with values: value_check.cpp.
 #include "dspic30/core/memory_check.h"
 
 #include <algorithm>

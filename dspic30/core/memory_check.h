@@ -60,8 +60,8 @@ class MemoryCheck {
   void define(unsigned begin, unsigned end) { set_bits(begin, end, 0); }
   /// Has anybody written a part of it? `address`: of RAM.
   bool is_written(unsigned address) const { return bits_[address - kStart] != 0xFF; }
-  /// What runs from now on until the function that has just begun returns is not looked at, as it knows its
-  /// memory better.
+  /// What runs from now on until the function that has just begun returns is not looked at, as it
+  /// knows its memory better.
   void await_return(const Cpu& cpu);
   /// Is one awaited?
   bool is_away() const { return is_away_; }
@@ -104,6 +104,11 @@ class MemoryCheck {
   Value of_register(unsigned n, bool byte) const;
   Value of_memory(unsigned n) const;
   Value source(const Shape& shape, unsigned& reads) const;
+  Value second_operand(const Shape& shape) const;
+  unsigned shifted(const Shape& shape, const Value& a, const Value& b) const;
+  void copy_pair(const Shape& shape, unsigned pc);
+  void finish_bit(const Shape& shape, const Value& a, unsigned pc);
+  void multiplied(const Shape& shape, unsigned either, const Origin& origin);
   void set_register(unsigned n, unsigned bits, bool byte, const Origin& origin);
   void set_written(unsigned n, unsigned bits, unsigned pc, const Origin& origin);
   void put(const Shape& shape, const Value& value, unsigned pc);

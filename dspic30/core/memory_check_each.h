@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What MemoryCheck does at each instruction, for cpu.cpp alone: most have nothing to do with what nobody
-// wrote.
+// What MemoryCheck does at each instruction, for cpu.cpp alone: most have nothing to do
+// with what nobody wrote.
 #pragma once
 #include <algorithm>
 #include <cstring>

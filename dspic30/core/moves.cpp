@@ -10,7 +10,7 @@ namespace {
 
 using namespace operands;
 
-// --- more places ----------------------------------------------------------------------------------------
+// --- more places
 
 unsigned indexed(Cpu& cpu, unsigned n, int offset, Pointer kind) {
   const unsigned ea = kind == Pointer::Special ? cpu.stepped(n, cpu.w[n], offset, false)
@@ -55,7 +55,7 @@ Run choose_destination(const Fields& f) {
   return f.h < 6 ? choose_width<From, Memory>(f) : choose_width<From, Indexed>(f);
 }
 
-// --- pairs: the low word comes first --------------------------------------------------------------------
+// --- pairs: the low word comes first
 
 const Decoded* move_pair_from_registers(Cpu& cpu, const Decoded* d) {
   const unsigned low = cpu.w[d->s], high = cpu.w[d->s + 1u];
@@ -78,7 +78,7 @@ const Decoded* move_pair_to_memory(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- within registers -----------------------------------------------------------------------------------
+// --- within registers
 
 const Decoded* exchange(Cpu& cpu, const Decoded* d) {
   std::swap(cpu.w[d->s], cpu.w[d->d]);
@@ -124,7 +124,7 @@ const Decoded* decimal_adjust(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- stack ----------------------------------------------------------------------------------------------
+// --- stack
 
 const Decoded* push_file(Cpu& cpu, const Decoded* d) {
   cpu.push(File::get<false>(cpu, d));
@@ -158,7 +158,7 @@ const Decoded* unlink(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- program memory: TBLPAG and a pointer ---------------------------------------------------------------
+// --- program memory: TBLPAG and a pointer
 
 std::uint32_t program_word(Cpu& cpu, unsigned address) {
   if (address - kEepromStart < 2 * kEepromWordCount) {
@@ -202,6 +202,7 @@ Run choose_table_write(const Fields& f) {
 
 }  // namespace
 
+// The function of each form of the moves; null: it is none of them.
 Run choose_move(Insn id, const Fields& f) {
   switch (id) {
     case Insn::Mov_WREG_f:

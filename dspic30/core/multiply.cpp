@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Integer products, and division: one step of 18 each time REPEAT runs it. The result is made in the last
-// one.
+// Integer products, and division: one step of 18 each time REPEAT runs it. The result is
+// made in the last one.
 #include "dspic30/core/operands.h"
 
 namespace dspic {
@@ -36,7 +36,7 @@ const Decoded* multiply_file_byte(Cpu& cpu, const Decoded* d) {
   return d + 1;
 }
 
-// --- division -------------------------------------------------------------------------------------------
+// --- division
 
 constexpr int kIterations = 18;
 
@@ -52,8 +52,8 @@ const Decoded* divided(Cpu& cpu, const Decoded* d, std::int64_t quotient, std::i
   return d + 1;
 }
 
-// is there nothing to compute yet? A zero divisor traps in the first iteration alone, whatever its handler
-// does
+// is there nothing to compute yet? A zero divisor traps in the first iteration alone,
+// whatever its handler does
 bool is_on_its_way(Cpu& cpu, const Decoded* d) {
   if (cpu.w[d->s] == 0) {
     const bool is_repeated = cpu.window != Cpu::Window::Plain;

@@ -60,7 +60,7 @@ void Processor::power_up(Cycle at) {
 Cycle Processor::still_since() const { return cpu_->still_since; }
 bool Processor::still_reads() const { return cpu_->still_reads; }
 
-// --- the loop -------------------------------------------------------------------------------------------
+// --- the loop
 
 // straight on until something else may happen; looks for waits come in between, and are jumped over
 void Processor::execute() {
@@ -122,6 +122,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
   if (rest_until_ > 0 && cpu.now < until && rests(until)) return std::nullopt;
   Cycle rest = 0;
   while (true) {
+    // The run ends with a reset, or with the window.
     cpu.settle();
     if (cpu.reset_due) return cpu.reset_due;
     if (cpu.returned) waits_->resume(cpu);
@@ -130,12 +131,15 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       return std::nullopt;
     }
     rest = 0;
+    // The chip says what comes next: a reset, an interrupt, or nothing up to the horizon.
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
     if (cpu.is_code_stale()) {
       cpu.choose_code();
       waits_->forget(cpu);
     }
+    // Of the handlers known by heart it may be that one is let in or held off from now on, or that one comes
+    // before the chip's own interrupts.
     if (cpu.host && follow_host(outlook.vector)) continue;
     if (cpu.power != Cpu::Power::On) {
       sleep(until);
@@ -148,10 +152,12 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       if (outlook.horizon <= cpu.now || cpu.now >= until || cpu.host_stale || cpu.is_code_stale()) continue;
       outlook.vector = kNoVector;
     }
+    // the one that calls nothing comes when its flag is set, as an interrupt does
     if (irqs_[1] >= 0 && outlook.vector == kFirstIrqVector + irqs_[1] && !is_held(1)) {
       serve_pending(outlook.vector);
       continue;
     }
+    // An interrupt is taken: its routine is known and done at once, or the program goes to its vector.
     if (outlook.vector != kNoVector) {
       if (const KnownHandler known = cpu.known_handlers();
           known && outlook.vector >= kFirstIrqVector && known(cpu, outlook.vector, until))
@@ -162,6 +168,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       outlook.horizon = cpu.parts.interrupt_horizon(outlook.vector);
       if (outlook.horizon <= cpu.now) continue;
     }
+    // The program runs on, up to the next instant at which anything else may happen.
     cpu.deadline = cpu.stop_at = std::min(until, outlook.horizon);
     if (cpu.host) {
       cpu.host_followed = false;
@@ -171,6 +178,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     if (cpu.repeating && waits_->is_away()) cpu.next = cpu.run_repeated(cpu.next);
     cpu.soonest = outlook.horizon;
     execute();
+    // It waits at the end, and nothing was written: the next window may go on from there (rests()).
     if (waits_->is_waiting() && cpu.deadline > 0 && !cpu.host_stale && !cpu.returned &&
         cpu.parts.interrupts.writes() == cpu.writes_seen)
       rest = std::min(cpu.soonest, host_horizon());
@@ -196,7 +204,7 @@ void Processor::sleep(Cycle until) {
   if (cpu.course) cpu.course->waited(began, cpu.true_now());
 }
 
-// --- whoever plays the library --------------------------------------------------------------------------
+// --- whoever plays the library
 
 /// Of the handlers known by heart, a bit each: which ones the program holds off, by its level, DISI, their
 /// IEC bits, or by what goes before them; asleep all are, and beside the vectors of the other table, which
@@ -244,6 +252,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     if (irq < 0) continue;
     const unsigned bit = 1u << h;
     ByHeart& handler = by_heart_[h];
+    // events that came while it was held off set its flag
     if ((held_ & bit) && raise_held(h)) {
       raised = true;
       state = handlers(next_vector);
@@ -254,6 +263,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
       cpu.host->hold_handler(number, true, false, cpu.now);
       held_ |= bit;
     }
+    // From here on only those that are let in or held off just now.
     if (!((state ^ held_) & bit)) continue;
     held_ ^= bit;
     if (!is_held(h) && handler.missed_at > 0) count_missed(h);
@@ -273,6 +283,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
   if (raised) return true;
   if (!cpu.host_stale) return false;
   cpu.host_stale = false;
+  // When the sources of those that are held off come next, and what the others take.
   cpu.host_is_held = false;
   for (std::size_t h = 0; h < irqs_.size(); ++h) {
     if (irqs_[h] < 0) continue;
@@ -413,7 +424,7 @@ void Processor::enter_interrupt(int vector) {
   cpu.next = cpu.jump(cpu.program.read(entry.address) & 0x7FFFFE, cpu.next);
 }
 
-// --- what others look at --------------------------------------------------------------------------------
+// --- what others look at
 
 const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
 Cycle Processor::idle(Cycle at) const {

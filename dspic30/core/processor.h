@@ -66,8 +66,8 @@ class Processor {
   Cycle waiting_since() const;
   /// Something from outside, or a debugger, may have changed what the program waits for.
   void stir();
-  /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's time depends on
-  /// it.
+  /// Hot code runs translated from now on; null: no more is translated. Nothing but the PC's
+  /// time depends on it.
   void set_translator(Translator* translator);
   /// Whoever hears of traps, null pointers, and of the beginning of the functions at `addresses`; it outlives
   /// this. Nothing but the PC's time depends on it.
@@ -97,10 +97,10 @@ class Processor {
   bool still_reads() const;
 
   // --- for debuggers, tests and reports: no side effects
-  /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was none. Of a
-  /// stack error, the instruction that went beyond the limit, also where that was beyond RAM and so an
-  /// address error as well. A store to a frame beyond RAM is an address error with the stack pointer above
-  /// the limit.
+  /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was
+  /// none. Of a stack error, the instruction that went beyond the limit, also where that was beyond RAM
+  /// and so an address error as well. A store to a frame beyond RAM is an address error with the stack
+  /// pointer above the limit.
   const TrapRecord* latest_trap() const;
   unsigned pc() const;
   /// Of the instruction that runs, or ran last.

@@ -54,6 +54,7 @@ const MemoryCheck::Shape& MemoryCheck::shape_of(const Cpu& cpu, unsigned pc) {
       {"MUL.SU", {Group::Multiply, false}}, {"MUL.SS", {Group::Multiply, false}},
       {"DIV.S", {Group::Divide, false}},    {"DIV.U", {Group::Divide, false}},
       {"ULNK", {Group::Unlink, false}}};
+  // A shape is kept for as long as the same word stands at its address.
   std::unique_ptr<Shape>& shape = shapes_[pc];
   const std::uint32_t word = cpu.program.read(pc);
   if (shape && shape->word == word) return *shape;
@@ -64,6 +65,7 @@ const MemoryCheck::Shape& MemoryCheck::shape_of(const Cpu& cpu, unsigned pc) {
   shape->f = fields_of(*shape->row, word);
   shape->byte = shape->f.B != 0;
   const std::string mnemonic = shape->row->mnemonic;
+  // Most shapes follow from the mnemonic; then come the rows that differ from others of their mnemonic.
   if (const auto found = kGroups.find(mnemonic); found != kGroups.end())
     std::tie(shape->group, shape->sets_flags) = found->second;
   if (shape->row->id == Insn::Mov_f) shape->sets_flags = true;
@@ -218,11 +220,106 @@ void MemoryCheck::set_flags(const Value& value) {
   if (flags_unwritten_) flags_origin_ = value.origin;
 }
 
+/// The second operand: a register, WREG, a literal.
+MemoryCheck::Value MemoryCheck::second_operand(const Shape& shape) const {
+  using Group = Shape::Group;
+  const Row& row = *shape.row;
+  const Fields& f = shape.f;
+  if (row.has(Operand::Wb)) return of_register(f.w, shape.byte);
+  if (row.id == Insn::Add_lit10_Wn || row.id == Insn::Addc_lit10_Wn || row.id == Insn::Sub_lit10_Wn ||
+      row.id == Insn::Subb_lit10_Wn || row.id == Insn::And_lit10_Wn || row.id == Insn::Ior_lit10_Wn ||
+      row.id == Insn::Xor_lit10_Wn)
+    return of_register(f.d, shape.byte);
+  if (row.has(Operand::File) && row.has(Operand::WregOption) &&
+      (shape.group == Group::And || shape.group == Group::Or || shape.group == Group::Xor ||
+       (shape.group == Group::Sum && row.id != Insn::Inc_f && row.id != Insn::Inc2_f &&
+        row.id != Insn::Dec_f && row.id != Insn::Dec2_f && row.id != Insn::Neg_f)) &&
+      row.id != Insn::Com_f)
+    return of_register(0, shape.byte);
+  if (row.id == Insn::Cp_f || row.id == Insn::Cpb_f || row.id == Insn::Mul_f)
+    return of_register(0, shape.byte);
+  return {};
+}
+
+/// Two words, from registers or memory to the other.
+void MemoryCheck::copy_pair(const Shape& shape, unsigned pc) {
+  const Row& row = *shape.row;
+  const Fields& f = shape.f;
+  Value a;
+  Value high;
+  if (row.id == Insn::Mov_D_Wns_Wd || f.p == 0) {
+    const unsigned s = f.s * (row.has(Operand::RsPair) ? 2 : 1);
+    a = of_register(s & 14, false), high = of_register((s & 14) + 1, false);
+  } else {
+    a = of_memory(0), high = of_memory(1);
+    a.origin.pc = high.origin.pc = pc;
+  }
+  if (row.id == Insn::Mov_D_Ws_Wnd || f.q == 0) {
+    const unsigned to = (row.has(Operand::RdPair) ? 2 * f.d : f.d) & 14;
+    set_register(to, a.bits, false, a.origin);
+    set_register(to + 1, high.bits, false, high.origin);
+  } else {
+    set_written(0, a.bits, pc, a.origin);
+    set_written(1, high.bits, pc, high.origin);
+  }
+}
+
+/// Of a shift left or right: what is unwritten moves along.
+unsigned MemoryCheck::shifted(const Shape& shape, const Value& a, const Value& b) const {
+  using Group = Shape::Group;
+  const Row& row = *shape.row;
+  const unsigned all = shape.byte ? 0xFF : 0xFFFF;
+  const bool is_left = shape.group == Group::Left;
+  unsigned by = 1, bits = a.bits;
+  if (row.has(Operand::Wb)) {
+    bits = b.bits;
+    by = row.has(Operand::Rs) ? of_register(shape.f.s, false).value & 31 : shape.f.k;
+    if (row.has(Operand::Rs) && a.bits) bits = all;
+  }
+  const bool keeps_sign = !is_left && row.mnemonic[0] == 'A';
+  const unsigned sign = shape.byte ? 0x80 : 0x8000;
+  unsigned result = (is_left ? bits << std::min(by, 16u) : bits >> std::min(by, 16u)) & all;
+  if (keeps_sign && (bits & sign)) result |= all & ~(all >> std::min(by, 16u));
+  return result;
+}
+
+/// Of one bit: set, flipped, tested, skipped on.
+void MemoryCheck::finish_bit(const Shape& shape, const Value& a, unsigned pc) {
+  using Group = Shape::Group;
+  const Row& row = *shape.row;
+  const Fields& f = shape.f;
+  Value result;
+  result.origin = a.origin;
+  const bool of_word = row.has(Operand::FileBit) && reads_ > 0 && read_[0].bytes == 2;
+  const unsigned bit = 1u << (f.b + (of_word ? 8 * (f.f & 1) : 0));
+  if (shape.group == Group::SkipBit) {
+    if (a.bits & bit) depends(Use::Branch, a.origin, pc);
+    return;
+  }
+  if (shape.group == Group::TestBit) {
+    set_flags({a.bits & bit, 0, a.origin});
+    if (row.id != Insn::Btsts_f_bit && row.id != Insn::Btsts_Ws_bit4) return;
+  }
+  result.bits = shape.group == Group::FlipBit ? a.bits : a.bits & ~bit;
+  return put(shape, result, pc);
+}
+
+/// A product of two words lies in two registers.
+void MemoryCheck::multiplied(const Shape& shape, unsigned either, const Origin& origin) {
+  const Row& row = *shape.row;
+  const Fields& f = shape.f;
+  const unsigned bits = either ? 0xFFFF : 0;
+  const unsigned to = row.id == Insn::Mul_f ? 2 : row.has(Operand::RdPair) ? (2 * f.d) & 14 : f.d & 14;
+  set_register(to, bits, false, origin);
+  if (row.id != Insn::Mul_f || !shape.byte) set_register(to + 1, bits, false, origin);
+}
+
 // the instruction that was under way is through
 void MemoryCheck::finish(const Cpu& cpu) {
   using Group = Shape::Group;
   const Decoded* const d = at_;
   if (!d) return;
+  // A function of the host gives W0 to W7 back as C's functions do: they count as written.
   if (address_of_host_place(d)) {
     for (unsigned n = 0; n < 8; ++n) set_register(n, 0, false, {});
     return;
@@ -234,25 +331,12 @@ void MemoryCheck::finish(const Cpu& cpu) {
   const Fields& f = shape.f;
   const unsigned all = shape.byte ? 0xFF : 0xFFFF;
   unsigned reads = 0;
+  // One operand. Where memory was read that nobody wrote, this instruction is the one to be told.
   Value a = source(shape, reads);
   if (a.bits && a.origin.pc == 0) a.origin.pc = pc;
-  // the other operand: a register, WREG, a literal
-  Value b;
-  if (row.has(Operand::Wb))
-    b = of_register(f.w, shape.byte);
-  else if (row.id == Insn::Add_lit10_Wn || row.id == Insn::Addc_lit10_Wn || row.id == Insn::Sub_lit10_Wn ||
-           row.id == Insn::Subb_lit10_Wn || row.id == Insn::And_lit10_Wn || row.id == Insn::Ior_lit10_Wn ||
-           row.id == Insn::Xor_lit10_Wn)
-    b = of_register(f.d, shape.byte);
-  else if (row.has(Operand::File) && row.has(Operand::WregOption) &&
-           (shape.group == Group::And || shape.group == Group::Or || shape.group == Group::Xor ||
-            (shape.group == Group::Sum && row.id != Insn::Inc_f && row.id != Insn::Inc2_f &&
-             row.id != Insn::Dec_f && row.id != Insn::Dec2_f && row.id != Insn::Neg_f)) &&
-           row.id != Insn::Com_f)
-    b = of_register(0, shape.byte);
-  else if (row.id == Insn::Cp_f || row.id == Insn::Cpb_f || row.id == Insn::Mul_f)
-    b = of_register(0, shape.byte);
+  const Value b = second_operand(shape);
   if (row.has(Operand::Literal)) a.value = f.k;
+  // Which bits of the result depend on bits that nobody wrote.
   Value result;
   result.origin = a.bits ? a.origin : b.origin;
   const unsigned either = a.bits | b.bits;
@@ -260,53 +344,26 @@ void MemoryCheck::finish(const Cpu& cpu) {
     case Group::Copy:
       result.bits = a.bits;
       break;
-    case Group::CopyPair: {
-      // two words, from registers or memory to the other
-      Value high;
-      if (row.id == Insn::Mov_D_Wns_Wd || f.p == 0) {
-        const unsigned s = f.s * (row.has(Operand::RsPair) ? 2 : 1);
-        a = of_register(s & 14, false), high = of_register((s & 14) + 1, false);
-      } else {
-        a = of_memory(0), high = of_memory(1);
-        a.origin.pc = high.origin.pc = pc;
-      }
-      if (row.id == Insn::Mov_D_Ws_Wnd || f.q == 0) {
-        const unsigned to = (row.has(Operand::RdPair) ? 2 * f.d : f.d) & 14;
-        set_register(to, a.bits, false, a.origin);
-        set_register(to + 1, high.bits, false, high.origin);
-      } else {
-        set_written(0, a.bits, pc, a.origin);
-        set_written(1, high.bits, pc, high.origin);
-      }
-      return;
-    }
+    case Group::CopyPair:
+      return copy_pair(shape, pc);
     case Group::And:
       result.bits = ((a.bits & b.bits) | (a.bits & b.value) | (b.bits & a.value)) & all;
       break;
+    // a bit that is known to be 1 on one side makes the result known
     case Group::Or:
       result.bits = ((a.bits & b.bits) | (a.bits & ~b.value) | (b.bits & ~a.value)) & all;
       break;
     case Group::Xor:
       result.bits = either;
       break;
+    // a carry may reach every bit above the lowest unwritten one
     case Group::Sum:
       result.bits = upwards(either) & all;
       break;
     case Group::Left:
-    case Group::Right: {
-      const bool is_left = shape.group == Group::Left;
-      unsigned by = 1, bits = a.bits;
-      if (row.has(Operand::Wb)) {
-        bits = b.bits;
-        by = row.has(Operand::Rs) ? of_register(f.s, false).value & 31 : f.k;
-        if (row.has(Operand::Rs) && a.bits) bits = all;
-      }
-      const bool keeps_sign = !is_left && row.mnemonic[0] == 'A';
-      const unsigned sign = shape.byte ? 0x80 : 0x8000;
-      result.bits = (is_left ? bits << std::min(by, 16u) : bits >> std::min(by, 16u)) & all;
-      if (keeps_sign && (bits & sign)) result.bits |= all & ~(all >> std::min(by, 16u));
+    case Group::Right:
+      result.bits = shifted(shape, a, b);
       break;
-    }
     case Group::Mix:
       result.bits = either ? all : 0;
       break;
@@ -327,20 +384,8 @@ void MemoryCheck::finish(const Cpu& cpu) {
     case Group::SetBit:
     case Group::FlipBit:
     case Group::TestBit:
-    case Group::SkipBit: {
-      const bool of_word = row.has(Operand::FileBit) && reads_ > 0 && read_[0].bytes == 2;
-      const unsigned bit = 1u << (f.b + (of_word ? 8 * (f.f & 1) : 0));
-      if (shape.group == Group::SkipBit) {
-        if (a.bits & bit) depends(Use::Branch, a.origin, pc);
-        return;
-      }
-      if (shape.group == Group::TestBit) {
-        set_flags({a.bits & bit, 0, a.origin});
-        if (row.id != Insn::Btsts_f_bit && row.id != Insn::Btsts_Ws_bit4) return;
-      }
-      result.bits = shape.group == Group::FlipBit ? a.bits : a.bits & ~bit;
-      return put(shape, result, pc);
-    }
+    case Group::SkipBit:
+      return finish_bit(shape, a, pc);
     case Group::TestAnyBit:
       return set_flags({either, 0, result.origin});
     case Group::Compare:
@@ -351,13 +396,8 @@ void MemoryCheck::finish(const Cpu& cpu) {
       if (other.bits | b.bits) depends(Use::Branch, other.bits ? other.origin : b.origin, pc);
       return;
     }
-    case Group::Multiply: {
-      const unsigned bits = either ? 0xFFFF : 0;
-      const unsigned to = row.id == Insn::Mul_f ? 2 : row.has(Operand::RdPair) ? (2 * f.d) & 14 : f.d & 14;
-      set_register(to, bits, false, result.origin);
-      if (row.id != Insn::Mul_f || !shape.byte) set_register(to + 1, bits, false, result.origin);
-      return;
-    }
+    case Group::Multiply:
+      return multiplied(shape, either, result.origin);
     case Group::Divide:
       set_register(0, 0, false, {});
       set_register(1, 0, false, {});

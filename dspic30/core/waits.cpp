@@ -32,6 +32,7 @@ void Waits::begin(Cpu& cpu) {
   look_head_ = cpu.next;
   cpu.head_met = false;
   look_began_ = cpu.true_now();
+  // looks that no known wait has brought come more and more seldom
   if (!at_head_) {
     look_by_ = look_began_ + look_gap_;
     look_gap_ = std::min(2 * look_gap_, kMostGap);
@@ -41,11 +42,13 @@ void Waits::begin(Cpu& cpu) {
     schedule(cpu).at = std::max(cpu.stands_until, look_began_ + 1);
     return;
   }
+  // A round begins here.
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_began_at_ = look_began_;
   round_delayed_ = cpu.delayed;
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
+  // What is known to wait or to count from here on needs no look.
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
   if (const Count* known = cpu.known_counts.at(cpu.next); known && known->is_plain(cpu)) {
     const Cycle rounds = known->rounds_from(cpu);
@@ -53,6 +56,7 @@ void Waits::begin(Cpu& cpu) {
     if (is_passed(cpu, *known, rounds)) return;
     if (known->is_over(cpu) && is_passed(cpu, known->round(), look_began_)) return;
   }
+  // The round may be one of a known wait, its registers apart.
   comes_round_ = nullptr;
   if (const KnownWaits::Wait* const of_head = cpu.known_waits.at(cpu.next)) {
     if (of_head->memory.are_as_read(cpu.ram.data())) {
@@ -69,8 +73,8 @@ void Waits::begin(Cpu& cpu) {
   if (!comes_round_) begin_round(cpu);
 }
 
-// a loop that counts is soon over, or comes to where its flags change: it goes on for so long. False: it does
-// so still
+// a loop that counts is soon over, or comes to where its flags change: it goes on for so long.
+// False: it does so still
 bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
   if (rounds < 0 || was_passed(count.round(), kFewestRounds + 4)) return false;
   const Cycle pause = (rounds + 2) * count.round().took;
@@ -174,6 +178,7 @@ void Waits::look(Cpu& cpu) {
     if (comes_round_ || state_ != State::Looking) return;
   }
   const Cycle end = cpu.deadline;
+  // Step by step, while what the round reads and writes is noted.
   cpu.watch_round(&round_.memory);
   while (cpu.now < end && state_ == State::Looking) {
     const Decoded* const d = cpu.next;
@@ -185,6 +190,7 @@ void Waits::look(Cpu& cpu) {
     step(cpu);
     round_.registers |= cpu.touched_by(d);
     if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
+    // something else is due
     if (cpu.deadline != end) {
       fail(cpu);
       break;

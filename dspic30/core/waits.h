@@ -2,11 +2,12 @@
 // Waits: a program that goes round without changing anything is found, jumped over, and counted.
 //
 //   Away --look due, or a known wait's first instruction--> Looking --proven--> Waiting
-//        <--no wait--                                                <--an interrupt, or what it reads may
-//        change--
+//        <--no wait--------------------------------------
+//        <--an interrupt, or what it reads may change-------------------------
 //
-//   round 1, or else round 2: the core ends as it began, and what was read of RAM is as it was when it was
-//   read  ->  all rounds to come are like it, until what it reads from peripherals may change
+// A round proves a wait, the first one of a look or else the second: the core ends as it began, and the words
+// of RAM that it read hold what they held when it read them. All rounds to come are like it, until what it
+// reads from peripherals may change.
 //
 // The second chance is for a wait that an interrupt came into: RETFIE leaves the handler's DC behind. What
 // reads no peripheral is remembered (known_waits.h) and need not be run again. A round that writes a

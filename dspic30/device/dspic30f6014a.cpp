@@ -23,6 +23,7 @@ constexpr bool is_port(const SfrInfo& info) {
 
 // A module that is switched off forgets everything and answers 0.
 void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now) {
+  // Each module with its registers, of the first control register.
   const auto turned = [&](std::uint16_t before, std::uint16_t next, int bit) {
     return ((before ^ next) >> bit & 1) != 0;
   };
@@ -64,6 +65,7 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
           bus.write(a, info->reset, 16, now);
       range(next1, m.bit, m.first, m.last);
     }
+  // The second one has the units of input capture and output compare.
   for (int bit = 0; bit < 16; ++bit) {
     if (!turned(pmd2, next2, bit)) continue;
     const auto n = static_cast<unsigned>(bit & 7);
@@ -107,7 +109,7 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
   p.system.reset(kind, now);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Dspic30f6014a::read(unsigned address, unsigned bits, Cycle now) {
   return parts_->read(address, bits, now);
@@ -164,7 +166,7 @@ int Dspic30f6014a::register_address(const std::string& name) {
   return info ? info->address : -1;
 }
 
-// --- time -------------------------------------------------------------------------------------------------
+// --- time
 
 void Dspic30f6014a::run_to(Cycle now) {
   ChipParts& p = *parts_;
@@ -221,7 +223,7 @@ void Dspic30f6014a::i2c_stop(Cycle now) {
 }
 bool Dspic30f6014a::i2c_holds_clock() const { return parts_->i2c.holds_clock(); }
 
-// --- interrupts -------------------------------------------------------------------------------------------
+// --- interrupts
 
 Outlook Dspic30f6014a::look(Cycle now) { return parts_->look(now); }
 
@@ -262,7 +264,7 @@ Cycle Dspic30f6014a::flag_since(int vector) const {
   return vector >= kFirstIrqVector ? parts_->interrupts.since(vector - kFirstIrqVector) : 0;
 }
 
-// --- instructions -----------------------------------------------------------------------------------------
+// --- instructions
 
 void Dspic30f6014a::clear_watchdog(Cycle now) {
   parts_->events.run_to(now);
@@ -299,7 +301,7 @@ void Dspic30f6014a::table_write(unsigned program_address, std::uint16_t value, C
 
 Eeprom& Dspic30f6014a::eeprom() { return parts_->nvm.eeprom(); }
 
-// --- diagnosis --------------------------------------------------------------------------------------------
+// --- diagnosis
 
 Diagnostics& Dspic30f6014a::diagnostics() { return parts_->diagnostics; }
 

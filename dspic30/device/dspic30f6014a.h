@@ -121,8 +121,8 @@ class Dspic30f6014a {
   int pending(Cycle now);
   /// The same for a CPU level of the caller's, 0 to 15.
   int pending(Cycle now, int cpu_level);
-  /// The handler of `vector` starts at the boundary before `now`: raises the CPU level, remembers the old
-  /// one.
+  /// The handler of `vector` starts at the boundary before `now`: raises the CPU level,
+  /// remembers the old one.
   InterruptEntry enter_interrupt(int vector, Cycle now);
   /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
   Cycle return_from_interrupt(Cycle now);
@@ -134,8 +134,8 @@ class Dspic30f6014a {
   void set_cpu_level(int level, Cycle now);
   /// Handlers entered and not yet left.
   int nesting() const;
-  /// DISI #count executes in cycle `now`: priorities 1 to 6 wait for count + 1 cycles. Also a write of
-  /// DISICNT.
+  /// DISI #count executes in cycle `now`: priorities 1 to 6 wait for count + 1 cycles. Also
+  /// a write of DISICNT.
   void disi(unsigned count, Cycle now);
   bool disi_active(Cycle now) const;
   /// A trap of the core: sets its INTCON1 flag. A hard trap during another one asks for a reset instead.
@@ -174,9 +174,9 @@ class Dspic30f6014a {
   /// Events that found their enabled flag still set, since power-up.
   std::int64_t missed_interrupts(int vector);
   std::int64_t served_interrupts(int vector) const;
-  /// Hash of FIFOs, of the registers that were written since power-on and of the EEPROM as operations left
-  /// it, for determinism checks. Without pins: what the outside puts on the ports is left out, and not asked
-  /// for.
+  /// Hash of FIFOs, of the registers that were written since power-on and of the EEPROM as
+  /// operations left it, for determinism checks. Without pins: what the outside puts on the ports is
+  /// left out, and not asked for.
   std::uint64_t state_hash(Cycle now, bool with_pins = true);
 
   /// For a host that includes chip_parts.h.

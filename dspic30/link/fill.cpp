@@ -141,6 +141,7 @@ class Filler {
         };
         const auto reaches = [](std::int32_t words) { return words >= -0x8000 && words <= 0x7FFF; };
         std::int32_t words = words_to(value_);
+        // a call that is too far goes by a jump in between
         if (!reaches(words) && is_code_ && r.type == kBranch) words = words_to(jump());
         checked(r, reaches(words), "within 32767 words of the branch");
         return insert(r.offset, 0, 0xFFFF, std::uint32_t(words));

@@ -123,8 +123,8 @@ class Look {
     return "";
   }
 
-  /// An instruction with a register's address in it, as compilers write them. Not seen: one that goes by a
-  /// pointer.
+  /// An instruction with a register's address in it, as compilers write them. Not seen: one
+  /// that goes by a pointer.
   std::string of_code(const Section& s) const {
     if (s.kind != Kind::Code) return "";
     for (std::uint32_t i = 0; i + kWordOctets <= s.bytes.size(); i += kWordOctets) {
@@ -190,6 +190,7 @@ void fill_by_host(Program& program, const Options& options) {
     s.bytes = {std::uint8_t(to), std::uint8_t(to >> 8), 0x04, 0, std::uint8_t(to >> 16), 0, 0, 0};
     put_section(program, s);
   };
+  // Of each driver that the host takes over: its functions lead there, and the rest of it goes.
   for (const HostChoice& choice : program.host) {
     if (!choice.why_not.empty()) continue;
     const Look look(program, *choice.driver);
@@ -209,6 +210,8 @@ void fill_by_host(Program& program, const Options& options) {
       }
       fill(s, function->second);
     }
+    // Functions elsewhere that only read its variables lead to the host too, where nothing else
+    // shares their section.
     for (const auto& [name, index] : choice.driver->shortcuts) {
       const auto found = program.globals.find("_" + name);
       if (found == program.globals.end() || !is_alone(*found->second) || !found->second->section->used)
@@ -220,6 +223,7 @@ void fill_by_host(Program& program, const Options& options) {
     for (const auto& [name, index] : choice.driver->functions)
       if (Symbol* s = program.global("_" + name); s->section && s->section->used) s->size = kHandleOctets;
   }
+  // What the simulator asks of the image before it runs it.
   put_vectors(program);
   program.define(kServedEndSymbol, program.served_end);
   program.define(kHostTableSymbol, options.host_table);

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
 // The linker: objects to an image of the chip.
 //
-//   read.cpp    objects and archives in; what is undefined is looked for in the libraries
-//   vendor.cpp  objects of XC16 and the older C30, made what ours are
-//   where.cpp   function and line of code, for messages
-//   place.cpp   what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
-//               start-up table
-//   fill.cpp    addresses into instructions, data and debugging information; vectors
-//   host.cpp    what the host stands in for
-//   stack.cpp   how deep the stack can grow
-//   write.cpp   .elf, .hex; listing.cpp .lst; map.cpp .map
-//   report.cpp  sizes against the chip's
+//   read.cpp     objects and archives in; what is undefined is looked for in the libraries
+//   vendor.cpp   objects of XC16 and the older C30, made what ours are
+//   where.cpp    function and line of code, for messages
+//   place.cpp    what is used gets its place: near, X, Y and other RAM; constants in one PSV page; code;
+//                start-up table
+//   debug.cpp    debugging information in the chip's own addresses
+//   fill.cpp     addresses into instructions, data and debugging information; vectors
+//   host.cpp     what the host stands in for
+//   stack.cpp    how deep the stack can grow
+//   report.cpp   sizes against the chip's
+//   write.cpp    .elf, .hex
+//   listing.cpp  .lst
+//   map.cpp      .map
 #pragma once
 #include <cstdint>
 #include <deque>
@@ -44,8 +47,8 @@ struct Options {
   std::map<std::string, std::string> library_renames;  ///< the same for what archives ask for
   unsigned heap_bytes = 512;                           ///< for malloc(), if it is used
   unsigned gap_bytes = 0;  ///< behind each variable, where there is room; not 0: of an image to be checked
-  /// Object to source, archive to its name for people. Line tables may have been written for a copy
-  /// elsewhere.
+  /// Object to source, archive to its name for people. Line tables may have been written
+  /// for a copy elsewhere.
   std::map<std::string, std::string> sources;
   std::string moved_from, moved_to;  ///< as in CodeMap: sources of the library
   std::string host_library;          ///< of `libraries` the archive with the drivers below

@@ -63,6 +63,7 @@ std::string source_named(const std::string& name, const std::map<std::string, st
 }
 
 std::string listing(const Program& program, const Options& options) {
+  // Labels by address, sections in order, and the lines of the source.
   std::map<std::uint32_t, std::vector<std::string>> labels;
   for (const Symbol& s : program.symbols)
     if (s.is_defined && s.section && s.section->used && s.section->kind == Kind::Code && !s.name.empty() &&
@@ -82,6 +83,7 @@ std::string listing(const Program& program, const Options& options) {
   std::string out = "; address, word, instruction; before them the lines of the source; symbols at the end\n";
   char text[160];
   auto row = lines.lines.begin();
+  // Word by word: label, line where it is another one, instruction.
   for (const auto& [begin, s] : code) {
     int line = 0, file = -1;
     while (row != lines.lines.end() && row->address < begin) ++row;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The map: what each module takes, its sections with address and size, then all sections and all symbols by
-// address.
+// The map: what each module takes, its sections with address and size, then all sections and all
+// symbols by address.
 #include <algorithm>
 #include <cstdio>
 
@@ -71,6 +71,7 @@ std::vector<Module> modules_of(const std::vector<const Section*>& sections) {
 }  // namespace
 
 std::string map_file(const Program& program) {
+  // All that has a place, in the order of the memories.
   std::vector<const Section*> sections;
   for (const Section& s : program.sections)
     if (s.used && s.kind != Kind::Debug && s.size) sections.push_back(&s);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What is used gets its place.
 //
-//   flash  0x0000 jump to the start   0x0004 vectors   0x0100 start-up code, constants (one PSV page of 32
-//   KB), code RAM    0x0800 near variables first (below 0x2000), then the others; the largest gap that is
-//   left is the stack
+//   flash  0x0000  jump to the start
+//          0x0004  vectors
+//          0x0100  start-up code, constants (one PSV page of 32 KB), code
+//   RAM    0x0800  near variables first (below 0x2000), then the others; the stack gets the largest gap left
 //
 // Order within a kind is that of the inputs, so the same inputs give the same image.
 #include <algorithm>
@@ -141,6 +142,7 @@ std::set<const Section*> place_registers(Program& program, Space& ram) {
 
 /// `y_last`: what must lie in Y memory is at its end, not its beginning. `gap`: bytes behind each variable.
 void place_ram(Program& program, const Options& options, bool y_last, unsigned gap) {
+  // One place for each variable; with a gap behind it as long as there is room.
   Space ram(kRamBegin, kRamEnd);
   const auto place = [&](Section& s, Range r, std::uint32_t align) {
     const auto take = y_last && (s.flags & kYSpace) ? &Space::take_last : &Space::take;
@@ -157,6 +159,7 @@ void place_ram(Program& program, const Options& options, bool y_last, unsigned g
   std::uint32_t at;
   const std::set<const Section*> served = place_registers(program, ram);
   const auto is_fixed = [&](const Section& s) { return fixed_address(s, at); };
+  // First what wants a certain address, then by how narrow the choice is: Y memory, X memory, near, all else.
   each(is_fixed, [&](Section& s) {
     fixed_address(s, at);
     if (!ram.take(s.size, 1, at, at + s.size, s.address))
@@ -170,6 +173,7 @@ void place_ram(Program& program, const Options& options, bool y_last, unsigned g
     each(belongs, [&](Section& s) { place(s, range_of(s), s.align); });
   }
   each([](const Section&) { return true; }, [&](Section& s) { program.ram_bytes += s.size; });
+  // The heap, if somebody asks for it, and the stack takes the largest gap that is left.
   if (program.globals.count("__heap") && !program.globals["__heap"]->is_defined) {
     if (!ram.take(options.heap_bytes, 2, kRamBegin, kRamEnd, at))
       program.errors.push_back("RAM: no room for the heap");
@@ -298,6 +302,7 @@ void place_flash(Program& program) {
     }
   program.define("__const_psvpage", at / kPageUnits);
 
+  // What is left: start values, code, tables.
   program.dinit_words = dinit_words(program);
   if (!flash.take(2 * program.dinit_words, 2, 0, kFlashEnd, program.dinit))
     no_room("start values", program.dinit_words);

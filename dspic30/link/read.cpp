@@ -199,6 +199,7 @@ class Reader {
     const bool is_vendors = is_of_vendor(member, elf);
     name_by_source(member, is_vendors);
     if (!member.is_of_archive) of_program_.insert(member.name);
+    // Sections that reach the chip, and our debugging information; a vendor's is not read.
     for (size_t i = 0; i < headers->size(); ++i) {
       const auto& h = (*headers)[i];
       auto name = elf.getSectionName(h);
@@ -223,6 +224,7 @@ class Reader {
         if (!bytes) return problem(member.name, toString(bytes.takeError()));
         s.bytes.assign(bytes->begin(), bytes->end());
       }
+      // A vendor's object has phantom octets between its data, and sections that ask for an address.
       if (is_vendors) {
         drop_phantom_octets(s);
         if (h.sh_flags & dspic_elf::kAbsolute && h.sh_addr >= kConfigurationStart && s.bytes.size() >= 2) {
@@ -238,6 +240,7 @@ class Reader {
       }
       sections[i] = &s;
     }
+    // Symbols and relocations refer to these sections.
     if (!table) return true;
     std::vector<Symbol*> symbols;
     return read_symbols(member, elf, *table, sections, symbols, is_vendors) &&
@@ -368,6 +371,7 @@ void tell_of_twice(Program& program) {
 }  // namespace
 
 bool read_all(Program& program, const Options& options) {
+  // What is linked in any case, and what only when somebody asks for it.
   Reader reader(program);
   std::vector<Member> members, lazy;
   for (const std::string& path : options.inputs)
@@ -396,6 +400,7 @@ bool read_all(Program& program, const Options& options) {
     if (!reader.take(m)) return false;
   program.global("__reset");
   program.global("_tp_config_fosc");  // the robot's configuration words, if the program has none
+  // Members that define what is missing, and what these need, until nothing is.
   const auto take_needed = [&] {
     for (bool again = true; again;) {
       again = false;

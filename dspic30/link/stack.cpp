@@ -87,6 +87,7 @@ class Depths {
       const auto behind = [&](unsigned words) {
         return here + 2 + 2 * std::uint32_t(sign_extend(words, 16));
       };
+      // What the instruction adds to the stack, or whom it calls.
       switch (row->id) {
         case Insn::Lnk_lit14:
           f.own += 2 + 2 * v.k;

@@ -6,8 +6,8 @@
 //   labels of code   count program addresses, two a word; ours count octets, four a word
 //   relocations      without addend; what the place holds already is added, and two more types mean a handle
 //
-// Besides, its compiler writes into the name of a call of printf() and its like which conversions the format
-// has.
+// Besides, its compiler writes into the name of a call of printf() and its like which
+// conversions the format has.
 #include "dspic30/link/link.h"
 #include "dspic30/link/relocations.h"
 

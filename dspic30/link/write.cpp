@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The image as files: Intel HEX and ELF in the vendor's manner, which the simulator, debuggers and
-// programmers read.
+// The image as files: Intel HEX and ELF in the vendor's manner, which the simulator, debuggers
+// and programmers read.
 #include <elf.h>
 
 #include <algorithm>
@@ -196,6 +196,7 @@ class ElfFile {
     add("", SHT_STRTAB, 0, 0, 0, names_);
     sections_[names].sh_name = std::uint32_t(names_.size() - sizeof ".shstrtab" - 1);
     while (bytes_.size() % 4) bytes_ += '\0';
+    // The head is known last: where the tables lie, and how many there are.
     Elf32_Ehdr h{};
     std::memcpy(h.e_ident, ELFMAG, SELFMAG);
     h.e_ident[EI_CLASS] = ELFCLASS32;

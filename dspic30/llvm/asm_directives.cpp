@@ -106,6 +106,7 @@ bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
   assembly::SectionText text;
   if (!assembly::read_section(operands, text, complain)) return true;
   using Kind = assembly::SectionKind;
+  // Attributes become flags that the linker knows.
   const dspic_elf::MemorySpace* const space = dspic_elf::space_of(text.name);
   unsigned flags = (text.is_info ? 0u : ELF::SHF_ALLOC) | (space ? space->flags : 0u);
   if (text.kind == Kind::Code && !text.is_info) flags |= ELF::SHF_EXECINSTR;
@@ -117,6 +118,7 @@ bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
   if (text.is_y) flags |= dspic_elf::kYSpace;
   if (text.is_persistent) flags |= dspic_elf::kPersistent;
   if (text.is_noload) flags |= dspic_elf::kNoload;
+  // An address becomes part of the name, as a variable's does.
   std::int64_t number = 0;
   if (!text.address.empty()) {
     if (text.kind == Kind::Code)

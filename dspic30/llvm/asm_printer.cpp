@@ -49,8 +49,8 @@ class DSPICAsmPrinter : public AsmPrinter {
     EmitToStreamer(*OutStreamer, inst);
   }
 
-  /// The distance of two labels counts program addresses, two a word; the assembler layer counts octets,
-  /// four.
+  /// The distance of two labels counts program addresses, two a word; the assembler layer
+  /// counts octets, four.
   const MCExpr* lowerConstant(const Constant* c) override {
     auto* e = dyn_cast<ConstantExpr>(c);
     const MCExpr* value = AsmPrinter::lowerConstant(c);

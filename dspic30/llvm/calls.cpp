@@ -66,12 +66,13 @@ Places place(const SmallVectorImpl<Argument>& arguments, bool variadic) {
       while (!arguments[end++].Flags.isSplitEnd()) {
       }
     const unsigned size = is_struct(a) ? (a.Flags.getByValSize() + 1) / 2 : end - i;
-    // a struct that is a whole word, pair or four of them travels like an integer of its size, unless it is
-    // odd
+    // a struct that is a whole word, pair or four of them travels like an integer of its
+    // size, unless it is odd
     const Align align = is_struct(a) ? a.Flags.getNonZeroByValAlign() : Align(2);
     const bool is_whole = !is_struct(a) || (a.Flags.getByValSize() == 2 * size && align == Align(2));
     const unsigned step = is_whole && (size == 2 || size == 4) ? size : 1;
     const unsigned mask = (1u << size) - 1;
+    // The first registers that are free, one behind the other; else all of it goes on the stack.
     unsigned first = 0;
     while (first + size <= kArgumentRegisters && (used >> first & mask)) first += step;
     const bool fits = size <= kArgumentRegisters && first + size <= kArgumentRegisters;
@@ -175,6 +176,7 @@ SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<S
   }
   if (!loads.empty()) before = dag.getNode(ISD::TokenFactor, where, MVT::Other, loads);
 
+  // Arguments without a register go on the stack.
   SDValue chain = dag.getCALLSEQ_START(before, places.stack_bytes, 0, where);
   SDValue stack;
   SmallVector<SDValue, 8> stores;
@@ -187,6 +189,7 @@ SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<S
   }
   if (!stores.empty()) chain = dag.getNode(ISD::TokenFactor, where, MVT::Other, stores);
 
+  // The others go into theirs, straight before the call.
   SDValue glue;
   SmallVector<SDValue, 16> ops(2);  // chain and callee, below
   for (unsigned i = 0; i < places.words.size(); ++i) {
@@ -201,6 +204,7 @@ SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<S
     ops[1] = dag.getTargetGlobalAddress(g->getGlobal(), where, MVT::i16, g->getOffset());
   else if (auto* e = dyn_cast<ExternalSymbolSDNode>(call.Callee))
     ops[1] = dag.getTargetExternalSymbol(e->getSymbol(), MVT::i16);
+  // The call, which says what it preserves.
   const auto* registers = dag.getSubtarget().getRegisterInfo();
   ops.push_back(
       dag.getRegisterMask(registers->getCallPreservedMask(dag.getMachineFunction(), call.CallConv)));
@@ -208,6 +212,7 @@ SDValue DSPICTargetLowering::LowerCall(CallLoweringInfo& call, SmallVectorImpl<S
   chain = dag.getNode(DSPICISD::CALL, where, dag.getVTList(MVT::Other, MVT::Glue), ops);
   chain = dag.getCALLSEQ_END(chain, dag.getIntPtrConstant(places.stack_bytes, where, true),
                              dag.getIntPtrConstant(0, where, true), chain.getValue(1), where);
+  // The result, word by word.
   glue = chain.getValue(1);
   for (unsigned i = 0; i < call.Ins.size(); ++i) {
     SDValue word = dag.getCopyFromReg(chain, where, kRegisters[i], MVT::i16, glue);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Comparisons. CP subtracts and keeps the flags; CPB goes on with the borrow, and leaves Z set only if it was
-// set. So CP of the low words and CPB of the high ones have all fourteen conditions of a long ready. What is
-// neither a branch nor needs none becomes one: a select is two blocks and a PHI
-// (EmitInstrWithCustomInserter).
+// Comparisons. CP subtracts and keeps the flags; CPB goes on with the borrow, and leaves Z set
+// only if it was set. So CP of the low words and CPB of the high ones have all fourteen conditions
+// of a long ready. What is neither a branch nor needs none becomes one: a select is two blocks and
+// a PHI (EmitInstrWithCustomInserter).
 #include "dspic30/llvm/subtarget.h"
 #include "llvm/CodeGen/MachineInstrBuilder.h"
 
@@ -160,8 +160,8 @@ SDValue DSPICTargetLowering::select_long(SDNode* n, SelectionDAG& dag) const {
   return dag.getNode(ISD::BUILD_PAIR, where, MVT::i32, words, words.getValue(1));
 }
 
-/// The generic combiner joins a comparison with its branch only for legal types; CP and CPB compare longs as
-/// well.
+/// The generic combiner joins a comparison with its branch only for legal types; CP and CPB
+/// compare longs as well.
 SDValue DSPICTargetLowering::PerformDAGCombine(SDNode* n, DAGCombinerInfo& info) const {
   SelectionDAG& dag = info.DAG;
   const bool is_branch = n->getOpcode() == ISD::BRCOND;

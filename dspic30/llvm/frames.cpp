@@ -189,7 +189,7 @@ bool DSPICFrameLowering::restoreCalleeSavedRegisters(MachineBasicBlock& mbb, Mac
 }
 
 MachineBasicBlock::iterator DSPICFrameLowering::eliminateCallFramePseudoInstr(
-    MachineFunction& mf, MachineBasicBlock& mbb, MachineBasicBlock::iterator it) const {
+    MachineFunction& /*mf*/, MachineBasicBlock& mbb, MachineBasicBlock::iterator it) const {
   const int64_t bytes = it->getOperand(0).getImm();
   move_stack(mbb, it, it->getDebugLoc(), it->getOpcode() == DSPIC::ADJDOWN ? bytes : -bytes);
   return mbb.erase(it);

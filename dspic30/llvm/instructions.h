@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What LLVM's passes ask about instructions: how to copy, spill and reload a register, and what a branch
-// does.
+// What LLVM's passes ask about instructions: how to copy, spill and reload a register, and
+// what a branch does.
 #pragma once
 #include "dspic30/llvm/registers.h"
 

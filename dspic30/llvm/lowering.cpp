@@ -125,6 +125,7 @@ bool DSPICTargetLowering::getPostIndexedAddressParts(SDNode* n, SDNode* op, SDVa
 SDValue DSPICTargetLowering::LowerOperation(SDValue op, SelectionDAG& dag) const {
   const SDLoc where(op);
   const auto wrap = [&](SDValue address) { return dag.getNode(DSPICISD::WRAP, where, MVT::i16, address); };
+  // Addresses are wrapped, so that selection knows them; the others have functions of their own.
   switch (op.getOpcode()) {
     case ISD::GlobalAddress: {
       auto* g = cast<GlobalAddressSDNode>(op);

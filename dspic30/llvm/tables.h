@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What llvm-tblgen made of dspic.td: numbers of registers and instructions, and the base classes built on
-// them.
+// What llvm-tblgen made of dspic.td: numbers of registers and instructions, and the base
+// classes built on them.
 #pragma once
 #include "llvm/CodeGen/TargetInstrInfo.h"
 #include "llvm/CodeGen/TargetRegisterInfo.h"

@@ -3,8 +3,8 @@
 //
 // A module goes through the passes of compiler/front, then addPassesToEmitFile() of the machine made here:
 // selection (lowering.cpp, selection.cpp), registers, frames (frames.cpp), words (encoder.cpp) or text
-// (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to the
-// chip's addresses.
+// (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to
+// the chip's addresses.
 #pragma once
 #include <string>
 
@@ -23,8 +23,8 @@ inline constexpr const char* kDspicDataLayout = "e-p:16:16-i16:16-i32:16-i64:16-
 inline constexpr const char* kDspicTriple = "dspic30f-microchip-none-elf";
 inline constexpr const char* kDspicCpu = "30f6014a";
 
-/// Stack alignment of an argument that is a struct of 4 or 8 bytes and yet no number: a mark, nothing is
-/// aligned so.
+/// Stack alignment of an argument that is a struct of 4 or 8 bytes and yet no number: a mark,
+/// nothing is aligned so.
 inline constexpr Align kDspicOddStruct = Align::Constant<4>();
 /// The same of a struct of chars, which may lie at an odd address.
 inline constexpr Align kDspicOddBytes = Align::Constant<8>();

@@ -28,6 +28,7 @@ class Unoptimised : public MachineFunctionPass {
  private:
   /// `latch` ends in a jump back to a block that asks: that block comes behind it instead.
   bool ask_at_end(MachineBasicBlock& latch) {
+    // Is this a loop whose header asks, and whose latch jumps back?
     MachineBasicBlock *taken = nullptr, *otherwise = nullptr;
     SmallVector<MachineOperand, 2> condition;
     if (instructions_->analyzeBranch(latch, taken, otherwise, condition, false)) return false;
@@ -43,6 +44,7 @@ class Unoptimised : public MachineFunctionPass {
     bool is_before = false;
     for (auto it = header.getIterator(); it != header.getParent()->end(); ++it) is_before |= &*it == &latch;
     if (!is_before || leave == body || !header.isSuccessor(body)) return false;
+    // What stands above the header and below the latch must stand the move.
     MachineBasicBlock& above = *std::prev(header.getIterator());
     MachineBasicBlock* below =
         &*latch.getIterator() == &header.getParent()->back() ? nullptr : &*std::next(latch.getIterator());
@@ -75,6 +77,7 @@ class Unoptimised : public MachineFunctionPass {
       MachineInstr& load = *it++;
       const bool by_words = load.getOpcode() == DSPIC::MOVldo;
       if (!by_words && load.getOpcode() != DSPIC::MOVBldo) continue;
+      // A load, INC or DEC, and a store, one behind the other.
       const auto sum = skipDebugInstructionsForward(it, block.end());
       if (sum == block.end()) break;
       const auto store = next_nodbg(sum, block.end());
@@ -82,6 +85,7 @@ class Unoptimised : public MachineFunctionPass {
       const bool is_up = sum->getOpcode() == DSPIC::INCr;
       if (!is_up && sum->getOpcode() != DSPIC::DECr) continue;
       if (store->getOpcode() != (by_words ? DSPIC::MOVsto : DSPIC::MOVBsto)) continue;
+      // Load and store are of the frame's first word, and nobody needs the register.
       const auto is_first = [](const MachineInstr& mi) {
         return mi.getOperand(1).isReg() && mi.getOperand(1).getReg() == DSPIC::W14 &&
                mi.getOperand(2).isImm() && mi.getOperand(2).getImm() == 0 && !mi.hasOrderedMemoryRef();

@@ -41,8 +41,8 @@ struct CodeMap {
   /// Null where there is none.
   const Function* function_at(std::uint32_t address) const;
   const Function* function_named(const std::string& name) const;
-  /// Null where there is none; else its line is above 0. Code that the compiler made by itself belongs to the
-  /// line before.
+  /// Null where there is none; else its line is above 0. Code that the compiler made by itself belongs
+  /// to the line before.
   const Line* line_at(std::uint32_t address) const;
   /// Where code of that line, or of the next one that has any, begins: statements' first words, one a
   /// function and inlined copy. `file`: the end of a path. `found`: the line.

@@ -164,6 +164,7 @@ class Reader {
       default:
         return false;
     }
+    // references within a unit count from its beginning
     if (form == kRef1 || form == kRef2 || form == kRef4 || form == kRef8 || form == kRefUdata)
       v.number += unit_;
     return true;
@@ -361,6 +362,7 @@ class Reader {
         case kSubprogram:
         case kLexicalBlock:
         case kInlinedSubroutine:
+          // its code begins here; the end is an address, or a length
           if (const Value* low = inner.find(kLowPc)) {
             from = low->number;
             const Value* const high = inner.find(kHighPc);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files that hold a program of the chip: Intel HEX, and ELF as XC16 writes it. The kind is read from the
-// content.
+// Files that hold a program of the chip: Intel HEX, and ELF as XC16 writes it. The kind is
+// read from the content.
 //
 //   bytes --load_firmware--> FirmwareFile: words by program address, symbols
 //

@@ -40,6 +40,7 @@ void find_functions(FirmwareFile& file) {
   const auto add = [&](std::uint32_t address, const std::string& name) {
     if (address > 0 && address < kFlashEnd && file.words.count(address)) found.emplace(address, name);
   };
+  // Where the vectors lead, by their names; one that many share is the default handler.
   for (int v = 1; v < kVectors; ++v)
     ++vectors[word_at(file, kVectorTable + 2 * static_cast<std::uint32_t>(v))];
   if (const std::uint32_t start = destination(file, 0, word_at(file, 0))) add(start, "_reset");
@@ -53,6 +54,7 @@ void find_functions(FirmwareFile& file) {
     std::snprintf(name, sizeof name, "sub_%06x", address);
     add(address, name);
   };
+  // What is called is a function without a name; what only branches reach is none.
   std::set<std::uint32_t> inside;  // what branches lead to
   for (const auto& [address, word] : file.words) {
     const Row* row = address < kFlashEnd ? find_row(word) : nullptr;
@@ -73,6 +75,7 @@ void find_functions(FirmwareFile& file) {
     const Row* next = ends && !inside.count(address + 2) ? find_row(word_at(file, address + 2)) : nullptr;
     if (next && next->id != Insn::Bra_Expr && next->id != Insn::Goto_Expr) add_unnamed(address + 2);
   }
+  // Each ends where the next one begins, or where code does.
   for (auto at = found.begin(); at != found.end(); ++at) {
     std::uint32_t end = at->first;
     const auto next = std::next(at);

@@ -73,8 +73,8 @@ class HexReader {
     const unsigned value = length == 2 ? bytes[4] << 8 | bytes[5] : 0;
     switch (type) {
       case kData:
-        // XC16 writes records that run on over a border of 64 KB; only segments wrap round (Intel's
-        // specification)
+        // XC16 writes records that run on over a border of 64 KB; only segments wrap
+        // round (Intel's specification)
         for (unsigned i = 0; i < length && error_.empty(); ++i)
           put(base_ + (segmented_ ? (address + i) & 0xFFFF : address + i), bytes[4 + i]);
         break;

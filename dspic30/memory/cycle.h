@@ -13,8 +13,8 @@ namespace dspic {
 
 using Cycle = std::int64_t;
 
-/// An instant that never comes: after 155 years. Neither its sum with a few periods nor 64 times it
-/// overflows.
+/// An instant that never comes: after 155 years. Neither its sum with a few periods nor 64
+/// times it overflows.
 inline constexpr Cycle kNever = INT64_MAX >> 7;
 
 }  // namespace dspic

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What stands in program space: flash, unit ID, configuration words, device ID. The data EEPROM is
-// periph/nvm's.
+// What stands in program space: flash, unit ID, configuration words, device ID. The data
+// EEPROM is periph/nvm's.
 //
 //   0x000000 flash, 48K words of 24 bits, 2 addresses each     0x8005C0 unit ID, 32 words
 //   0xF80000 configuration, 7 words of 16 bits                 0xFF0000 device ID, revision
@@ -47,8 +47,8 @@ class ProgramMemory {
   std::shared_ptr<std::vector<std::uint32_t>> flash_ =
       std::make_shared<std::vector<std::uint32_t>>(kFlashWords, kErasedWord);
   std::array<std::uint32_t, kUnitIdWords> unit_id_;
-  // as the e-puck's programs set them: XT with PLL x8, watchdog off, brown-out reset, no protection [chip
-  // C17]
+  // as the e-puck's programs set them: XT with PLL x8, watchdog off, brown-out reset,
+  // no protection [chip C17]
   std::array<std::uint16_t, kConfigurationWords> configuration_{0xFFE6, 0x7FFF, 0xFF7F, 0xFFFF,
                                                                 0xFFFF, 0xFFFF, 0xFFFF};
   std::uint64_t version_ = 0;

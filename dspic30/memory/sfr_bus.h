@@ -27,7 +27,7 @@ class SfrOwner {
   /// read() without side effects.
   virtual std::uint16_t peek(unsigned address, Cycle now) const = 0;
   /// Until when a read gives the same value, > now.
-  virtual Cycle horizon(unsigned address, Cycle now) const { return kNever; }
+  virtual Cycle horizon(unsigned /*address*/, Cycle /*now*/) const { return kNever; }
 };
 
 class SfrBus {

@@ -96,8 +96,8 @@ struct SfrField {
 };
 /// In the table's order; none where no field is named.
 std::vector<SfrField> fields_of(const SfrInfo& info);
-/// "U1MODE.LPBACK", "TCKPS1" style for fields of several bits ("T1CON.TCKPS"), "PR1.3" where no field is
-/// named.
+/// "U1MODE.LPBACK", "TCKPS1" style for fields of several bits ("T1CON.TCKPS"), "PR1.3"
+/// where no field is named.
 std::string sfr_bit_name(const SfrInfo& info, int bit);
 
 }  // namespace dspic

@@ -57,7 +57,7 @@ void Adc::set_times() {
   conversion_time_ = kConversionTads * tad_;
 }
 
-// --- the sequence -----------------------------------------------------------------------------------------
+// --- the sequence
 
 void Adc::restart_sequence() {
   begun_ = false;
@@ -117,7 +117,7 @@ void Adc::finish() {
   if (asam()) start_sampling(conversion_end_);
 }
 
-// --- cruising ---------------------------------------------------------------------------------------------
+// --- cruising
 
 bool Adc::is_regular() const {
   return on() && asam() && ssrc() == kAutomatic && !(con2_ & (kAlts | kBufm)) && sample_time_ > 0 &&
@@ -213,7 +213,7 @@ void Adc::schedule(Cycle now) {
   f_.events.set(slot_, std::min(at, flag_at_));
 }
 
-void Adc::on_event(int id, Cycle at) {
+void Adc::on_event(int /*id*/, Cycle at) {
   const Half end = cruise_.start + cruise_.sequence;
   if (cruising_ && flag_at_ == kNever && up(end) + kEndToFlag == at) {
     // one sequence as the one before: what the rest of this function and schedule() come to
@@ -245,7 +245,7 @@ void Adc::int0_edge(Cycle at) {
   schedule(at);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Adc::read(unsigned address, Cycle now) {
   advance(now);
@@ -302,6 +302,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       stop_cruising(now);
     }
   }
+  // Times of the converter are in half cycles.
   const Half at = 2 * (now + 1);
   switch (address) {
     case kCon1: {
@@ -313,6 +314,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         wants_timer_ = waits;
         timers_.want_matches(3, waits, now);
       }
+      // Off: what was under way gives no result.
       if (!(wanted & kAdon)) {
         sampling_ = converting_ = false;
         con1_ &= static_cast<std::uint16_t>(~kSamp);
@@ -320,6 +322,7 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         break;
       }
       if (!(before & kAdon)) restart_sequence();
+      // SAMP begins to sample; with the software trigger, clearing it begins the conversion.
       const bool asked = (wanted & kSamp) && !(before & kSamp);
       if (!sampling_ && !converting_ && (asked || asam()))
         start_sampling(at);

@@ -140,7 +140,7 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   std::array<Half, 16> result_of_{};  // instant at which what stands in the buffer was held
 };
 
-// --- results of a cruise, what handlers read most ---------------------------------------------------------
+// --- results of a cruise, what handlers read most
 
 inline std::uint16_t Adc::formatted(int counts) const {
   return static_cast<std::uint16_t>(((counts ^ form_.flip) << form_.shift) - form_.zero);

@@ -23,7 +23,7 @@ Pin compare_pin(int n) { return {Port::D, n}; }
 
 }  // namespace
 
-// --- capture ----------------------------------------------------------------------------------------------
+// --- capture
 
 void InputCapture::attach() {
   f_.bus.attach(*this, kIc, kIc + 0x1E);
@@ -35,7 +35,7 @@ void InputCapture::attach() {
   }
 }
 
-void InputCapture::reset(Cycle now) {
+void InputCapture::reset(Cycle /*now*/) {
   for (Unit& u : units_) {
     const int slot = u.slot;
     u = Unit{};
@@ -107,7 +107,7 @@ std::uint16_t InputCapture::read(unsigned address, Cycle now) {
   return word;
 }
 
-std::uint16_t InputCapture::peek(unsigned address, Cycle now) const {
+std::uint16_t InputCapture::peek(unsigned address, Cycle /*now*/) const {
   const Unit& u = units_[(address - kIc) / 4];
   if ((address & 2) == 0) return u.waiting ? u.words[0] : 0;
   return static_cast<std::uint16_t>(u.con | (u.overflow ? kIcov : 0) | (u.waiting ? kIcbne : 0));
@@ -129,11 +129,11 @@ void InputCapture::write(unsigned address, std::uint16_t value, std::uint16_t la
   }
 }
 
-Cycle InputCapture::horizon(unsigned address, Cycle now) const {
+Cycle InputCapture::horizon(unsigned address, Cycle /*now*/) const {
   return f_.events.when(units_[(address - kIc) / 4].slot);
 }
 
-// --- compare ----------------------------------------------------------------------------------------------
+// --- compare
 
 void OutputCompare::attach() {
   f_.bus.attach(*this, kOc, kOc + 6 * kCompares - 2);
@@ -145,7 +145,7 @@ void OutputCompare::attach() {
   timers_.listen(*this);
 }
 
-void OutputCompare::reset(Cycle now) {
+void OutputCompare::reset(Cycle /*now*/) {
   for (Unit& u : units_) {
     const int slot = u.slot;
     u = Unit{};
@@ -185,6 +185,7 @@ void OutputCompare::schedule(int n, Cycle after) {
 void OutputCompare::on_event(int id, Cycle at) {
   Unit& u = units_[static_cast<std::size_t>(id)];
   const Cycle tick = at - kMatchToPin;
+  // What the match does to the pin; a mode that is over waits for another.
   switch (mode(u)) {
     case LowToHigh:
       drive(id, true, at);
@@ -230,7 +231,7 @@ void OutputCompare::timer_changed(int which, Cycle at) {
   }
 }
 
-std::uint16_t OutputCompare::peek(unsigned address, Cycle now) const {
+std::uint16_t OutputCompare::peek(unsigned address, Cycle /*now*/) const {
   const Unit& u = units_[(address - kOc) / 6];
   switch ((address - kOc) % 6) {
     case 0:
@@ -268,7 +269,7 @@ void OutputCompare::write(unsigned address, std::uint16_t value, std::uint16_t l
   schedule(n, now);
 }
 
-Cycle OutputCompare::horizon(unsigned address, Cycle now) const {
+Cycle OutputCompare::horizon(unsigned address, Cycle /*now*/) const {
   return (address - kOc) % 6 == 2 ? f_.events.when(units_[(address - kOc) / 6].slot) : kNever;
 }
 

@@ -34,7 +34,7 @@ void Dci::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, false);
 }
 
-void Dci::reset(Cycle now) {
+void Dci::reset(Cycle /*now*/) {
   con1_ = con2_ = con3_ = stat_ = tscon_ = rscon_ = 0;
   rx_.fill(0);
   tx_.fill(0);
@@ -109,7 +109,7 @@ void Dci::schedule() {
   f_.events.set(slot_, at);
 }
 
-void Dci::on_event(int id, Cycle at) {
+void Dci::on_event(int /*id*/, Cycle at) {
   advance(at);
   schedule();
 }
@@ -139,6 +139,7 @@ std::uint16_t Dci::peek(unsigned address, Cycle now) const {
 }
 
 void Dci::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  // Words to send; then the control registers, which may switch it on or off.
   if (address >= kTx) {
     auto& word = tx_[(address - kTx) / 2];
     word = merge_lanes(word, value, lanes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Data converter interface as the codec's master: DCICON1 to 3, DCISTAT, TSCON, RSCON, RXBUF0 to 3, TXBUF0
-// to 3.
+// Data converter interface as the codec's master: DCICON1 to 3, DCISTAT, TSCON, RSCON,
+// RXBUF0 to 3, TXBUF0 to 3.
 //
 //   TXBUF -> shadows -> CSDO       slots of WS+1 bits, COFSG+1 of them a frame
 //   RXBUF <- shadows <- CSDI       after BLEN+1 enabled slots buffers and shadows change places: DCIIF

@@ -25,7 +25,7 @@ class EventWatch {
   /// The chip changes by itself in cycle `at`; all that changed before is in place. May peek, not change.
   virtual void about_to_change(Cycle at) = 0;
   /// The program reads in cycle `at`, and what is worked out when somebody looks is worked out up to there.
-  virtual void about_to_be_read(Cycle at) {}
+  virtual void about_to_be_read(Cycle /*at*/) {}
 };
 
 class Events {

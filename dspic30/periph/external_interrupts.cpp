@@ -108,7 +108,7 @@ void ExternalInterrupts::outside_changed(Cycle now) {
   }
 }
 
-// --- change notification ----------------------------------------------------------------------------------
+// --- change notification
 
 void ChangeNotification::attach() {
   f_.bus.attach(*this, kCnen1, kCnpu2);
@@ -118,7 +118,7 @@ void ChangeNotification::attach() {
   for (const Pin pin : kCnPins) f_.ports.watch(pin, *this);
 }
 
-void ChangeNotification::reset(Cycle now) {
+void ChangeNotification::reset(Cycle /*now*/) {
   enabled_ = pull_ups_ = 0;
   levels_.fill(0);
   f_.ports.set_hearing(*this, false);
@@ -165,14 +165,14 @@ void ChangeNotification::on_event(int id, Cycle at) {
   schedule(at);
 }
 
-void ChangeNotification::own_edge(Pin pin, Edge edge, Cycle at) { compare(at); }
+void ChangeNotification::own_edge(Pin /*pin*/, Edge /*edge*/, Cycle at) { compare(at); }
 
 void ChangeNotification::outside_changed(Cycle now) {
   compare(now);
   schedule(now);
 }
 
-std::uint16_t ChangeNotification::peek(unsigned address, Cycle now) const {
+std::uint16_t ChangeNotification::peek(unsigned address, Cycle /*now*/) const {
   const std::uint32_t word = address >= kCnpu1 ? pull_ups_ : enabled_;
   return static_cast<std::uint16_t>((address & 2) ? word >> 16 : word);
 }

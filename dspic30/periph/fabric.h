@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every peripheral is built with: the world beyond the pins, the agenda of instants, flags, pins,
-// complaints.
+// What every peripheral is built with: the world beyond the pins, the agenda of instants,
+// flags, pins, complaints.
 #pragma once
 #include "dspic30/memory/diagnosis.h"
 #include "dspic30/memory/sfr_bus.h"

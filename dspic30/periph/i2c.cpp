@@ -40,7 +40,7 @@ void I2c::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false);
 }
 
-void I2c::reset(Cycle now) {
+void I2c::reset(Cycle /*now*/) {
   con_ = kSclrel;
   slave_ = Slave::Idle;
   stat_ = brg_ = add_ = 0;
@@ -106,7 +106,7 @@ void I2c::request(std::uint16_t bits, Cycle now) {
   }
 }
 
-void I2c::on_event(int id, Cycle at) {
+void I2c::on_event(int /*id*/, Cycle at) {
   Cycle stretched = 0;
   if (!answered_) {
     answered_ = true;
@@ -129,6 +129,7 @@ void I2c::on_event(int id, Cycle at) {
 }
 
 void I2c::finish(Cycle at) {
+  // It reaches the outside now that it is complete.
   switch (operation_) {
     case Operation::Start:
     case Operation::Restart:
@@ -162,7 +163,7 @@ void I2c::finish(Cycle at) {
   f_.interrupts.raise(irq::MasterI2c, at);
 }
 
-// --- as a slave -------------------------------------------------------------------------------------------
+// --- as a slave
 
 void I2c::tell_alone(const char* place, Cycle now) {
   if (f_.outside.i2c_has_master()) return;
@@ -175,13 +176,13 @@ void I2c::tell_alone(const char* place, Cycle now) {
 
 bool I2c::holds_clock() const { return on() && slave_ != Slave::Idle && !(con_ & kSclrel); }
 
-void I2c::hear_start(Cycle at) {
+void I2c::hear_start(Cycle /*at*/) {
   if (!on()) return;
   stat_ = static_cast<std::uint16_t>((stat_ | kS) & ~kP);
   slave_ = Slave::Addressing;
 }
 
-void I2c::hear_stop(Cycle at) {
+void I2c::hear_stop(Cycle /*at*/) {
   if (!on()) return;
   stat_ = static_cast<std::uint16_t>((stat_ | kP) & ~kS);
   slave_ = Slave::Idle;
@@ -206,8 +207,8 @@ bool I2c::hear_byte(std::uint8_t byte, Cycle at) {
   return true;
 }
 
-// what was not read before is kept, the byte is lost and not acknowledged, and the interrupt comes all the
-// same
+// what was not read before is kept, the byte is lost and not acknowledged, and the
+// interrupt comes all the same
 bool I2c::take_in(std::uint8_t byte, Cycle at) {
   f_.interrupts.raise(irq::SlaveI2c, at);
   if (stat_ & kRbf) {
@@ -236,7 +237,7 @@ void I2c::hear_acknowledge(bool acknowledged, Cycle at) {
     con_ &= static_cast<std::uint16_t>(~kSclrel);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t I2c::read(unsigned address, Cycle now) {
   if (address == kRcv) stat_ &= static_cast<std::uint16_t>(~kRbf);
@@ -293,6 +294,7 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
       const auto fresh = static_cast<std::uint16_t>(wanted & kOperations & ~con_);
       // a bit under way cannot be taken back
       con_ = static_cast<std::uint16_t>((wanted & ~kOperations) | (con_ & kOperations));
+      // Off: all that was under way is over, and the pins are the port's again.
       if (!on()) {
         con_ &= static_cast<std::uint16_t>(~kOperations);
         stat_ &= kP;  // a start is over; a stop stays seen: the library waits for it before its first start
@@ -309,12 +311,13 @@ void I2c::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
                                 "an I2C operation is asked for while I2CCON.I2CEN = 0; nothing happens", now);
         break;
       }
+      // On: the pins are taken from the port.
       if (!was_on) {
         const bool was_low = !f_.ports.level(kSda, now);
         f_.ports.own_input(kScl, now + 1);  // open drain: the outside gives the level
         f_.ports.own_input(kSda, now + 1);
-        // pins that the port held low rise as it takes them over, the clock no later than the data: a stop
-        // [?]
+        // pins that the port held low rise as it takes them over, the clock no later than
+        // the data: a stop [?]
         if (was_low && f_.ports.level(kScl, now + 2) && f_.ports.level(kSda, now + 2)) stat_ |= kP;
       }
       request(fresh, now);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // I2C module, as the bus's master and as a slave: I2CCON, I2CSTAT, I2CTRN, I2CRCV, I2CBRG, I2CADD.
 //
-//   SEN RSEN PEN RCEN ACKEN or I2CTRN --> one operation at a time, some SCL periods --> the bit clears,
-//   MI2CIF
-//   start, byte for I2CADD, bytes, stop of another master --> I2CRCV or I2CTRN, SI2CIF; SCLREL = 0 holds SCL
+//   SEN RSEN PEN RCEN ACKEN or I2CTRN --> one operation, some SCL periods --> the bit clears, MI2CIF
+//   another master's start, byte for I2CADD, bytes, stop --> I2CRCV or I2CTRN, SI2CIF; SCLREL = 0 holds SCL
 //
 // Modelled: all master operations with their times, ACKSTAT, TRSTAT, TBF, RBF, I2COV, IWCOL, S, P, clock
 // stretching as the outside reports it, pins taken from the ports; as a slave 7-bit addresses, the general

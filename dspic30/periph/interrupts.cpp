@@ -47,7 +47,7 @@ void Interrupts::reset(Cycle now) {
   uncleared_ = uncleared_again_ = 0;
 }
 
-// --- flags -------------------------------------------------------------------------------------------------
+// --- flags
 
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
   if (events <= 0 || !enabled(irq)) return;
@@ -85,7 +85,7 @@ void Interrupts::set_priority(int irq, int priority) {
   at_priority_[now] |= std::uint64_t{1} << irq;
 }
 
-// --- acceptance --------------------------------------------------------------------------------------------
+// --- acceptance
 
 /// A program that leaves handlers by jumps forgets the outermost one.
 void Interrupts::make_room() {
@@ -110,7 +110,7 @@ void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
                       now);
 }
 
-void Interrupts::set_level(int level, Cycle now) {
+void Interrupts::set_level(int level, Cycle /*now*/) {
   stirred_ = true;
   if (!nesting_disabled()) level_ = level;
 }
@@ -128,7 +128,7 @@ void Interrupts::raise_trap(Trap trap, Cycle now) {
   stirred_ = true;
 }
 
-// --- registers ---------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Interrupts::read(unsigned address, Cycle now) {
   if (address < kIfs0 || address >= kIec0) return peek(address, now);

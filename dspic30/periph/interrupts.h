@@ -26,7 +26,7 @@ class FlagListener {
   virtual ~FlagListener() = default;
   virtual void flag_cleared(int irq, Cycle now) = 0;
   /// INTCON2.INTxEP of this source was changed.
-  virtual void edge_chosen(int irq, Cycle now) {}
+  virtual void edge_chosen(int /*irq*/, Cycle /*now*/) {}
 };
 
 /// Level of trap 1 to 4 [chip C11].
@@ -121,8 +121,8 @@ class Interrupts final : public SfrOwner {
     return !ready && !(intcon1_ & kTrapFlags);
   }
   bool wakes() const { return (ifs_ & iec_ & ~at_priority_[0]) != 0; }
-  /// When an enabled flag wakes the processor, whatever its priority: a cycle after it was set; kNever: none
-  /// is set.
+  /// When an enabled flag wakes the processor, whatever its priority: a cycle after it was set;
+  /// kNever: none is set.
   Cycle wakes_at() const {
     Cycle at = kNever;
     for (std::uint64_t ready = ifs_ & iec_ & ~at_priority_[0]; ready; ready &= ready - 1)
@@ -216,7 +216,7 @@ class Interrupts final : public SfrOwner {
   std::array<std::int64_t, kVectors> served_{};
 };
 
-// --- acceptance, asked after everything that may change it ------------------------------------------------
+// --- acceptance, asked after everything that may change it
 
 inline int Interrupts::pending(Cycle now, int cpu_level) const {
   if (intcon1_ & kTrapFlags) {
@@ -260,8 +260,8 @@ inline Cycle Interrupts::pending_horizon(Cycle now) const {
   return std::max(next, now + 1);
 }
 
-// a write that follows the read of the same flags within this many cycles is the second half of one
-// instruction
+// a write that follows the read of the same flags within this many cycles is the second
+// half of one instruction
 inline constexpr Cycle kReadModifyWrite = 3;
 
 __attribute__((always_inline)) inline void Interrupts::write_flags(int word, std::uint16_t value,

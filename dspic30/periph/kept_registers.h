@@ -38,11 +38,11 @@ class PlainRegisters final : public SfrOwner {
   void attach(unsigned first, unsigned last);
   void reset();
   std::uint16_t word(unsigned address) const;
-  std::uint16_t read(unsigned address, Cycle now) override { return word(address); }
-  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override {
+  std::uint16_t read(unsigned address, Cycle /*now*/) override { return word(address); }
+  void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle /*now*/) override {
     words_[address] = merge_lanes(word(address), value, lanes);
   }
-  std::uint16_t peek(unsigned address, Cycle now) const override { return word(address); }
+  std::uint16_t peek(unsigned address, Cycle /*now*/) const override { return word(address); }
 
  private:
   const Fabric& f_;

@@ -24,7 +24,7 @@ void Nvm::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Nvm, false);
 }
 
-void Nvm::reset(Cycle now) {
+void Nvm::reset(Cycle /*now*/) {
   const bool interrupted = (con_ & kWr) != 0;
   con_ = interrupted ? kWrerr : 0;
   adr_ = adru_ = 0;
@@ -65,7 +65,7 @@ void Nvm::begin(Cycle now) {
   f_.events.set(slot_, end);
 }
 
-void Nvm::on_event(int id, Cycle at) {
+void Nvm::on_event(int /*id*/, Cycle at) {
   Eeprom& words = eeprom_.words();
   const int word = word_index();
   const int row = word < 0 ? -1 : word - word % kRowWords;
@@ -92,6 +92,7 @@ void Nvm::on_event(int id, Cycle at) {
     default:
       if (program_) carry_out_on_flash(static_cast<int>(kProgop.of(con_)));
   }
+  // It is over: the latches are empty again.
   eeprom_hash_ = hash_of_memory(words.data(), sizeof words);
   latches_.fill(kErasedWord);
   con_ &= static_cast<std::uint16_t>(~kWr);
@@ -105,7 +106,7 @@ void Nvm::carry_out_on_flash(int operation) {
     program_->write(operation_at_, latches_[operation_at_ / 2 % kFlashRowWords]);
 }
 
-std::uint16_t Nvm::peek(unsigned address, Cycle now) const {
+std::uint16_t Nvm::peek(unsigned address, Cycle /*now*/) const {
   switch (address) {
     case kCon:
       return con_;
@@ -119,6 +120,7 @@ std::uint16_t Nvm::peek(unsigned address, Cycle now) const {
 }
 
 void Nvm::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  // Was the register before this one written straight before, with nothing in between?
   const bool follows = key_write_ + 1 == f_.bus.writes();
   const bool busy = (con_ & kWr) != 0;
   switch (address) {
@@ -159,7 +161,7 @@ void Nvm::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   }
 }
 
-Cycle Nvm::horizon(unsigned address, Cycle now) const {
+Cycle Nvm::horizon(unsigned address, Cycle /*now*/) const {
   return address == kCon ? f_.events.when(slot_) : kNever;
 }
 

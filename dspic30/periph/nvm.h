@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Self-programming: NVMCON, NVMADR, NVMADRU, NVMKEY, and the data EEPROM.
 //
-//   TBLWT -> latches, NVMADR     NVMCON = operation, WREN     NVMKEY 0x55 0xAA     WR = 1 --2 ms--> WR = 0,
-//   NVMIF
+//   TBLWT -> latches, NVMADR --> NVMCON = operation, WREN --> NVMKEY = 0x55, 0xAA --> WR = 1
+//   WR = 1 --2 ms--> WR = 0, NVMIF
 //
 // Modelled: erase and write of one EEPROM word or row, erase of all, programming that only clears bits, the
 // unlock sequence (the two keys and WR, no other register written in between), WR held while busy, a second
 // operation refused; erase and write of a row of flash, which hold the processor; a configuration word. Not
-// modelled: WRERR by a reset in between beyond setting it, code protection, wear. Source: [chip C18]; [?] 2
-// ms for each operation.
+// modelled: WRERR by a reset in between beyond setting it, code protection, wear. Source: [chip C18];
+// [?] 2 ms for each operation.
 #pragma once
 #include <array>
 #include <cstdint>

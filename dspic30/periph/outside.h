@@ -29,8 +29,8 @@ struct Pin {
 
 enum class Edge : std::uint8_t { Rising, Falling };
 
-/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its pull-up (CNPUx)
-/// or 0.
+/// Levels that the outside puts on the pins of one port. A pin that nobody drives reads its
+/// pull-up (CNPUx) or 0.
 struct PinLevels {
   std::uint16_t levels = 0;  ///< 1: high
   std::uint16_t driven = 0;  ///< 1: the outside decides this pin's level, digitally
@@ -66,17 +66,17 @@ class Outside {
  public:
   virtual ~Outside() = default;
 
-  // --- pins ---------------------------------------------------------------------------------------------
+  // --- pins
   /// What the chip puts on a port from `at` on. `driven`: its outputs; `by_peripheral`: those among them that
   /// a peripheral owns (UART, DCI, SPI, output compare; their levels are not followed bit by bit). Called
   /// when levels or driven pins have changed, and once per port at every reset.
-  virtual void pins_driven(Port port, std::uint16_t levels, std::uint16_t driven, std::uint16_t by_peripheral,
-                           Cycle at) {}
+  virtual void pins_driven(Port /*port*/, std::uint16_t /*levels*/, std::uint16_t /*driven*/,
+                           std::uint16_t /*by_peripheral*/, Cycle /*at*/) {}
   /// Levels at `at`, those of clocks included.
-  virtual PinLevels pin_levels(Port port, Cycle at) { return {}; }
+  virtual PinLevels pin_levels(Port /*port*/, Cycle /*at*/) { return {}; }
   /// First cycle after `after` at which pin_levels(port) may differ in one of `pins`, a bit each; kNever if
   /// they stay. Pixel clocks may be left out when edges() and nth_edge() know them.
-  virtual Cycle levels_horizon(Port port, std::uint16_t pins, Cycle after) { return kNever; }
+  virtual Cycle levels_horizon(Port /*port*/, std::uint16_t /*pins*/, Cycle /*after*/) { return kNever; }
   /// Edges of one pin in (after, until]. By default counted with levels_horizon(); override for fast clocks.
   virtual std::int64_t edges(Pin pin, Edge edge, Cycle after, Cycle until);
   /// Instant of the n-th (1 = first) edge after `after`; kNever if it does not come as far as is known.
@@ -85,28 +85,28 @@ class Outside {
   // --- analogue inputs
   /// Counts of AN`channel` (0 to 15) against AVDD and AVSS, 0 to 4095, held at `at`. Asked once per
   /// conversion and in order, so that noise may be drawn per call.
-  virtual int analogue_counts(int channel, Cycle at) { return 0; }
+  virtual int analogue_counts(int /*channel*/, Cycle /*at*/) { return 0; }
   /// True: analogue_counts() depends on channel and instant alone, noise and pins at that instant included,
   /// whenever and however often it is asked, for the last conversions of every channel. Then a converter that
   /// scans by itself asks only for results that somebody reads.
   virtual bool analogue_is_function_of_time() const { return false; }
   /// The chip's supply, V, for the low-voltage detector; asked when it is switched on and at
   /// outside_changed().
-  virtual double supply_v(Cycle at) { return 3.3; }
+  virtual double supply_v(Cycle /*at*/) { return 3.3; }
 
   // --- UART 1 and 2
   /// A word begins to leave UART `uart` (1, 2) at frame.start; its end lies in the future.
-  virtual void uart_sent(int uart, const UartFrame& frame) {}
+  virtual void uart_sent(int /*uart*/, const UartFrame& /*frame*/) {}
 
   // --- I2C module as master
   /// Each when it is complete on the bus: start or repeated start, byte with its ninth bit, stop.
-  virtual void i2c_start(bool repeated, Cycle at) {}
-  virtual I2cReply i2c_write(std::uint8_t byte, Cycle at) { return {}; }
+  virtual void i2c_start(bool /*repeated*/, Cycle /*at*/) {}
+  virtual I2cReply i2c_write(std::uint8_t /*byte*/, Cycle /*at*/) { return {}; }
   /// The device's next byte, of which the eighth bit is complete at `at`.
-  virtual I2cReply i2c_read(Cycle at) { return {}; }
+  virtual I2cReply i2c_read(Cycle /*at*/) { return {}; }
   /// The master's ninth bit after a byte read.
-  virtual void i2c_acknowledge(bool acknowledged, Cycle at) {}
-  virtual void i2c_stop(Cycle at) {}
+  virtual void i2c_acknowledge(bool /*acknowledged*/, Cycle /*at*/) {}
+  virtual void i2c_stop(Cycle /*at*/) {}
   /// May an answer stretch the clock?
   virtual bool i2c_may_stretch() const { return true; }
   /// Is there another master, which speaks by Dspic30f6014a::i2c_start() and its kin?
@@ -115,11 +115,15 @@ class Outside {
   // --- DCI (codec)
   /// A word of an enabled slot has passed; its last bit ends at `end`. `transmitted`: what CSDO carried,
   /// right-aligned, 4 to 16 bits; 0 when the slot does not transmit. Returns what CSDI carried.
-  virtual std::uint16_t dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) { return 0; }
+  virtual std::uint16_t dci_word(int /*slot*/, std::uint16_t /*transmitted*/, int /*bits*/, Cycle /*end*/) {
+    return 0;
+  }
 
   // --- SPI 1 and 2
   /// A word of 8 or 16 bits went out as master, complete at `end`. Returns what came in.
-  virtual std::uint16_t spi_word(int module, std::uint16_t word, int bits, Cycle end) { return 0; }
+  virtual std::uint16_t spi_word(int /*module*/, std::uint16_t /*word*/, int /*bits*/, Cycle /*end*/) {
+    return 0;
+  }
 };
 
 }  // namespace dspic

@@ -9,8 +9,8 @@ namespace {
 
 constexpr unsigned kAdpcfg = sfr("ADPCFG");
 enum Kind : unsigned { Tris = 0, PortPins = 2, Lat = 4 };
-// writes to an input's latch before it is taken for a mistake: start-up code may set latches before
-// directions
+// writes to an input's latch before it is taken for a mistake: start-up code may set
+// latches before directions
 constexpr int kVainWrites = 3;
 
 std::string pin_name(const char* prefix, Port port, int bit) {

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Ports A B C D F G: TRIS, PORT, LAT, ADPCFG, and who owns a pin.
 //
-//   TRIS=0, LAT --.
-//   peripheral ---+--> pin <--> outside        PORT reads the pin, LAT the latch; writing either sets the
-//   latch
+//   TRIS=0, LAT --.                        reading PORT gives the pin, reading LAT the latch;
+//   peripheral ---+--> pin <--> outside    writing either sets the latch
 //
 // Modelled: implemented pins, outputs of peripherals that override LAT and TRIS, pins taken as inputs (open
 // drain) by a peripheral, pull-ups, analogue pins of port B that read 0, edges that the chip makes itself on
-// a pin which another peripheral watches, the one-cycle read synchroniser. Not modelled:
-// contention with the outside (the chip wins), levels of serial lines bit by bit (owned pins read high).
-// Source: [chip P1].
+// a pin which another peripheral watches, the one-cycle read synchroniser. Not modelled: contention with the
+// outside (the chip wins), levels of serial lines bit by bit (owned pins read high). Source: [chip P1].
 #pragma once
 #include <array>
 #include <cstdint>

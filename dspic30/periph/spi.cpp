@@ -25,7 +25,7 @@ void Spi::attach() {
   slot_ = f_.events.add(*this, 0, std::uint64_t{1} << (number_ == 1 ? irq::Spi1 : irq::Spi2), false);
 }
 
-void Spi::reset(Cycle now) {
+void Spi::reset(Cycle /*now*/) {
   stat_ = con_ = waiting_ = shifting_ = received_ = 0;
   has_waiting_ = is_shifting_ = false;
   f_.events.set(slot_, kNever);
@@ -41,7 +41,7 @@ void Spi::start(Cycle now) {
   f_.events.set(slot_, now + 1 + bits() * clock());
 }
 
-void Spi::on_event(int id, Cycle at) {
+void Spi::on_event(int /*id*/, Cycle at) {
   const auto mask = static_cast<std::uint16_t>(bits() == 16 ? 0xFFFF : 0xFF);
   const std::uint16_t word = f_.outside.spi_word(number_, shifting_ & mask, bits(), at) & mask;
   if (stat_ & kSpirbf)
@@ -60,7 +60,7 @@ std::uint16_t Spi::read(unsigned address, Cycle now) {
   return word;
 }
 
-std::uint16_t Spi::peek(unsigned address, Cycle now) const {
+std::uint16_t Spi::peek(unsigned address, Cycle /*now*/) const {
   switch (address - base_) {
     case kStat:
       return static_cast<std::uint16_t>(stat_ | (has_waiting_ ? kSpitbf : 0));
@@ -99,6 +99,7 @@ void Spi::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   const Pin out = number_ == 1 ? Pin{Port::F, 8} : Pin{Port::G, 8};
   const Pin clock_pin = number_ == 1 ? Pin{Port::F, 6} : Pin{Port::G, 6};
   if (address - base_ > kCon) return;
+  // Its pins are its own while it is on.
   if (on()) {
     f_.ports.own_input(in, now + 1);
     if (con_ & kDissdo)
@@ -114,7 +115,7 @@ void Spi::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
   }
 }
 
-Cycle Spi::horizon(unsigned address, Cycle now) const {
+Cycle Spi::horizon(unsigned address, Cycle /*now*/) const {
   return address - base_ == kCon ? kNever : f_.events.when(slot_);
 }
 

@@ -46,6 +46,7 @@ Cycle SystemControl::watchdog_period() const {
 void SystemControl::reset(ResetKind kind, Cycle now) {
   bitten_ = asleep_ = woke_ = false;
   const auto kept = static_cast<std::uint16_t>(rcon_ & ~(kSwdten | kLvden | kBgst | kLvdl.mask));
+  // Each reset leaves its bit beside those of earlier ones; a power-on forgets these.
   switch (kind) {
     case ResetKind::PowerOn:
       rcon_ = kPor | kBor;
@@ -87,7 +88,7 @@ void SystemControl::power_save(bool sleep, Cycle now) {
   clear_watchdog(now);
 }
 
-void SystemControl::on_event(int id, Cycle at) {
+void SystemControl::on_event(int /*id*/, Cycle at) {
   if (asleep_) {
     rcon_ |= kWdto;
     woke_ = true;
@@ -105,7 +106,7 @@ void SystemControl::watch_supply(Cycle now) {
   if (limit > 0 && f_.outside.supply_v(now) < limit) f_.interrupts.raise(irq::Lvd, now + 1, false);
 }
 
-std::uint16_t SystemControl::peek(unsigned address, Cycle now) const {
+std::uint16_t SystemControl::peek(unsigned address, Cycle /*now*/) const {
   if (address == kRcon) return rcon_;
   return address == kOsccon ? osccon_ : osctun_;
 }
@@ -116,6 +117,7 @@ void SystemControl::write_osccon(std::uint16_t value, std::uint16_t lanes, Cycle
   Lock& lock = is_high ? high_ : low_;
   const std::uint16_t* keys = is_high ? kUnlockHigh : kUnlockLow;
   const bool follows = lock.at_write + 1 == f_.bus.writes();
+  // | is_high)|A byte counts right behind both keys; else it may be the next key.
   if (is_low || is_high) {
     if (lock.step == 2 && follows) {
       const std::uint16_t writable = is_high ? kNosc.mask : kOswen | kIdleBits;

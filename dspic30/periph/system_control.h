@@ -2,11 +2,11 @@
 // Resets, watchdog, oscillator and low-voltage detector: RCON, OSCCON, OSCTUN.
 //
 // Modelled: what each reset leaves in RCON, sticky bits, watchdog with both postscalers by FWDT or
-// RCON.SWDTEN, unlock sequences of OSCCON's two bytes, COSC from FOSC, LVDL thresholds with BGST and LVDIF,
-// RCON.SLEEP and IDLE, in which the watchdog wakes. Not modelled: another clock than the configured one
-// (OSWEN is kept and clears itself), the postscaler POST, the fail-safe monitor, LPOSCEN, tuning, start-up
-// times. Source: [chip C14], [chip C16], [chip P11], thresholds [DS70138G 23-10]; [?] OSCCON and LVDL after a
-// reset.
+// RCON.SWDTEN, unlock sequences of OSCCON's two bytes, COSC from FOSC, LVDL thresholds with BGST and
+// LVDIF, RCON.SLEEP and IDLE, in which the watchdog wakes. Not modelled: another clock than the configured
+// one (OSWEN is kept and clears itself), the postscaler POST, the fail-safe monitor, LPOSCEN, tuning,
+// start-up times. Source: [chip C14], [chip C16], [chip P11], thresholds [DS70138G 23-10]; [?] OSCCON and
+// LVDL after a reset.
 #pragma once
 #include <cstdint>
 #include <optional>

@@ -86,7 +86,7 @@ void Timers::reset(Cycle now) {
 int Timers::flag_of(int timer) const { return kFlags[(unit(timer).wide ? timer + 1 : timer) - 1]; }
 Pin Timers::clock_pin(int timer) const { return kClockPins[timer - 1]; }
 
-// --- the counter in closed form ---------------------------------------------------------------------------
+// --- the counter in closed form
 
 std::int64_t Timers::clocks(int timer, Cycle at) const {
   const Unit& u = unit(timer);
@@ -191,7 +191,7 @@ Cycle Timers::next_reach(int timer, std::uint32_t value, Cycle after) const {
   return tick_instant(timer, nth);
 }
 
-// --- changes of course ------------------------------------------------------------------------------------
+// --- changes of course
 
 void Timers::settle(int timer, Cycle at, Cycle done) {
   Unit& u = unit(timer);
@@ -346,7 +346,7 @@ void Timers::own_edge(Pin pin, Edge edge, Cycle at) {
   }
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Timers::read(unsigned address, Cycle now) {
   const Register r = find(address);
@@ -378,6 +378,7 @@ void Timers::write(unsigned address, std::uint16_t value, std::uint16_t lanes, C
     named.hold = merge_lanes(named.hold, value, lanes);
     return;
   }
+  // A write acts from the next cycle on. The upper half of a pair is counted by the lower one.
   const Cycle at = now + 1;
   const bool is_low = r.timer == 2 || r.timer == 4;
   const int owner = named.slave ? r.timer - 1 : r.timer;
@@ -406,6 +407,7 @@ void Timers::write(unsigned address, std::uint16_t value, std::uint16_t lanes, C
     case What::Con: {
       named.con = merge_lanes(named.con, value, lanes);
       const bool wide = is_low && (named.con & kT32);
+      // two timers become one, or one becomes two
       if (wide != named.wide && is_low) {
         const int high = r.timer + 1;
         Unit& upper = unit(high);
@@ -428,6 +430,7 @@ void Timers::write(unsigned address, std::uint16_t value, std::uint16_t lanes, C
     case What::Hold:
       break;
   }
+  // From here on the closed form is another one.
   configure(owner, at);
   // equality made by the program counts as a match, but once
   const bool equal = u.count == u.pr && u.pr != 0;

@@ -3,13 +3,13 @@
 //
 //   TCY or TxCK edges --> prescaler 1 8 64 256 --> TMR, back to 0 on the tick after TMR == PR --> TxIF
 //
-// Modelled: internal and external clock, prescalers, gate, 32-bit pairs with holding registers, period below
-// the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR. The count is a closed form; only
-// matches are events, and not even those while the flag is still set and nobody else listens. Not modelled:
-// TSIDL, LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2. Times: a write
-// in cycle t acts from t + 1; a tick that makes TMR == PR sets the flag one cycle later; an external edge
-// ticks one cycle after it. Source: [chip P2], pins of T2CK and T3CK [DS70286C]; [?] flag phase with
-// prescalers.
+// Modelled: internal and external clock, prescalers, gate, 32-bit pairs with holding registers, period
+// below the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR. The count is a closed form;
+// only matches are events, and not even those while the flag is still set and nobody else listens. Not
+// modelled: TSIDL, LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2.
+// Times: a write in cycle t acts from t + 1; a tick that makes TMR == PR sets the flag one cycle later; an
+// external edge ticks one cycle after it. Source: [chip P2], pins of T2CK and T3CK [DS70286C]; [?] flag
+// phase with prescalers.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -25,8 +25,8 @@ inline constexpr int kTimers = 5;
 class TimerListener {
  public:
   virtual ~TimerListener() = default;
-  virtual void timer_matched(int timer, Cycle at) {}
-  virtual void timer_changed(int timer, Cycle at) {}
+  virtual void timer_matched(int /*timer*/, Cycle /*at*/) {}
+  virtual void timer_changed(int /*timer*/, Cycle /*at*/) {}
 };
 
 class Timers final : public SfrOwner, public EventOwner, public FlagListener, public PinListener {

@@ -74,7 +74,7 @@ UartFrame Uart::format(std::uint16_t word, Cycle start) const {
   return frame;
 }
 
-// --- out --------------------------------------------------------------------------------------------------
+// --- out
 
 void Uart::schedule_transmit(Cycle now) {
   const bool waits = transmits() && out_.count > 0 && break_since_ < 0;
@@ -123,7 +123,7 @@ void Uart::end_break(Cycle now) {
   schedule_receive(now);
 }
 
-// --- in ---------------------------------------------------------------------------------------------------
+// --- in
 
 void Uart::receive(const UartFrame& frame, Cycle now) {
   const bool looped = (mode_ & kLpback) && enabled();
@@ -151,6 +151,7 @@ void Uart::schedule_receive(Cycle now) {
 
 void Uart::take_in(const UartFrame& frame, Cycle at) {
   check_rate(frame.start);
+  // The word as this receiver's own rate and format see the line.
   const UartFrame own = format(0, align(frame.start));
   const auto sample = [&](int index) { return frame.level(own.start + index * bit() + bit() / 2); };
   if (sample(0)) return;  // too short for a start bit
@@ -172,6 +173,7 @@ void Uart::take_in(const UartFrame& frame, Cycle at) {
     f_.diagnostics.report(
         Cause::UartFrameError, name("STA.FERR"),
         name("RX") + ": a word came without its stop bit; the two ends differ in rate or format", at);
+  // Words for others are dropped, and so are those that find no room.
   if ((sta_ & kAdden) && own.data_bits == 9 && !(received.word & 0x100)) return;
   if (sta_ & kOerr) {  // blocked
     ++overruns_;
@@ -186,6 +188,7 @@ void Uart::take_in(const UartFrame& frame, Cycle at) {
                           at);
     return;
   }
+  // The interrupt comes by the number of words that wait.
   in_.push(received);
   const unsigned select = kUrxisel.of(sta_);
   const std::size_t needed = select == 3 ? 4 : select == 2 ? 3 : 1;
@@ -200,7 +203,7 @@ void Uart::on_event(int id, Cycle at) {
   schedule_receive(at);
 }
 
-// --- registers --------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t Uart::read(unsigned address, Cycle now) {
   if (address - base_ != kRxReg || in_.count == 0) return peek(address, now);

@@ -101,6 +101,7 @@ int sum(Cpu& cpu, std::int64_t limit, unsigned flip, int cycles) {
     apart = -apart;
     cycles += 3;
   }
+  // The smaller one is shifted down, and a bit that falls out stays in the lowest.
   std::uint32_t m = widened(a), n = widened(b);
   const int down = apart < 31 ? apart : 31;
   n = n >> down | ((n & ((1u << down) - 1)) != 0);
@@ -109,12 +110,14 @@ int sum(Cpu& cpu, std::int64_t limit, unsigned flip, int cycles) {
   r.w5 = static_cast<unsigned>(apart < 16 ? apart : down - 16);
   r.w6 = a >> 16;
   cycles += 13 + (apart < 16 ? 9 : 11) + 3;
+  // Like signs: the sum, which may have a bit more.
   if (!((a ^ b) & kSign)) {
     const std::uint64_t both = std::uint64_t{m} + n;
     if (both >> 32 == 0) return rounded(cpu, limit, flip, r, e, static_cast<std::uint32_t>(both), cycles + 6);
     const auto half = static_cast<std::uint32_t>(both >> 1) | (both & 1);
     return rounded(cpu, limit, flip, r, e + 1, half, cycles + 12);
   }
+  // Unlike signs: the difference, which may have lost bits at the top.
   cycles += 7;
   if (m < n) {  // the exponents were the same
     m = n - m;

@@ -26,6 +26,7 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
   const std::uint32_t x = magnitude(a), y = magnitude(b);
   set(cpu, 5, x >> 16);
   set(cpu, 7, kInfinity >> 16);
+  // NaN on one side: there is no order.
   if (x > kInfinity) {
     sub_pair(cpu, x, kInfinity);
     return ordered(cpu, unordered, kEntry + 7 + kExit);
@@ -35,6 +36,7 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
     sub_pair(cpu, y, kInfinity);
     return ordered(cpu, unordered, kEntry + 12 + kExit);
   }
+  // Both may be zero, of any sign, or the same.
   int cycles = kEntry + 13;
   if (x) {
     cycles += 2;
@@ -49,6 +51,7 @@ int order(Cpu& cpu, std::int64_t limit, unsigned unordered) {
     return ordered(cpu, 0, cycles + 5 + kExit);
   }
   sub_pair(cpu, a, b);
+  // Unlike signs tell it; of like signs the larger magnitude counts, in its direction.
   if ((a ^ b) & kSign) {
     const bool is_less = a & kSign;
     sub(cpu, a >> 16, 0);

@@ -3,7 +3,10 @@
 // fit, leave registers, flags and the stack below W15 as the routine does. So not even a program that reads
 // what it never wrote can tell one from the other.
 //
-//   int form(Cpu& cpu, std::int64_t limit)  {  cycles of the operands; over `limit`: 0  ->  leave all; cycles
+//   int form(Cpu& cpu, std::int64_t limit) {
+//     from the operands: the cycles it takes
+//     more than `limit`: return 0, with nothing changed
+//     leave registers, flags and stack; return the cycles
 //   }
 #pragma once
 #include <cstdint>

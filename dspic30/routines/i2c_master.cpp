@@ -2,15 +2,15 @@
 // The primitives of hal_dspic's I2C master (hal_dspic/I2C), as they are compiled at -O1. Each begins one
 // operation of the module, then counts rounds down until the module's interrupt has cleared the mode:
 //
-//   prologue --register--> operation on the bus --flag--> handler (mode = 0) --> the rest of a round,
-//   epilogue
-//             rounds, one like the other
+//   prologue --register--> operation on the bus --flag--> handler (mode = 0) --> rest of a round, epilogue
+//                          meanwhile rounds, one like the other
 //
 // The operation runs on the chip's module, at the cycle at which the routine would begin it; the interrupt is
 // entered and left as the core does. What comes in between is a closed form of when the flag rises. Where
 // anything else may happen before the routine is over, where it would give up or wait in vain, or where the
 // wait is not known as one yet (core/waits.h counts it), the routine runs.
 #include <array>
+#include <optional>
 
 #include "dspic30/core/waits.h"
 #include "dspic30/routines/forms.h"
@@ -272,38 +272,33 @@ int write_byte(Cpu& cpu, std::int64_t limit) {
   return call.cycles();
 }
 
-int stop(Cpu& cpu, std::int64_t limit) {
-  static const Shape shape = {Operation::Stop, 3, 9, 3, 9, 2, 10000, 3, 4, 5, 1, 0};
+/// Sets a bit that asks for a condition on the bus, which is `started` or not, if that matters. `loads`: the
+/// register that holds the mode afterwards.
+int ask(Cpu& cpu, std::int64_t limit, const Shape& shape, std::optional<bool> started, unsigned bit,
+        unsigned loads) {
   const unsigned mode = loaded(cpu, cpu.address_of(cpu.at), 0);
   Primitive call(cpu, limit, shape, mode);
-  if (!call.can_be()) return 0;
-  call.run([&](Cycle at) { set_bit(cpu, 2, at); });
+  if ((started && cpu.parts.i2c.is_started() != *started) || !call.can_be()) return 0;
+  call.run([&](Cycle at) { set_bit(cpu, bit, at); });
   set(cpu, 0, 1);
-  set(cpu, 1, mode);
+  set(cpu, loads, mode);
   return call.cycles();
+}
+
+int stop(Cpu& cpu, std::int64_t limit) {
+  static const Shape shape = {Operation::Stop, 3, 9, 3, 9, 2, 10000, 3, 4, 5, 1, 0};
+  return ask(cpu, limit, shape, std::nullopt, 2, 1);
 }
 
 int restart(Cpu& cpu, std::int64_t limit) {
   static const Shape shape = {Operation::Restart, 7, 14, 3, 14, 1, 10000, 3, 4, 6, 1, 0};
-  const unsigned mode = loaded(cpu, cpu.address_of(cpu.at), 0);
-  Primitive call(cpu, limit, shape, mode);
-  if (!cpu.parts.i2c.is_started() || !call.can_be()) return 0;
-  call.run([&](Cycle at) { set_bit(cpu, 1, at); });
-  set(cpu, 0, 1);
-  set(cpu, 2, mode);
-  return call.cycles();
+  return ask(cpu, limit, shape, true, 1, 2);
 }
 
 // while a start is seen that no stop has followed it begins nothing
 int start(Cpu& cpu, std::int64_t limit) {
   static const Shape shape = {Operation::Start, 6, 13, 4, 17, 1, 10000, 3, 4, 1, 0, 0};
-  const unsigned mode = loaded(cpu, cpu.address_of(cpu.at), 0);
-  Primitive call(cpu, limit, shape, mode);
-  if (cpu.parts.i2c.is_started() || !call.can_be()) return 0;
-  call.run([&](Cycle at) { set_bit(cpu, 0, at); });
-  set(cpu, 0, 1);
-  set(cpu, 2, mode);
-  return call.cycles();
+  return ask(cpu, limit, shape, false, 0, 2);
 }
 
 // by a jump to what acknowledges and refuses

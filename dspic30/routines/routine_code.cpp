@@ -82,6 +82,7 @@ class Walk {
       const std::uint32_t word = program_.read(address);
       const Flow flow = flow_of(word);
       bool ends = false;
+      // Words as they are, but for addresses, which are the linker's affair.
       switch (flow) {
         case Flow::Unknown:
           return false;

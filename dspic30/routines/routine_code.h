@@ -9,9 +9,8 @@
 namespace dspic {
 
 /// 0: it cannot be followed (a computed branch, a DO loop, an interrupt's return), or is longer than any
-/// known routine.
-/// `hides_variable`: the first address of RAM that it loads stands for a variable, whose place is the
-/// linker's affair too.
+/// known routine. `hides_variable`: the first address of RAM that it loads stands for a variable, whose place
+/// is the linker's affair too.
 std::uint64_t code_sum(const ProgramMemory& program, unsigned address, bool hides_variable = false);
 
 }  // namespace dspic

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The handlers of hal_dspic's UART driver (hal_dspic/uart/uart_driver.h), as they are compiled at -O1:
 //
-//   flag --entry--> saved registers, flag down, bytes between ring or caller's memory and the module's FIFOs,
-//   RETFIE
+//   flag --entry--> registers saved, flag down, bytes moved --RETFIE--> program
+//                   (between the ring or the caller's memory and the module's FIFOs)
 //
-// The module is the chip's: each access to it comes at the cycle at which the handler's own code would make
-// it. Known by heart is what lies between. Where anything else may happen before the handler is over, where
-// somebody looks on, or where the code is another one, the handler runs. So nothing but the PC's time depends
-// on it.
+// The module is the chip's: each access to it comes at the cycle at which the handler's own code would
+// make it. Known by heart is what lies between. Where anything else may happen before the handler is over,
+// where somebody looks on, or where the code is another one, the handler runs. So nothing but the PC's
+// time depends on it.
 #include <array>
 
 #include "dspic30/core/waits.h"
@@ -186,8 +186,8 @@ class UartHandler {
     return true;
   }
 
-  /// Entry and the registers that it saves; `pairs` of W registers from W0 up. Its first instruction begins
-  /// at begin_.
+  /// Entry and the registers that it saves; `pairs` of W registers from W0 up. Its first
+  /// instruction begins at begin_.
   void enter(unsigned pairs) {
     cpu_.waits->cut(cpu_);
     Interrupts& interrupts = cpu_.parts.interrupts;
@@ -259,6 +259,7 @@ bool UartHandler::send(Cycle until) {
     if (byte_at(from + i) < 0) return false;
   const bool is_flash = from >= Cpu::kPsvStart;
 
+  // From here on it is done: registers, flag, then byte after byte, with the cycles of the handler's code.
   enter(1);
   lower_flag(begin_ + 5);
   Cycle t = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A translated stretch as bytes that can lie anywhere: what the translator makes, what is kept in a file, and
-// what runs.
+// A translated stretch as bytes that can lie anywhere: what the translator makes, what is kept in a
+// file, and what runs.
 #pragma once
 #include <cstdint>
 #include <string>

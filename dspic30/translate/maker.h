@@ -205,8 +205,7 @@ class Maker {
   bool may_leave_ = false;      // ... by the instruction that is being put
   bool may_loop_ = false;       // ... or have begun a DO loop
   std::vector<Effect> effects_;
-  // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch
-  // ends
+  // where the interpreter's function runs in an instruction's stead, from its beginning, and the stretch ends
   struct Aside {
     const Item* item;
     BasicBlock *first, *block;

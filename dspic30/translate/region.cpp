@@ -69,6 +69,7 @@ Maker::Maker(Semantics& semantics, const Cpu& cpu, const std::vector<Item>& item
 }
 
 std::unique_ptr<Module> Maker::make() {
+  // The entry, each instruction, and the ways out, in one function.
   put_entry();
   for (const Item& item : items_)
     if (!put_item(item)) return nullptr;
@@ -79,6 +80,7 @@ std::unique_ptr<Module> Maker::make() {
     Value* const now = field(&cpu_.now, long_);
     ir_.CreateStore(ir_.CreateAdd(ir_.CreateLoad(long_, now), ir_.getInt64(cycles)), now);
   };
+  // How each way ends.
   ir_.SetInsertPoint(exit_);
   ir_.CreateRet(exit_at_);
   for (const Way& way : ways_) {
@@ -89,6 +91,7 @@ std::unique_ptr<Module> Maker::make() {
     ir_.SetInsertPoint(aside.block);
     ir_.CreateUnreachable();
   }
+  // Now that it is complete, the state becomes the function's own.
   removeUnreachableBlocks(*function_);
   for (BasicBlock& block : *function_) live_.insert(&block);
   if (!keep_state()) return nullptr;
@@ -99,6 +102,7 @@ std::unique_ptr<Module> Maker::make() {
     }));
     pass(-items_[0].decoded.cycles);
   }
+  // An instruction that is run aside runs alone, with the Cpu as it is where it begins.
   for (const Aside& aside : asides_) {
     if (!live_.count(aside.block)) continue;
     Instruction* const end = aside.block->getTerminator();
@@ -129,7 +133,7 @@ void Maker::put_entry() {
   ir_.CreateRet(called(alone(items_[0]), {cpu_arg_, head_arg_}));
 }
 
-// --- an instruction -------------------------------------------------------------------------------------
+// --- an instruction
 
 bool Maker::put_item(const Item& item) {
   BasicBlock* const first = blocks_[index_of(item)];
@@ -139,6 +143,7 @@ bool Maker::put_item(const Item& item) {
     ir_.CreateBr(aside(item, first));
     return true;
   }
+  // It is a call of the instruction's function, inlined, or of something that does the same.
   Value* const d = place(item.place);
   Function* const own = item.is_host ? nullptr : semantics_.of(item.word);
   CallInst* call;
@@ -151,6 +156,7 @@ bool Maker::put_item(const Item& item) {
     call = called(item.is_host ? kHost : item.is_told ? kTold : kAlone, {cpu_arg_, d});
   }
   ir_.CreateRet(ir_.CreateBitCast(call, byte_->getPointerTo()));
+  // What is known of its operands makes it small.
   if (own) {
     if (!inlined(call)) return false;
     fold(item, first);
@@ -158,6 +164,7 @@ bool Maker::put_item(const Item& item) {
     put_costs(item, first);
     take_saved(first);
   }
+  // Where it goes from here.
   find_effects(item, first);
   for (BasicBlock* block : blocks_from(first)) {
     auto* const back = dyn_cast<ReturnInst>(block->getTerminator());
@@ -335,6 +342,7 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
   std::vector<CallInst*> beyond;
   bool others = false;
   const auto deadline = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.deadline));
+  // Each call, and each store that lowers the deadline, has an effect beyond the function.
   for (BasicBlock* block : blocks_from(first))
     for (Instruction& i : *block) {
       if (is_real_call(i)) {
@@ -358,6 +366,7 @@ void Maker::find_effects(const Item& item, BasicBlock* first) {
         may_leave_ = may_loop_ = true;
       }
     }
+  // Where nothing but accesses beyond RAM remain, they lead aside.
   if (others || beyond.empty()) return;
   for (CallInst* call : beyond) {
     BasicBlock* const block = call->getParent();

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A stretch of the program as one function of LLVM's.
 //
-//   words that follow one another --functions of their instructions, inlined one after another--> one
-//   function
+//   words that follow one another --their instructions' functions, inlined one by one--> one function
 //
 // Within it, W registers, flags and the clock are the function's own; they are put back into the Cpu where
 // something else may look: at its end, and around calls to what is not inlined (registers of peripherals, the

@@ -20,6 +20,7 @@ namespace dspic::translate {
 bool Maker::find_accesses(Hot& hot) {
   const auto ram = static_cast<std::int64_t>(offset_of(cpu_, &cpu_.ram));
   std::map<const BasicBlock*, const Item*> begins;
+  // Every load and store of the function, and the instruction of the program that it belongs to.
   for (const Item& item : items_) begins[blocks_[index_of(item)]] = &item;
   const Item* current = nullptr;
   for (Instruction& i : instructions(*function_)) {
@@ -101,6 +102,7 @@ void Maker::find_unsaved() {
 bool Maker::keep_state() {
   Hot hot(cpu_);
   if (!find_accesses(hot)) return false;
+  // What calls may see or change has to be in the Cpu before them, and is taken anew behind them.
   std::set<const Item*> callers;
   for (const Effect& effect : effects_) {
     const auto* const what = cast_or_null<Instruction>(static_cast<Value*>(effect.what));
@@ -110,6 +112,7 @@ bool Maker::keep_state() {
       if (sees(hot, effect, f) || changes(hot, effect, f)) settles_[what] |= hot.bit(f);
   }
   find_unsaved();
+  // The state's own place on the stack, and both ways between it and the Cpu.
   BasicBlock& entry = function_->getEntryBlock();
   ir_.SetInsertPoint(&entry, entry.begin());
   AllocaInst* const own = ir_.CreateAlloca(ArrayType::get(byte_, hot.end - hot.begin));
@@ -129,6 +132,7 @@ bool Maker::keep_state() {
   const auto take = [&](const Hot::Field& f) {
     ir_.CreateStore(ir_.CreateLoad(ir_.getIntNTy(8 * f.bytes), outer(f)), inner(f));
   };
+  // It is taken at the beginning, and every access goes to the copy.
   for (const Hot::Field& f : hot.fields)
     if (f.is_used) take(f);
   for (const auto& [access, operand] : accesses_) {
@@ -140,6 +144,7 @@ bool Maker::keep_state() {
                                              byte_, bytes, static_cast<std::uint64_t>(offset) - hot.begin),
                                          pointer->getType()));
   }
+  // Around calls: what they may look at is put back, what they may have changed is taken anew.
   for (const Effect& effect : effects_) {
     auto* const what = cast_or_null<Instruction>(static_cast<Value*>(effect.what));
     if (!what) continue;
@@ -156,6 +161,7 @@ bool Maker::keep_state() {
     ir_.SetInsertPoint(what->getNextNode());
     ir_.CreateStore(ir_.getTrue(), left_);
   }
+  // At the ends: whatever was written on any way there.
   for (BasicBlock* block : exits()) {
     if (!live_.count(block)) continue;
     ir_.SetInsertPoint(block, block->getFirstInsertionPt());
@@ -178,7 +184,7 @@ bool Maker::keep_state() {
   return true;
 }
 
-// --- the end --------------------------------------------------------------------------------------------
+// --- the end
 
 void Maker::optimise() {
   legacy::FunctionPassManager passes(semantics_.module.get());

@@ -6,12 +6,14 @@ namespace dspic::translate {
 
 // `block`, which has no end yet, goes where `next` says
 void Maker::leave(const Item& item, BasicBlock* block, Value* next) {
+  // One place: an edge leads there.
   const int frame = item.callee ? item.callee : item.frame;
   bool arrives = false;
   if (place_of(next, arrives)) {
     BranchInst::Create(edge(item, next, frame), block);
     return;
   }
+  // A choice of places, such as a branch makes: each of them gets its own edge.
   auto* const phi = dyn_cast<PHINode>(next->stripPointerCasts());
   const auto is_bare = [&] {
     return std::all_of(block->begin(), block->end(), [&](Instruction& i) {
@@ -110,6 +112,7 @@ BasicBlock* Maker::passed(const Item& item) {
 // the instruction's time passes; then the next one, unless something may happen before it
 BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
   BasicBlock* const begin = passed(item);
+  // It leaves the stretch, by a way that is known or by a pointer.
   bool arrives = false;
   const Optional<std::ptrdiff_t> to = place_of(next, arrives);
   if (to && (arrives || (frame == 0 && *to == end_))) {
@@ -125,6 +128,7 @@ BasicBlock* Maker::edge(const Item& item, Value* next, int frame) {
     exit_at_->addIncoming(pointer, begin);
     return begin;
   }
+  // It stays within. Time is checked where a section begins, and behind what may have lowered the deadline.
   BasicBlock* const first = blocks_[index_of(*target)];
   const bool is_back = target <= &item;
   const bool begins_section =

@@ -90,12 +90,14 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
   };
   const std::size_t first = items.size();
   for (std::ptrdiff_t place = begin; place - begin < longest && is_flash(place);) {
+    // What may not lie within a stretch ends it.
     const Decoded* const d = head_ + place;
     Item item;
     item.word = cpu_.program.read(cpu_.address_of(d));
     const Row* const row = find_row(item.word);
     if (!row || d == cpu_.loop_end) return false;
     if (cpu_.is_wait_head(d) && d != head_) return false;  // the program stops there to look
+    // Is this an instruction as the decoder left it, of which the translator knows all?
     const bool is_routine = cpu_.known_at(cpu_.address_of(d));
     const Run plain = cpu_.is_decoded(d) && !is_routine ? cpu_.plain(d) : nullptr;
     item.is_host = plain == &call_host;
@@ -105,6 +107,7 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
     if (!is_known && (items.size() == first || place >= reach)) return false;
     bool ends = ends_a_stretch(row->id) && !item.is_host;
     if (is_known) {
+      // Where it leads, and how long it takes at most.
       item.place = place;
       item.decoded = *d;
       item.plain = plain;

@@ -18,7 +18,7 @@ namespace {
 
 using namespace llvm;
 
-// --- an object file as machine code ---------------------------------------------------------------------
+// --- an object file as machine code
 
 /// Sections that are loaded, one behind the other, that of the instructions first.
 std::map<object::SectionRef, std::uint64_t> laid_out(const object::ObjectFile& object, std::string& bytes) {
@@ -60,7 +60,7 @@ bool take_addresses(const object::ObjectFile& object, MachineCode& code) {
   return true;
 }
 
-// --- the compiler ---------------------------------------------------------------------------------------
+// --- the compiler
 
 struct Compiler {
   LLVMContext context;
@@ -102,8 +102,8 @@ struct Compiler {
 /// For the program that loads this: one that was built of other headers has the core's fields elsewhere.
 extern "C" const std::size_t dspic_translate_cpu_bytes = sizeof(dspic::Cpu);
 
-/// `code` stays empty where something in the stretch cannot be translated, or on a machine that LLVM does not
-/// know.
+/// `code` stays empty where something in the stretch cannot be translated, or on a machine that
+/// LLVM does not know.
 extern "C" void dspic_translate(const dspic::Cpu& cpu, const std::vector<dspic::translate::Item>& items,
                                 dspic::translate::MachineCode& code) {
   static auto* const compiler = new dspic::translate::Compiler;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One robot of a world, by name: what can be seen of it from outside, and of its program as a debugger sees
-// it.
+// One robot of a world, by name: what can be seen of it from outside, and of its program as
+// a debugger sees it.
 #pragma once
 #include <string>
 #include <vector>

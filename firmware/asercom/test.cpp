@@ -84,7 +84,7 @@ class Asercom : public FirmwareTest {
   Robot* puck_ = nullptr;
 };
 
-// --- start-up --------------------------------------------------------------------------------------------
+// --- start-up
 
 TEST_F(Asercom, begins_with_selector_and_banner_and_only_once_after_power_up) {
   Robot& robot = puck(3);
@@ -122,7 +122,7 @@ TEST_F(Asercom, reset_begins_again) {
   expect_no_traps();
 }
 
-// --- framing ---------------------------------------------------------------------------------------------
+// --- framing
 
 TEST_F(Asercom, cr_or_lf_end_a_line_and_letters_may_be_small) {
   started(5);
@@ -164,7 +164,7 @@ TEST_F(Asercom, binary_commands_answer_together_and_in_order_after_the_zero) {
   EXPECT_EQ(reply(binary("zE") + "Hello" + binary("\x01") + kEnd), word(0) + word(0));
 }
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 
 TEST_F(Asercom, text_drives_and_counts) {
   Robot& robot = started();
@@ -201,7 +201,7 @@ TEST_F(Asercom, speeds_are_reported_as_ordered) {
   EXPECT_EQ(robot.left_steps(), steps);
 }
 
-// --- LEDs ------------------------------------------------------------------------------------------------
+// --- LEDs
 
 TEST_F(Asercom, text_switches_leds) {
   Robot& robot = started();
@@ -235,7 +235,7 @@ TEST_F(Asercom, binary_switches_leds_body_and_front_by_number) {
   EXPECT_EQ(robot.leds(), 0x200u);
 }
 
-// --- proximity, light, battery, remote control -------------------------------------------------------------
+// --- proximity, light, battery, remote control
 
 TEST_F(Asercom, proximity_is_what_the_sensors_give) {
   box(0.08, 0, 0.06);  // its face 5 cm before the wheels' middle
@@ -334,7 +334,7 @@ TEST_F(Asercom, key_nought_does_nothing_at_power_up) {
   expect_no_traps();
 }
 
-// --- words about itself ------------------------------------------------------------------------------------
+// --- words about itself
 
 // the last word of the data EEPROM: 01 in its lowest bits for a camera that stands upright
 TEST_F(Asercom, version_and_hardware) {
@@ -362,7 +362,7 @@ TEST_F(Asercom, selector_is_read_live) {
   EXPECT_EQ(reply("C\r"), "c,14\r\n");
 }
 
-// --- accelerometer, microphones, I2C, camera, sound --------------------------------------------------------
+// --- accelerometer, microphones, I2C, camera, sound
 
 TEST_F(Asercom, accelerometer_raw_in_text_and_binary) {
   started();
@@ -485,7 +485,7 @@ TEST_F(Asercom, sounds_are_played_or_stopped) {
   expect_no_traps();
 }
 
-// --- hardware revision 1.3 ---------------------------------------------------------------------------------
+// --- hardware revision 1.3
 
 TEST_F(Asercom, revision_1_3_measures_its_battery_rotation_and_temperature) {
   puck().battery(4.0).settings().own["revision"] = "1.3";
@@ -513,7 +513,7 @@ TEST_F(Asercom, revision_1_3_measures_its_battery_rotation_and_temperature) {
   expect_no_traps();
 }
 
-// --- noise -------------------------------------------------------------------------------------------------
+// --- noise
 
 // A million bytes of noise at full speed: nothing hangs, and after what ends any unfinished command (more
 // zeros than the longest one asks for, and a line end) the next command is answered.
@@ -535,7 +535,7 @@ TEST_F(Asercom, a_million_random_bytes_do_no_harm) {
   expect_no_traps();
 }
 
-// --- turret mode -------------------------------------------------------------------------------------------
+// --- turret mode
 
 TEST_F(Asercom, in_position_ten_the_turret_is_served_and_some_commands_are_not) {
   Robot& robot = puck(10);

@@ -23,11 +23,11 @@
 #define __dsPIC30F6014A__ 1
 #endif
 
-/* --- interrupt handlers: void _ISR _T1Interrupt(void) --------------------------------------------------- */
+/* --- interrupt handlers: void _ISR _T1Interrupt(void) */
 #define _ISR __attribute__((__interrupt__))
 #define _ISRFAST __attribute__((__interrupt__, __shadow__))
 
-/* --- placement of variables: no effect on a PC, where memory has one space ------------------------------ */
+/* --- placement of variables: no effect on a PC, where memory has one space */
 #define _PERSISTENT __attribute__((persistent))
 #define _NEAR __attribute__((near))
 #define _XBSS(alignment) __attribute__((space(xmemory), aligned(alignment)))
@@ -36,14 +36,14 @@
 #define _YDATA(alignment) __attribute__((space(ymemory), aligned(alignment)))
 #define _EEDATA(alignment) __attribute__((space(eedata), aligned(alignment)))
 
-/* --- single instructions -------------------------------------------------------------------------------- */
+/* --- single instructions */
 #define Nop() { __asm__ volatile("nop"); }
 #define ClrWdt() { __asm__ volatile("clrwdt"); }
 #define Sleep() { __asm__ volatile("pwrsav #0"); }
 #define Idle() { __asm__ volatile("pwrsav #1"); }
 #define Reset() { __asm__ volatile("reset"); }
 
-/* --- built-in functions of XC16 that reach registers (the others: xc16_builtins.h) --------------- */
+/* --- built-in functions of XC16 that reach registers (the others: xc16_builtins.h) */
 #define __builtin_get_isr_state() ((unsigned)SRbits.IPL)
 #define __builtin_set_isr_state(state) (SRbits.IPL = (state))
 #define __builtin_disable_interrupts() (SRbits.IPL = 7)
@@ -58,7 +58,7 @@
 #define __builtin_readsfr(address) (*(volatile unsigned *)(address))
 #define __builtin_writesfr(address, value) (*(volatile unsigned *)(address) = (value))
 
-/* --- priority of the running program, 0 to 7: interrupts at or below it wait ---------------------------- */
+/* --- priority of the running program, 0 to 7: interrupts at or below it wait */
 #define SET_CPU_IPL(ipl) { SRbits.IPL = (ipl); }
 #define SET_AND_SAVE_CPU_IPL(save_to, ipl) { save_to = SRbits.IPL; SRbits.IPL = (ipl); }
 #define RESTORE_CPU_IPL(saved_to) { SRbits.IPL = (saved_to); }
@@ -155,7 +155,7 @@
 #define PGD2 0xFFFD
 #define PGD3 0xFFFC
 
-/* --- the registers, by address -------------------------------------------------------------------------- */
+/* --- the registers, by address */
 extern volatile unsigned int WREG0 __asm__("tp_sfr_0000");
 extern volatile unsigned int WREG1 __asm__("tp_sfr_0002");
 extern volatile unsigned int WREG2 __asm__("tp_sfr_0004");
@@ -2415,7 +2415,7 @@ typedef struct tagPMD2BITS {
 extern volatile PMD2BITS PMD2bits __asm__("tp_sfr_0772");
 extern volatile unsigned int PMD3 __asm__("tp_sfr_0774");
 
-/* --- short names of fields that occur in one register only --------------------------------------------- */
+/* --- short names of fields that occur in one register only */
 #define _C SRbits.C
 #define _Z SRbits.Z
 #define _OV SRbits.OV

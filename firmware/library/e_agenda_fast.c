@@ -66,7 +66,7 @@ static unsigned int common_divisor(unsigned int a, unsigned int b) {
   return a;
 }
 
-/* --- choice of a timer -------------------------------------------------------------------------------- */
+/* --- choice of a timer */
 
 static int free_timer(void) {
   int i = tasks.timers_in_use[0] == 0   ? 0
@@ -147,7 +147,7 @@ static Agenda* find_task(void (*func)(void)) {
   return find_in(timer == NO_TIMER ? tasks.waiting : tasks.agendas[timer], func);
 }
 
-/* --- the API ------------------------------------------------------------------------------------------ */
+/* --- the API */
 
 void e_start_agendas_processing(void) {
   int i;

@@ -14,7 +14,7 @@ void e_set_blinking_cycle(int cycle) {
   if (cycle >= 0) e_set_agenda_cycle(e_blink_led, cycle);
 }
 
-/* --- animations: one step a call ---------------------------------------------------------------------- */
+/* --- animations: one step a call */
 
 /* one LED travels clockwise; the one behind it goes out */
 void snake_led(void) {

@@ -101,7 +101,7 @@ static void put_word(int place, unsigned int word) {
   value[place + 1] = (unsigned char)word;
 }
 
-/* --- to the sensor and back --------------------------------------------------------------------------- */
+/* --- to the sensor and back */
 
 void e_po3030k_write_cam_registers(void) { e_po3030k_sync_register_array(0x00, 0xff); }
 
@@ -152,7 +152,7 @@ int e_po3030k_get_register(unsigned char adr, unsigned char* v) {
   return -1;
 }
 
-/* --- picture ------------------------------------------------------------------------------------------ */
+/* --- picture */
 
 int e_po3030k_get_bytes_per_pixel(int color_mode) { return camera_bytes_per_pixel(color_mode); }
 
@@ -249,7 +249,7 @@ void e_po3030k_init_cam(void) {
   hal_camera_reset();
 }
 
-/* --- light and colour --------------------------------------------------------------------------------- */
+/* --- light and colour */
 
 void e_po3030k_set_bias(unsigned char pixbias, unsigned char opbias) {
   value[BIAS] = opbias;
@@ -324,7 +324,7 @@ void e_po3030k_set_sepia_tone(unsigned char cb, unsigned char cr) {
   value[SEPIA_TONE + 1] = cr;
 }
 
-/* --- automatics --------------------------------------------------------------------------------------- */
+/* --- automatics */
 
 void e_po3030k_set_ww(unsigned char ww) { value[CENTRE_WEIGHT] = (unsigned char)((ww << 4) + 0x0f); }
 
@@ -378,7 +378,7 @@ void e_po3030k_set_awb_ae(int awb, int ae) {
   value[AUTOMATICS] = (unsigned char)(0x0c | (awb ? 0x20 : 0) | (ae ? 0x10 : 0));
 }
 
-/* --- flicker ------------------------------------------------------------------------------------------ */
+/* --- flicker */
 
 void e_po3030k_set_flicker_mode(int manual) {
   if (manual)

@@ -25,7 +25,7 @@ unsigned int getCameraVersion();
 
 unsigned int getCameraVersion() { return camera_version; }
 
-/* --- whichever sensor it is --------------------------------------------------------------------------- */
+/* --- whichever sensor it is */
 
 int e_poxxxx_init_cam(void) {
   unsigned int high, low;

@@ -38,7 +38,7 @@ static int device_count;
 static unsigned char is_running;
 static unsigned int leds_on;
 
-/* --- the clock ---------------------------------------------------------------------------------------- */
+/* --- the clock */
 
 static volatile unsigned int fired; /* ends of steps that the agenda has seen */
 static int clock_ms;                /* what the agenda counts; 0 before the first step */
@@ -102,7 +102,7 @@ int webots_step(int ms) {
 
 unsigned long webots_time_ms(void) { return time_ms; }
 
-/* --- the devices -------------------------------------------------------------------------------------- */
+/* --- the devices */
 
 struct webots_device* webots_add(const char* name, WbNodeType node, int index, int source) {
   struct webots_device* d = &devices[device_count];
@@ -244,7 +244,7 @@ void webots_robot_axes(float forward, float left, float up, float* xyz) {
   }
 }
 
-/* --- LEDs --------------------------------------------------------------------------------------------- */
+/* --- LEDs */
 
 void webots_led(int led, int on) {
   if (on)
@@ -264,7 +264,7 @@ void webots_show_leds(void) {
   for (led = 0; led < LEDS; led++) webots_led(led, leds_on >> led & 1);
 }
 
-/* --- the beginning ------------------------------------------------------------------------------------ */
+/* --- the beginning */
 
 #define UART_115200 7 /* FCY / (16 * 115200) - 1, FCY 14.7456 MHz [DS70143 17.0] */
 static unsigned char is_of_2005;

@@ -63,7 +63,7 @@ static int mode(void) {
 
 static void write_text(const char* format, va_list list) { vprintf(format, list); }
 
-/* --- webots/robot.h ----------------------------------------------------------------------------------- */
+/* --- webots/robot.h */
 
 int wb_robot_init(void) {
   webots_init();
@@ -104,7 +104,7 @@ double wb_robot_battery_sensor_get_value(void) {
 void wb_robot_live(void (*reset)(void)) { live(reset); }
 void wb_robot_run(int (*run)(int)) { run_for_ever(run); }
 
-/* --- console ------------------------------------------------------------------------------------------ */
+/* --- console */
 
 void wb_robot_console_printf(const char* format, ...) {
   va_list list;
@@ -118,7 +118,7 @@ void wb_console_print(const char* text, int stream) {
   wb_robot_console_printf("%s", text);
 }
 
-/* --- device/robot.h ----------------------------------------------------------------------------------- */
+/* --- device/robot.h */
 
 void robot_live(void (*reset)(void)) {
   webots_begin_2005();

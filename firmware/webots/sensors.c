@@ -56,7 +56,7 @@ static unsigned short counts_of(const struct webots_device* d) {
   return d->value > 65535.0f ? 65535u : (unsigned short)d->value;
 }
 
-/* --- distance sensors --------------------------------------------------------------------------------- */
+/* --- distance sensors */
 
 void wb_distance_sensor_enable(WbDeviceTag tag, int sampling_period) {
   enable_distance(distance(tag, "wb_distance_sensor_enable"), sampling_period);
@@ -92,7 +92,7 @@ unsigned short distance_sensor_get_value(DeviceTag tag) {
   return counts_of(distance(tag, "distance_sensor_get_value"));
 }
 
-/* --- light sensors ------------------------------------------------------------------------------------ */
+/* --- light sensors */
 
 void wb_light_sensor_enable(WbDeviceTag tag, int sampling_period) {
   struct webots_device* d = light(tag, "wb_light_sensor_enable");
@@ -116,5 +116,5 @@ unsigned short light_sensor_get_value(DeviceTag tag) {
   return counts_of(light(tag, "light_sensor_get_value"));
 }
 
-/* --- touch sensors ------------------------------------------------------------------------------------ */
+/* --- touch sensors */
 

@@ -53,7 +53,7 @@ static struct webots_device* receiver(WbDeviceTag tag, const char* function) {
   return webots_device_of(tag, WB_NODE_RECEIVER, function);
 }
 
-/* --- emitter ------------------------------------------------------------------------------------------ */
+/* --- emitter */
 
 int wb_emitter_send(WbDeviceTag tag, const void* data, int size) {
   if (!emitter(tag, "wb_emitter_send") || size <= 0 || !turret("wb_emitter_send")) return 0;
@@ -76,7 +76,7 @@ int emitter_send_packet(DeviceTag tag, const void* data, int size) { return wb_e
 void emitter_set_channel(DeviceTag tag, int channel) { wb_emitter_set_channel(tag, channel); }
 int emitter_get_channel(DeviceTag tag) { return wb_emitter_get_channel(tag); }
 
-/* --- receiver ----------------------------------------------------------------------------------------- */
+/* --- receiver */
 
 /* what comes while the queue is full stays in the turret, which loses what comes after it */
 static void take_over(struct webots_device* device) {

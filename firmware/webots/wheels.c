@@ -121,7 +121,7 @@ void webots_wheel_speed(int wheel, float rad_s) {
 
 float webots_wheel_command(int wheel) { return wheels[wheel].speed; }
 
-/* --- differential wheels ------------------------------------------------------------------------------ */
+/* --- differential wheels */
 
 static struct webots_device* encoders; /* null until a program wants them */
 static long shown[2], zero[2];         /* steps */
@@ -177,7 +177,7 @@ void differential_wheels_set_encoders(int left, int right) {
   set_encoder(1, right);
 }
 
-/* --- motors ------------------------------------------------------------------------------------------- */
+/* --- motors */
 
 static struct webots_device* motor(WbDeviceTag tag, const char* function) {
   return webots_device_of(tag, WB_NODE_ROTATIONAL_MOTOR, function);
@@ -260,7 +260,7 @@ WbDeviceTag wb_motor_get_position_sensor(WbDeviceTag tag) {
   return d ? webots_tag_of(WB_NODE_POSITION_SENSOR, d->index) : 0;
 }
 
-/* --- position sensors --------------------------------------------------------------------------------- */
+/* --- position sensors */
 
 static struct webots_device* sensor(WbDeviceTag tag, const char* function) {
   return webots_device_of(tag, WB_NODE_POSITION_SENSOR, function);

@@ -24,7 +24,7 @@
     config __FWDT, 0x7FFF        ; no watchdog
     config __FBORPOR, 0xFF7F     ; no brown-out reset, MCLR on
 
-; --- row 0x17EC0: what does not fit behind the entry. An uploader cannot write it -----------------------
+; --- row 0x17EC0: what does not fit behind the entry. An uploader cannot write it
 
     .section .extension, code, address(0x17EC0)
 ; W12: the row that is asked for or to be written, its page in TBLPAG. To `bad` if it holds the bootloader.
@@ -63,7 +63,7 @@ read_row:
     rcall send
     bra next_frame
 
-; --- row 0x17F00: its last four words are the uploader's ------------------------------------------------
+; --- row 0x17F00: its last four words are the uploader's
 
     .section .user, code, address(0x17F38)
 user:
@@ -72,7 +72,7 @@ user:
     nop
     nop
 
-; --- rows 0x17F40 to 0x17FFF ----------------------------------------------------------------------------
+; --- rows 0x17F40 to 0x17FFF
 
     .section .boot, code, address(0x17F40)
 __reset:

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// motor_led/advance_one_timer/e_agenda.h. Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts
-// restated.
+// motor_led/advance_one_timer/e_agenda.h. Source:
+// [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #include "hal_sim/api/host_functions.h"
 #include "hal_sim/api/host_library.h"
 #include "hal_sim/board/board.h"

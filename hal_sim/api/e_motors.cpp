@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// motor_led/advance_one_timer/e_motors.h. Source: [lib: motor_led/advance_one_timer/e_motors.c], facts
-// restated.
+// motor_led/advance_one_timer/e_motors.h. Source:
+// [lib: motor_led/advance_one_timer/e_motors.c], facts restated.
 #include "hal_sim/api/host_functions.h"
 #include "hal_sim/api/host_library.h"
 #include "hal_sim/board/board.h"
@@ -18,11 +18,11 @@ std::size_t index_of(Wheel wheel) { return wheel == Wheel::Left ? 0 : 1; }
 
 }  // namespace
 
-// --- speeds ----------------------------------------------------------------------------------------------
+// --- speeds
 
 /// What setting takes. The coils go off at once; the agenda's cycle is what the function sets last, or for
 /// speed 0 all but last.
-Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at) {
+Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
   const CallCycles& c = cycles_;
   const bool left = wheel == Wheel::Left;
   Cycle cost = speed == 0                    ? (left ? c.left_zero : c.right_zero)
@@ -39,14 +39,14 @@ Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at)
 
 HostResult HostLibrary::e_set_speed_left(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(call, Wheel::Left, call.number(0), call.at);
+  const Cycle cost = set_speed(Wheel::Left, call.number(0), call.at);
   changed(call);
   return HostResult::done(cost);
 }
 
 HostResult HostLibrary::e_set_speed_right(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(call, Wheel::Right, call.number(0), call.at);
+  const Cycle cost = set_speed(Wheel::Right, call.number(0), call.at);
   changed(call);
   return HostResult::done(cost);
 }
@@ -63,8 +63,8 @@ HostResult HostLibrary::e_set_speed(const Call& call) {
                                      : (right_turn ? c.both_refused_pn : c.both_refused_pp));
   effect(call);
   Cycle cost = backward ? (right_turn ? c.both_nn : c.both_np) : (right_turn ? c.both_pn : c.both_pp);
-  cost += set_speed(call, Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
-  cost += set_speed(call, Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
+  cost += set_speed(Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
+  cost += set_speed(Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
   changed(call);
   return HostResult::done(cost);
 }
@@ -79,7 +79,7 @@ HostResult HostLibrary::e_init_motors(const Call& call) {
   return HostResult::done(cost);
 }
 
-// --- steps -----------------------------------------------------------------------------------------------
+// --- steps
 
 HostResult HostLibrary::get_steps(const Call& call, Wheel wheel, Cycle cost) {
   call.cpu.note_look(agendas().steps_horizon(wheel, call.at));
@@ -106,7 +106,7 @@ HostResult HostLibrary::e_set_steps_right(const Call& call) {
   return set_steps(call, Wheel::Right, cycles_.set_right);
 }
 
-// --- one firing, called as a function --------------------------------------------------------------------
+// --- one firing, called as a function
 
 /// Setting the half's cycle, beside what the firing takes when no agenda runs and its own is the newest.
 Cycle HostLibrary::cost_of_half(Wheel wheel) const {

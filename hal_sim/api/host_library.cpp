@@ -70,7 +70,7 @@ void HostLibrary::begin(Cycle at) {
   held_ = 1u << kAgendaHandler | 1u << kScanHandler;
 }
 
-// --- calls -----------------------------------------------------------------------------------------------
+// --- calls
 
 HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
   if (index == static_cast<unsigned>(HostFunction::e_get_prox) && is_right_reading(cpu, index))
@@ -128,7 +128,7 @@ void HostLibrary::begin_anew(Cycle at) {
   note(3, at);
 }
 
-// --- registers -------------------------------------------------------------------------------------------
+// --- registers
 
 std::uint16_t HostLibrary::read(unsigned address, Cycle at) { return variables_.read(address, at); }
 
@@ -144,7 +144,7 @@ Cycle HostLibrary::horizon(unsigned address, Cycle at) { return variables_.horiz
 
 std::uint16_t HostLibrary::peek(unsigned address, Cycle at) const { return variables_.peek(address, at); }
 
-// --- handlers --------------------------------------------------------------------------------------------
+// --- handlers
 
 int HostLibrary::vector(int handler) const {
   if (handler == kAgendaHandler)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// hal_sim: the e-puck library's busy drivers as functions of the host. A program of the chip calls them
-// beyond the flash (host_table.inc); each does to the board what hal_dspic's own code does, and takes what
-// that takes.
+// hal_sim: the e-puck library's busy drivers as functions of the host. A program of the chip calls
+// them beyond the flash (host_table.inc); each does to the board what hal_dspic's own code does, and
+// takes what that takes.
 //
 //   program --call--> HostLibrary --> hal_sim/drivers (closed forms) --> board's pins
 //           <--agendas' functions, as Timer 2's interrupt; scan's arrays, served at the beginning of RAM--
@@ -34,8 +34,8 @@ class CallWatch {
  public:
   virtual ~CallWatch() = default;
   virtual void called(HostFunction function) = 0;
-  /// An agenda's function, at this program address, is about to be called; 0: the last one of this tick has
-  /// returned.
+  /// An agenda's function, at this program address, is about to be called; 0: the last one of
+  /// this tick has returned.
   virtual void calls_back(unsigned function, Cycle at) = 0;
   /// The library gives up, as it does by exit(1): the processor is about to be reset.
   virtual void gives_up() = 0;
@@ -120,7 +120,7 @@ class HostLibrary final : public dspic::HostCalls {
   HostResult change_found(const Call& call, Cycle cost, Change change);
 
   // --- motors
-  Cycle set_speed(const Call& call, board::Wheel wheel, int speed, Cycle at);
+  Cycle set_speed(board::Wheel wheel, int speed, Cycle at);
   HostResult get_steps(const Call& call, board::Wheel wheel, Cycle cost);
   HostResult set_steps(const Call& call, board::Wheel wheel, Cycle cost);
   HostResult run_motor(const Call& call, board::Wheel wheel);

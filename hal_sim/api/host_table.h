@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The rows of host_table.inc, for who links images, and the sum by which an image says which table it was
-// linked for.
+// The rows of host_table.inc, for who links images, and the sum by which an image says which
+// table it was linked for.
 #pragma once
 #include <cstddef>
 #include <cstdint>

@@ -59,7 +59,7 @@ std::uint64_t ScanVariables::share_q32() const {
   return share_.q32;
 }
 
-// --- samples ---------------------------------------------------------------------------------------------
+// --- samples
 
 std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - cycles_.scan_files); }
 
@@ -110,6 +110,7 @@ std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
 }
 
 std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
+  // What the program has written itself stands there until the scan files the next sample.
   if (const Written* written = overlay_ ? written_at(place) : nullptr;
       written && written->number != kNobody &&
       std::max<std::int64_t>(-1, number_of(place, at)) <= written->number)
@@ -135,7 +136,7 @@ std::uint16_t ScanVariables::sample(Place place, Cycle at, bool keep) const {
   }
 }
 
-// --- words -----------------------------------------------------------------------------------------------
+// --- words
 
 std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const {
   const Place place = place_of(address);

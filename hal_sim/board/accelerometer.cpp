@@ -50,8 +50,8 @@ sim::Vec3 felt_force_m_s2(const Board& robot, Cycle at, double pole_hz) {
 sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz) {
   sim::Vec3 w;
   if (robot.scene()) {
-    // rates are means over a tick, so the filter is a sum over ticks, and turning in jerks is averaged
-    // rightly
+    // rates are means over a tick, so the filter is a sum over ticks, and turning in jerks
+    // is averaged rightly
     const sim::Clicks tick = sim::motion_lag(*robot.scene());
     const double fading = std::exp(-sim::to_seconds(tick) / time_constant_s(pole_hz));
     double left = 1;

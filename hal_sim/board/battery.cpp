@@ -67,8 +67,8 @@ void Battery::weaken(double drop_v, double more_ohm, Cycle at) {
 }
 
 double Battery::used_wh(Cycle at) const {
-  // the voltage at rest falls so slowly that the mean of both ends is exact enough: 1 % of charge is some 10
-  // mV
+  // the voltage at rest falls so slowly that the mean of both ends is exact enough: 1 % of
+  // charge is some 10 mV
   const double mean_v = (rest_v_ + rest_v(charge(at))) / 2;
   return (used_j_ + ((mean_v - drop_v_) * flow(at) - resistance_ohm_ * heat(at)) * kSecondsPerCycle) / 3600;
 }

@@ -50,8 +50,8 @@ class Battery {
 
  private:
   static double between(int point, double charge);
-  /// What has flowed from settled_ to `at`: ampere cycles, and their squares, of which the inner resistance
-  /// makes heat.
+  /// What has flowed from settled_ to `at`: ampere cycles, and their squares, of which the inner
+  /// resistance makes heat.
   double flow(Cycle at) const { return flow_ + amps_ * static_cast<double>(at - since_); }
   double heat(Cycle at) const { return heat_ + amps_ * amps_ * static_cast<double>(at - since_); }
   void settle(Cycle at);

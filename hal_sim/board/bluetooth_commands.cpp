@@ -45,6 +45,7 @@ void BluetoothModule::drop_everything(sim::Clicks at) {
 
 void BluetoothModule::obey(std::uint8_t opcode, const Bytes& p, sim::Clicks at) {
   const sim::Clicks then = at + kBtAnswerTime;
+  // Texts travel with a byte of their length before them.
   const auto text_in = [&](std::size_t from) {
     std::string text(p.begin() + static_cast<std::ptrdiff_t>(from), p.end());
     return text.substr(0, std::min(text.size(), std::size_t{p[from - 1]}));

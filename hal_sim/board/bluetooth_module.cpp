@@ -63,7 +63,7 @@ void BluetoothModule::settle_idle() {
   if (!is_idle() && wake) wake();
 }
 
-// --- UART 1 ----------------------------------------------------------------------------------------------
+// --- UART 1
 
 void BluetoothModule::deliver(const std::uint8_t* bytes, const Cycle* ends, std::size_t count) {
   std::size_t i = 0;
@@ -151,7 +151,7 @@ void BluetoothModule::follow_computer(sim::Clicks now) {
   }
 }
 
-// --- links -----------------------------------------------------------------------------------------------
+// --- links
 
 void BluetoothModule::tell(int to, Kind kind, Bytes bytes, sim::Clicks at, bool reliable) {
   sim::LinkMessage message;
@@ -206,6 +206,7 @@ void BluetoothModule::on_message(const sim::LinkMessage& message, sim::Clicks no
     return a;
   };
   const Bytes mine(address_.begin(), address_.end());
+  // Each question has its answer, and an answer counts only while somebody waits for it.
   switch (message.kind) {
     case kInquire:
       tell(message.from, kHere, mine, now, false);
@@ -241,6 +242,7 @@ void BluetoothModule::on_message(const sim::LinkMessage& message, sim::Clicks no
       }
       break;
     case kPage:
+      // It is called: unless answer_page() refuses, it is linked and transparent from now on.
       if (address_in(0) == address_) {
         const BtAddress from = address_in(6);
         const std::uint8_t status = answer_page(from, std::string(b.begin() + 12, b.end()));
@@ -281,6 +283,7 @@ void BluetoothModule::on_message(const sim::LinkMessage& message, sim::Clicks no
 }
 
 void BluetoothModule::run_deadlines(sim::Clicks now) {
+  // Robots that an inquiry found are indicated one by one, up to as many as were asked for.
   Inquiry& q = inquiry_;
   while (q.until >= 0 && !q.coming.empty() && q.coming.front().at <= now) {
     Bytes payload(q.coming.front().address.begin(), q.coming.front().address.end());
@@ -293,6 +296,7 @@ void BluetoothModule::run_deadlines(sim::Clicks now) {
     q.until = -1;
     confirm(kBtInquiry, {kBtOk}, now);
   }
+  // Nobody has told its name in time.
   if (naming_.until >= 0 && naming_.until <= now) {
     naming_.until = -1;
     Bytes payload{kBtTimeout};
@@ -307,6 +311,7 @@ void BluetoothModule::run_deadlines(sim::Clicks now) {
     payload.push_back(kBtPort);
     indicate(kBtLinkEstablished, payload, now);
   };
+  // The robot that was called has not answered, or its answer has come.
   if (paging_.until >= 0 && paging_.until <= now) {
     paging_.until = -1;
     announce(kBtTimeout, paging_.address);

@@ -69,7 +69,7 @@ int Board::port_index(char port) {
 
 void Board::find_sound() { may_hear_ = scene_ && sim::has_sound(*scene_); }
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 
 Stepper& Board::stepper(Wheel wheel, Cycle at) {
   if (driver_) driver_->bring_motor(wheel, at);
@@ -98,7 +98,7 @@ void Board::connect_steppers(Cycle at) {
   stepper(Wheel::Right, at).connect((tris_[kD] & kRightCoils) == 0, at);
 }
 
-// --- ports -----------------------------------------------------------------------------------------------
+// --- ports
 
 std::uint16_t Board::port_read(char port, Register reg, Cycle at) const {
   const int index = port_index(port);
@@ -143,11 +143,13 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     outputs_changed(at);
     return;
   }
+  // The chip's own program drives: the two frequent cases, coils and emitters, are short.
   if (is_led_by_pins()) {
     if (index == kD) return write_coils(value, at);
     if (value == lat_[i]) return;
     if (!((value ^ lat_[i]) & ~kEmitterMask[i])) return write_emitters(i, value, at);
   }
+  // Coils: each motor whose pattern changed follows.
   if (index == kD) {
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const unsigned coils = (value >> (wheel == Wheel::Left ? 0 : kRightCoilsBit)) & 15u;
@@ -157,6 +159,7 @@ void Board::port_write(char port, Register reg, std::uint16_t value, Cycle at) {
     follow_power(at);
     return;
   }
+  // Emitters: a line that rises begins a pulse.
   for (int pair = 0; pair < 4; ++pair) {
     const Pin line = kEmitterPins[pair];
     if (line.port != index) continue;
@@ -355,7 +358,7 @@ Cycle Board::horizon(Cycle at) const {
   return driver_ ? driver_->horizon(at) : kNever;
 }
 
-// --- analogue inputs -------------------------------------------------------------------------------------
+// --- analogue inputs
 
 IrConversion Board::ir_conversion(int sensor, Cycle at, Cycle lit_for) const {
   const std::size_t i = static_cast<std::size_t>(sensor);

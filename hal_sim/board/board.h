@@ -129,7 +129,7 @@ class Board {
   const Setup& setup() const { return setup_; }
   const RobotClock& clock() const { return clock_; }
 
-  // --- the world ------------------------------------------------------------------------------------------
+  // --- the world
 
   /// The frozen scene that sensors see until the next call; null: a dark void. Called before each run window.
   void look_at(const sim::Scene* scene) {
@@ -159,7 +159,7 @@ class Board {
   /// Everything that must repeat from run to run.
   std::uint64_t state_hash(Cycle at) const;
 
-  // --- pins and registers ---------------------------------------------------------------------------------
+  // --- pins and registers
 
   enum class Register { Tris, Port, Lat };
   /// Word of port 'A' 'B' 'C' 'D' 'F' 'G' as the processor reads it now; other letters read 0. PORT gives pin
@@ -186,7 +186,6 @@ class Board {
   void set_battery(double volts, Cycle at);
 
   // --- damage: damage.h, line_damage.h
-  // ----------------------------------------------------------------------
 
   /// Null: nothing was ever wrong with it.
   const Damage* damage() const { return damage_.get(); }
@@ -230,16 +229,16 @@ class Board {
     const Damage* damage_;
   };
 
-  // --- checks ---------------------------------------------------------------------------------------------
+  // --- checks
 
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to
   /// `at`, in no order. Costs nothing while nobody asks.
   std::vector<Diagnosis> diagnoses(Cycle at) const;
 
-  // --- devices --------------------------------------------------------------------------------------------
+  // --- devices
 
-  /// A model of the chip is soldered on: its pins alone move the board's, and it asks for the microphones at
-  /// every conversion.
+  /// A model of the chip is soldered on: its pins alone move the board's, and it asks for the microphones
+  /// at every conversion.
   void solder() { is_soldered_ = true; }
   /// Whoever moves pins by itself; null: nobody. Outlives the board's use or takes itself away.
   void attach(PinDriver* driver) { driver_ = driver; }
@@ -266,8 +265,8 @@ class Board {
   Camera* camera() { return camera_.get(); }
   const Camera* camera() const { return camera_.get(); }
   /// The processor's side of the bus.
-  /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written for
-  /// Webots' interfaces.
+  /// Emitters and receivers of packets, and sensors that a supervisor defines: for programs written
+  /// for Webots' interfaces.
   PacketDevices& packets() { return packets_; }
   VirtualDevices& virtual_devices() { return virtual_; }
   const VirtualDevices& virtual_devices() const { return virtual_; }
@@ -279,11 +278,11 @@ class Board {
   /// Counts on AN`channel` where something else than the analogue accelerometer is connected: a part, or what
   /// revision 1.3 has there. Empty: the accelerometer's. Whatever samples AN5 to AN7 asks this first.
   std::optional<int> counts_of_others(int channel, Cycle at) const;
-  /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its cost is the
-  /// caller's.)
+  /// e_init_port(): latches 0, directions as the library wants them, the I2C module on. (Its
+  /// cost is the caller's.)
   void init_ports(Cycle at);
-  /// Until when exchange() has nothing to do and nothing that firmware has not asked for happens; `at`: not
-  /// known.
+  /// Until when exchange() has nothing to do and nothing that firmware has not asked for
+  /// happens; `at`: not known.
   Cycle horizon(Cycle at) const;
   /// Tick boundary: bytes from outside enter, bytes sent so far go out, old bookkeeping is dropped.
   void exchange(Cycle at);
@@ -295,8 +294,8 @@ class Board {
   int ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   /// Is every dark sample at the converter's top: no light, no noise?
   bool is_dark() const { return setup_.ambient_noise_counts == 0 && !is_lit_ && !damage_; }
-  /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear, all frequencies
-  /// alike.
+  /// Counts of microphone 0 right, 1 left, 2 back that is held at `at`: 0 to 4095. Linear,
+  /// all frequencies alike.
   int mic_counts(int microphone, Cycle at) const;
   /// What draws the noise of this robot's samples.
   const SampleNoise& noise() const { return noise_; }
@@ -343,8 +342,8 @@ class Board {
   void find_sound();
   __attribute__((noinline)) int damaged_ir_counts(int sensor, Cycle at, Cycle lit_for) const;
   __attribute__((noinline)) int mic_counts_in_sound(int microphone, Cycle at) const;
-  /// Levels of microphones are in 2^-kMicFraction counts, whole: a robot's are converted 50,000 times a
-  /// second.
+  /// Levels of microphones are in 2^-kMicFraction counts, whole: a robot's are converted
+  /// 50,000 times a second.
   static constexpr int kMicFraction = 24;
   int with_mic_noise(std::int64_t level, int microphone, Cycle at) const;
   unsigned pulses(Cycle at) const { return driver_ ? driver_->pulses(at) : 0; }

@@ -36,7 +36,7 @@ double light_of_count(const SensorSetup& s, double count) {
 Camera::Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise)
     : board_(board), sensor_(sensor), mount_(mount), noise_(noise), exposure_s_(kStartExposureS) {}
 
-// --- frames ----------------------------------------------------------------------------------------------
+// --- frames
 
 SensorSetup Camera::setup() const { return sensor_.setup(); }
 
@@ -112,7 +112,7 @@ void Camera::plan_line() {
   }
 }
 
-// --- light -----------------------------------------------------------------------------------------------
+// --- light
 
 /// Tangents for each pixel along a line and down the lines.
 std::array<double, 2> Camera::scale() const {
@@ -183,11 +183,13 @@ void Camera::run_automatics(std::int64_t frames, Cycle at) {
   for (int i = 0; i < kDown; ++i) lines_.push_back((i + 0.5) * kArrayHeight / kDown);
   render(columns_, lines_, at);
 
+  // Limits of the exposure, and the mean that it shall lead to.
   const double line_s = static_cast<double>(taken_.line_cycles()) / static_cast<double>(kFcyHz);
   const double shortest_s = kShortestLines * line_s;
   const double longest_s = taken_.longest_integration * line_s * kLargestGain;
   const double target = light_of_count(taken_, taken_.target);
   for (std::int64_t frame = 0; frame < frames; ++frame) {
+    // The mean that this exposure gives, and the colours of what is nearly grey and not overexposed.
     double sum = 0, red = 0, green = 0, blue = 0;
     for (const sim::Light& l : light_) {
       const double k = exposure_s_ * kResponse;
@@ -200,6 +202,7 @@ void Camera::run_automatics(std::int64_t frames, Cycle at) {
     }
     bool changed = false;
     const double mean = sum / static_cast<double>(light_.size());
+    // One step towards the target; within some percent of it nothing moves.
     if (taken_.auto_exposure && std::fabs(mean - target) > kExposureHold * target) {
       const double wanted =
           exposure_s_ * std::clamp(target / std::max(mean, 1e-9), 1 / kExposureStep, kExposureStep);
@@ -216,6 +219,7 @@ void Camera::run_automatics(std::int64_t frames, Cycle at) {
       auto_red_ = r;
       auto_blue_ = b;
     }
+    // from here on all frames would be alike
     if (!changed) break;
   }
 }
@@ -277,6 +281,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
   std::array<std::uint8_t, 3> rgb{};
   int developed = -1;
   for (const Byte& b : line_) {
+    // Bytes of one pixel are made of one development, so they share its noise.
     if (b.pixel != developed) {
       developed = b.pixel;
       const std::size_t p = static_cast<std::size_t>(b.pixel);
@@ -288,6 +293,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
       rgb = inside ? develop(light_[transposed_ ? p * high + row : row * wide + p], pixel)
                    : std::array<std::uint8_t, 3>{};
     }
+    // The byte that the format has at this place.
     std::uint8_t value = 0;
     const double luma_count = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
     switch (taken_.format) {
@@ -311,6 +317,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
     hash_ = sim::fold(hash_, static_cast<std::uint64_t>(value));
     if (on_picture && cut_.is_picture) picture_.push_back(value);
   }
+  // The last line completes the picture.
   if (number + 1 < cut_.rows || !cut_.is_picture) return;
   note_picture({0, static_cast<int>(columns_.size()) - 1, cut_.columns, 0, cut_.rows - 1, cut_.rows},
                picture_, at);

@@ -11,8 +11,8 @@
 // what the camera sees now:
 //   exposure: times clamp(target / mean, 1/2, 2) per frame, target and mean as light, until within 6 %
 //   white:    red and blue gain a quarter of the way per frame to where nearly grey pixels are grey
-// Not modelled: motion blur, the Bayer pattern, lens distortion and shading, crosstalk of colours, flicker of
-// lamps.
+// Not modelled: motion blur, the Bayer pattern, lens distortion and shading, crosstalk of colours,
+// flicker of lamps.
 #pragma once
 #include <array>
 #include <cstdint>

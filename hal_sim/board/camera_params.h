@@ -6,7 +6,7 @@
 
 namespace board {
 
-// --- optics ------------------------------------------------------------------------------------------------
+// --- optics
 inline constexpr double kCameraXM = 0.030;  // m ahead of the axle's middle [FRM A9]
 inline constexpr double kCameraZM = 0.028;  // m above the floor [FRM A9]
 inline constexpr int kArrayWidth = 640;     // pixels [lib: camera/fast_2_timer/e_poxxxx.h]
@@ -14,12 +14,12 @@ inline constexpr int kArrayHeight = 480;    // pixels [lib: camera/fast_2_timer/
 // 640 columns cover 0.84 rad: 320 / tan(0.42)
 inline constexpr double kFocalPx = 716.54;  // pixels of the array [FRM A9]
 
-// --- time --------------------------------------------------------------------------------------------------
+// --- time
 // the sensor's clock is the processor's instruction clock
 // PO3030K: registers 4 to 7 of the library's table hold 851 twice, line length and, by a slip, frame length
 // too: 852 x 852 pixels. The authors' 1.3 and 2.6 pictures a second follow (1.27, 2.54). Integration of 998
-// lines, the table's other value, makes a frame of 998 + 8 lines: the authors' 4.3 (grey 8.6, 4.3, 2.2)
-// follow
+// lines, the table's other value, makes a frame of 998 + 8 lines, from which the authors' 4.3 follow (grey
+// 8.6, 4.3, 2.2).
 inline constexpr int kIntegrationMargin =
     8;  // lines from integration to frame [derived: 14745600 / 4 / 852 / 4.3 - 998]
 // PO6030K: 18.432 pictures a second at half the clock [measured: documentation of epucklib, camera]
@@ -31,7 +31,7 @@ inline constexpr int kPo8030FrameLines = 516;  // [lib: camera/fast_2_timer/e_po
 // longest integration of the two in automatic mode: the frame is stretched to twice its length
 inline constexpr int kLongestFrames = 2;  // [measured: documentation of epucklib, rate halves in the dark]
 
-// --- light -------------------------------------------------------------------------------------------------
+// --- light
 // white under 1 W/m2, exposed for one second at gain 1, gives this share of full scale. An ordinary bright
 // scene then needs 0.25 s, where the authors' frame rates lie
 inline constexpr double kResponse =

@@ -88,11 +88,13 @@ int scale_of(int value) { return value == 0x80 ? 4 : value == 0x40 ? 2 : 1; }
 CameraSensor::CameraSensor(CameraKind kind) : I2cRegisters(kAddress), kind_(kind) { reset(0); }
 
 void CameraSensor::reset(Cycle at) {
+  // Who keeps what it knows of the registers sees by the version that they are others now.
   for (auto& bank : banks_) bank.clear();
   bank_ = 0;
   hash_ = sim::fold(hash_, std::uint64_t{1});
   ++version_;
   written_at_ = at;
+  // The registers' values after a reset.
   switch (kind_) {
     case CameraKind::Po3030k: {
       using namespace po3030;
@@ -185,6 +187,7 @@ SensorSetup CameraSensor::setup() const {
 SensorSetup CameraSensor::setup_3030() const {
   using namespace po3030;
   SensorSetup s;
+  // What the picture is made of: scale, format, clock, size, window, mirrors.
   const int sampling = at(A, kSampling);
   s.sub_sampling = sampling == 0x33 ? 4 : sampling == 0x11 ? 2 : 1;
   const int format = at(A, kFormat);
@@ -201,6 +204,7 @@ SensorSetup CameraSensor::setup_3030() const {
   s.first_y = word(A, kVsync) + s.sub_sampling - kOriginY;
   s.mirror_lines = (at(A, kMirror) & 0x40) != 0;
   s.mirror_columns = (at(A, kMirror) & 0x80) != 0;
+  // What the automatics do, and what holds where they are off.
   s.auto_white = (at(A, kAutomatics) & 0x20) != 0;
   s.auto_exposure = (at(A, kAutomatics) & 0x10) != 0;
   s.exposure_lines = (at(A, kExposure) << 16 | at(A, kExposure + 1) << 8 | at(A, kExposure + 2)) / 64.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Checks of the board: what a program does to motors, emitters and pins that no register knows to be wrong.
-// Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are made when asked
-// for.
+// Checks of the board: what a program does to motors, emitters and pins that no register knows to be
+// wrong. Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are
+// made when asked for.
 #include <algorithm>
 #include <cstdarg>
 #include <cstdio>
@@ -54,6 +54,7 @@ void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t n
 
 std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   std::vector<Diagnosis> all;
+  // What the motors did not follow.
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
     const StepperFaults faults = stepper_at(wheel, at).faults(at);
     const std::string pins = wheel == Wheel::Left ? "LATD0-3" : "LATD4-7";
@@ -74,6 +75,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
              ms(kRestCycles), 1000 * 2 * kCoilA),
         "switch the four pins off while the motor rests");
   }
+  // IR pulses: those that are over, and the one that goes on.
   for (std::size_t line = 0; line < 4; ++line) {
     LongPulse p = long_pulses_[line];
     const std::size_t port = static_cast<std::size_t>(kEmitterPins[line].port);

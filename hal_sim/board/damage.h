@@ -5,8 +5,8 @@
 //   light, reflection --> lifted --> lamp --> cover --> dirt --> dead parts --> converter
 //
 // Samples are worked out when somebody reads them, so whatever acts on them can be asked for the past. Each
-// effect is noted the first time that it changed what the program or the world got: looks from outside do not
-// count (Unseen).
+// effect is noted the first time that it changed what the program or the world got: looks from outside do
+// not count (Unseen).
 // Not modelled: faults that come and go within a sample, heat, anything that a fault breaks for good.
 #pragma once
 #include <array>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The processor's data EEPROM: 2048 words that survive resets. Blank (0xFFFF) at the beginning of a run, but
 // for the last word, in which the maker says how the camera sits. Writing can only clear bits; erasing sets
-// them. Not
-// modelled: wear, and keeping it from one run to the next. Source: [DS70143 7.0], [lib: DataEEPROM.s] for how
-// the library reaches it.
+// them. Not modelled: wear, and keeping it from one run to the next. Source: [DS70143 7.0],
+// [lib: DataEEPROM.s] for how the library reaches it.
 #pragma once
 #include <array>
 #include <cstdint>

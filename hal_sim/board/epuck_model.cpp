@@ -10,6 +10,7 @@ namespace board {
 
 sim::RobotModel epuck_model() {
   sim::RobotModel model;
+  // Body, wheels, battery.
   model.name = "e-puck";
   model.body_radius_m = kBodyRadiusM;
   model.body_z0_m = kBodyUndersideM;
@@ -21,6 +22,7 @@ sim::RobotModel epuck_model() {
   model.axle_m = kAxleM;
   model.steps_per_turn = kStepsPerTurn;
   model.battery_wh = kBatteryWh;
+  // Sensors, and LEDs: the ring, then body and front.
   for (const SensorPlace& place : kProximity)
     model.proximity.push_back({{place.x_m, place.y_m, kProximityZM}, sim::radians(place.yaw_deg), 0});
   const sim::Colour red{1, 0.1, 0.1}, green{0.1, 1, 0.1};
@@ -28,6 +30,7 @@ sim::RobotModel epuck_model() {
   for (sim::LedMount& led : model.leds) led.z_m = kRingLedZM, led.spot_m = kRingLedSpotM;
   model.leds.push_back({{kBodyLed.x_m, kBodyLed.y_m}, green});
   model.leds.push_back({{kFrontLed.x_m, kFrontLed.y_m}, red, kFrontLedZM, kFrontLedSpotM});
+  // What a world file may say of an e-puck alone.
   using Type = sim::OwnKeyType;
   model.keys = {
       {"selector", Type::Integer, "", 0, 15, "", "0", "position of the selector switch"},

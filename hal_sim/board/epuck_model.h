@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The e-puck's body, wheels and sensor places, as the world sees them, and what a world file may say of an
-// e-puck alone.
+// The e-puck's body, wheels and sensor places, as the world sees them, and what a world file may say
+// of an e-puck alone.
 #pragma once
 #include "hal_sim/board/board.h"
 #include "sim_core/world/robot_model.h"

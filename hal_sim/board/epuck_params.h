@@ -13,13 +13,13 @@
 
 namespace board {
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 inline constexpr int kStepsPerTurn = 1000;  // 20 steps a turn, gear 50:1 [FRM A1]
 // gear and wheel smooth steps that come in a row: 20 ms keeps speeds from 50 steps/s even
 inline constexpr Cycle kRotorMoveCycles =
     kFcyHz / 50;  // [assumed: nobody sees a wheel of 50:1 stop between steps]
 
-// --- IR circuit ------------------------------------------------------------------------------------------
+// --- IR circuit
 inline constexpr int kAdcMax = 4095;           // 12 bits [DS70143 20.0]
 inline constexpr double kAdcReferenceV = 3.3;  // V, the converter's supply and reference [FRM A10]
 // a dim room (0.5 W/m2) then reads about 3900, as robots do, and leaves the range to the reflection
@@ -28,12 +28,12 @@ inline constexpr double kAmbientCountsPerWm2 =
 inline constexpr Cycle kIrSettleCycles =
     25 * kFcyHz / 1'000'000;  // time constant [assumed: library's 300 us is ample]
 
-// --- battery ---------------------------------------------------------------------------------------------
+// --- battery
 inline constexpr double kBatteryLowV = 3.4;       // BATT_LOW detector [FRM A10]
 inline constexpr double kBatteryRawAt3V4 = 2070;  // counts [lib: utility/utility.c]
 inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utility.c]
 
-// --- UART ------------------------------------------------------------------------------------------------
+// --- UART
 inline constexpr int kUartBitsPerByte = 10;          // 8N1 [lib: uart/e_init_uart1.s]
 inline constexpr int kUartCyclesPerBrg = 16;         // bit = 16 (BRG + 1) cycles [DS70143 18.4]
 inline constexpr int kUart1Brg = 7;                  // 115,200 baud exactly [lib: uart/e_init_uart1.s]
@@ -41,7 +41,7 @@ inline constexpr int kUartFifoBytes = 4;             // transmit buffer [DS70143
 inline constexpr std::size_t kPacketBytes = 330;     // [assumed: Bluetooth serial profile's usual frame]
 inline constexpr Cycle kPacketCycles = kFcyHz / 50;  // [assumed: 20 ms, a module's latency]
 
-// --- body, as the world sees it: x forward, y left, z up, origin between the wheels ----------------------
+// --- body, as the world sees it: x forward, y left, z up, origin between the wheels
 inline constexpr double kBodyRadiusM = 0.037;     // m [FRM A1]
 inline constexpr double kBodyUndersideM = 0.002;  // m, bounding cylinder of 45 mm centred at 25 mm [FRM A1]
 inline constexpr double kBodyTopM = 0.047;        // m [FRM A1]

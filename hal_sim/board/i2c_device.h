@@ -24,14 +24,14 @@ class I2cDevice {
   /// The master reads the next byte.
   virtual std::uint8_t read(Cycle at) = 0;
   /// A stop, or a start for somebody else.
-  virtual void end(Cycle at) {}
+  virtual void end(Cycle /*at*/) {}
 
   /// The processor was reset; devices with power of their own keep what they hold, so the default does
   /// nothing.
-  virtual void processor_reset(Cycle at) {}
+  virtual void processor_reset(Cycle /*at*/) {}
 
   /// It begins as when it was first switched on.
-  virtual void begin_again(Cycle at) {}
+  virtual void begin_again(Cycle /*at*/) {}
 
   /// Everything that must repeat from run to run.
   virtual std::uint64_t state_hash() const { return 0; }
@@ -43,7 +43,7 @@ class I2cRegisters : public I2cDevice {
  public:
   explicit I2cRegisters(std::uint8_t address) : address_(address) {}
   bool answers_to(std::uint8_t address) const override { return address == address_; }
-  void begin(std::uint8_t address, bool reading, Cycle at) override { expects_register_ = !reading; }
+  void begin(std::uint8_t /*address*/, bool reading, Cycle /*at*/) override { expects_register_ = !reading; }
   bool write(std::uint8_t byte, Cycle at) override {
     if (expects_register_) {
       register_ = byte;

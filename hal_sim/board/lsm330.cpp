@@ -135,6 +135,7 @@ std::int64_t Lsm330::newest_of(const Half& half, Cycle at) const {
 std::int16_t Lsm330::value(Half& half, int axis, Cycle at) {
   const std::int64_t sample = newest(half, at);
   if (sample > half.known_sample) {
+    // A new sample: what the part feels at the instant at which it was taken.
     const std::uint8_t control = half.registers[kCtrlRate];
     const Cycle taken = half.since + static_cast<Cycle>(static_cast<double>(sample + 1) *
                                                         static_cast<double>(kFcyHz) / rate_hz(half));
@@ -154,6 +155,7 @@ std::int16_t Lsm330::value(Half& half, int axis, Cycle at) {
       noise = per_g * kLsmAccNoiseGPerRtHz * std::sqrt(kHalfPi * band_hz);
     }
     const double parts[3] = {felt.x, felt.y, felt.z};
+    // In counts, with the noise of this very sample, rounded and limited.
     for (int i = 0; i < 3; ++i) {
       double counts = scale * parts[i];
       if (robot_.setup().motion_noise_scale > 0) {

@@ -14,7 +14,7 @@ namespace board {
 inline constexpr double kStandardGravityMS2 =
     9.81;  // what 1 g means here [assumed: the worlds' default gravity]
 
-// --- MMA7260QT on AN5 to AN7, before revision 1.3 ----------------------------------------------------------
+// --- MMA7260QT on AN5 to AN7, before revision 1.3
 inline constexpr double kAccCountsPerG = 768;   // GRAVITY [lib: a_d/advance_ad_scan/e_acc.h]
 inline constexpr double kAccZeroCounts = 2048;  // 0 g is half the supply [lib: a_d/advance_ad_scan/e_acc.c]
 inline constexpr double kAccRailV = 0.25;  // the output ends this far from both supplies [MMA7260QT table 2]
@@ -22,7 +22,7 @@ inline constexpr double kAccPoleXyHz = 350;          // [MMA7260QT table 2]
 inline constexpr double kAccPoleZHz = 150;           // [MMA7260QT table 2]
 inline constexpr double kAccNoiseGPerRtHz = 350e-6;  // [MMA7260QT table 2]
 
-// --- LSM330 on the I2C bus, revision 1.3 -------------------------------------------------------------------
+// --- LSM330 on the I2C bus, revision 1.3
 inline constexpr unsigned char kLsmAccAddress = 0x3C;    // [lib: acc_gyro/e_lsm330.c]
 inline constexpr unsigned char kLsmGyroAddress = 0xD4;   // [lib: acc_gyro/e_lsm330.c]
 inline constexpr unsigned char kLsmWhoAmI = 0x0F;        // register [lib: motor_led/e_init_port.c]

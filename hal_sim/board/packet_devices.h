@@ -14,7 +14,7 @@
 
 #include "hal_sim/board/clock.h"
 #include "sim_core/radio/packet_medium.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/device_desc.h"
 
 namespace board {
 

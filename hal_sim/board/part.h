@@ -4,10 +4,10 @@
 //
 //   [[robot.part]] kind = "..."  ->  PartType of that file  ->  Part, hung on I2C, analogue inputs and pins
 //
-// In: the instant (a cycle of the robot) at which something is asked. Out: bytes, volts. A part sees the
-// world through board().scene() as it was frozen at the last tick, and nothing else. It answers for the
-// instant it is asked about and does no work in between; random numbers come from random(). Nothing here
-// blocks.
+// In: the instant (a cycle of the robot) at which something is asked. Out: bytes, volts. A part sees
+// the world through board().scene() as it was frozen at the last tick, and nothing else. It answers
+// for the instant it is asked about and does no work in between; random numbers come from random().
+// Nothing here blocks.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -52,20 +52,20 @@ class Part {
   virtual void connect() {}
 
   /// Voltage the part puts on the analogue input AN`channel` at `at`, V; empty: it leaves that input alone.
-  virtual std::optional<double> analogue_v(int channel, Cycle at) const { return std::nullopt; }
+  virtual std::optional<double> analogue_v(int /*channel*/, Cycle /*at*/) const { return std::nullopt; }
 
   /// The processor wrote to a port at `at`: the place to note when a pin changed. Levels:
   /// board().port_read().
-  virtual void pins_changed(Cycle at) {}
+  virtual void pins_changed(Cycle /*at*/) {}
 
   /// The processor was reset. Parts have power of their own, so the default does nothing.
-  virtual void processor_reset(Cycle at) {}
+  virtual void processor_reset(Cycle /*at*/) {}
 
   /// Everything of its own that must repeat from run to run.
   virtual std::uint64_t state_hash() const { return 0; }
 
   /// What somebody looking at it would see, a few words; empty: nothing.
-  virtual std::string shows(Cycle at) const { return {}; }
+  virtual std::string shows(Cycle /*at*/) const { return {}; }
 
  protected:
   Board& board() const { return *board_; }

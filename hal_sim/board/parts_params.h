@@ -6,7 +6,7 @@
 
 namespace board {
 
-// --- ground sensors ----------------------------------------------------------------------------------------
+// --- ground sensors
 inline constexpr int kGroundAddress = 0xC0;      // [lib: program/BTcom/BTcom.c]
 inline constexpr int kGroundFirstCliff = 13;     // register [lib: program/DemoGCtronic-complete/Asercom.c]
 inline constexpr double kGroundForwardM = 0.03;  // holder's place [FRM A5]

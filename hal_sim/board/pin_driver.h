@@ -13,7 +13,7 @@ class PinDriver {
  public:
   virtual ~PinDriver() = default;
 
-  // --- motors ---------------------------------------------------------------------------------------------
+  // --- motors
   /// Brings the board's motor of a wheel to `at`; pins are written next.
   virtual void bring_motor(Wheel wheel, Cycle at) = 0;
   /// The motor as it is at `at`; valid until the next call of anything here.
@@ -26,7 +26,7 @@ class PinDriver {
   /// Share of the time for which both coils are energised, 0 to 1; empty: the driver rests.
   virtual std::optional<double> coil_duty(Wheel wheel) const = 0;
 
-  // --- IR emitters ----------------------------------------------------------------------------------------
+  // --- IR emitters
   /// Lines that are high at `at`: bit = pair; bit 4 the turret's (body and front LED). Next change of these.
   virtual unsigned pulses(Cycle at) const = 0;
   virtual Cycle pulses_horizon(Cycle at) const = 0;
@@ -36,7 +36,7 @@ class PinDriver {
   /// Dark minus lit of the newest samples that it has taken; empty: it takes none.
   virtual std::optional<int> proximity_counts(int sensor, Cycle at) const = 0;
 
-  // --- the rest -------------------------------------------------------------------------------------------
+  // --- the rest
   /// Tick boundary; until when there is nothing to do at the next ones.
   virtual void exchange(Cycle at) = 0;
   virtual Cycle horizon(Cycle at) const = 0;

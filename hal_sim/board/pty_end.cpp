@@ -49,6 +49,7 @@ class PtyEnd : public UartEnd {
   }
 
   bool open(const std::string& link, std::string& error) {
+    // The terminal, and our own hand on its far end, so that it stays when others leave.
     master_.reset(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
     if (!master_.valid() || ::grantpt(master_.get()) != 0 || ::unlockpt(master_.get()) != 0) {
       error = "pty: cannot be opened: " + system_error();
@@ -183,8 +184,8 @@ class PtyEnd : public UartEnd {
     }
   }
 
-  // the thread: from the terminal to heard_; and who left is noticed before the next one can read what it
-  // left
+  // the thread: from the terminal to heard_; and who left is noticed before the next one
+  // can read what it left
   void listen() {
     pollfd watched[3] = {{master_.get(), POLLIN, 0}, {stop_.get(), POLLIN, 0}, {watch_.get(), POLLIN, 0}};
     while (::poll(watched, watch_.valid() ? 3 : 2, -1) >= 0 || errno == EINTR) {

@@ -71,6 +71,7 @@ bool RadioTurret::write_register(std::uint8_t number, std::uint8_t value, Cycle 
     default:
       break;
   }
+  // The send buffer: how far it was filled is the packet's length, where none is written.
   if (number < kRadioReceiveBuffer) {
     const int offset = number - kRadioSendBuffer;
     send_[static_cast<std::size_t>(offset)] = value;

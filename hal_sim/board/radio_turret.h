@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The radio turret of SWIS (a CC2420 behind a small processor with TinyOS) on the robot's I2C bus, address
-// 0x7E.
+// The radio turret of SWIS (a CC2420 behind a small processor with TinyOS) on the robot's
+// I2C bus, address 0x7E.
 //
-//   e_i2cp_* -> registers: settings, send buffer, status -> sim::RadioMedium -> other turrets' receive
-//   buffers
+//   e_i2cp_* -> registers: settings, send buffer, status -> sim::RadioMedium -> receive buffers of others
 //
 // Modelled: all registers of the library's driver; one receive buffer, freed by reading its last byte; a
 // packet that comes while it is full is lost and says so; groups and addresses; attenuators; time on the air.
-// Not modelled: the time the turret's processor takes, its start-up, acknowledgements. The library writes no
-// length before it sends, and how the turret knows it is not published. Here: what the program wrote to
-// offset 0 since the last packet, else the number of data bytes it wrote. [assumed: users get back the size
-// they sent]
+// Not modelled: the time the turret's processor takes, its start-up, acknowledgements. The
+// library writes no length before it sends, and how the turret knows it is not published.
+// Here: what the program wrote to offset 0 since the last packet, else the number of data
+// bytes it wrote. [assumed: users get back the size they sent]
 // Source: [lib: contrib/SWIS_com_module/], facts restated; radio_params.h.
 #pragma once
 #include <array>

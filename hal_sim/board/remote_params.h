@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Numbers of the infrared remote control; tags as in epuck_params.h, and [RC5]: the Philips code as
-// published.
+// Numbers of the infrared remote control; tags as in epuck_params.h, and [RC5]: the
+// Philips code as published.
 #pragma once
 #include "sim_core/base/clock.h"
 

@@ -39,6 +39,7 @@ struct Word {
   std::vector<Moment> moments;
 };
 
+// Each sound with its place in the bank, its length, and the moments it goes through.
 std::vector<Word> words() {
   return {
       {0,
@@ -118,16 +119,19 @@ void speak(const Word& word, std::vector<double>& out) {
   double breath[3][2] = {};  // states of three resonators that noise goes through
   double before = 0;
   for (int i = 0; i < word.length; ++i) {
+    // What the mouth does at this instant.
     const Moment now = at_share(word.moments, (i + 0.5) / word.length);
     turns += now.pitch_hz / kRateHz;
     turns -= std::floor(turns);
     double value = 0;
+    // The voice: harmonics of the pitch, as strong as the mouth lets them through.
     if (now.voice > 0) {
       for (int h = 1; h * now.pitch_hz < kHighestHz; ++h)
         value += passes(now.mouth, h * now.pitch_hz) / std::sqrt(static_cast<double>(h)) *
                  sim::sin_cos(sim::kTwoPi * h * turns).s;
       value *= now.voice;
     }
+    // The breath: noise that goes through the mouth's three resonances.
     const double noise = sim::random_gaussian(key, static_cast<std::uint64_t>(i));
     const double centres[3] = {now.mouth.f1, now.mouth.f2, now.mouth.f3};
     for (int r = 0; r < 3; ++r) {
@@ -143,6 +147,7 @@ void speak(const Word& word, std::vector<double>& out) {
     before = noise;
     out[static_cast<std::size_t>(word.offset + i)] = value;
   }
+  // All words are equally loud.
   const auto begin = out.begin() + word.offset, end = begin + word.length;
   const double peak =
       std::abs(*std::max_element(begin, end, [](double a, double b) { return std::abs(a) < std::abs(b); }));

@@ -7,7 +7,7 @@
 
 namespace board {
 
-// --- microphones: x forward, y left ------------------------------------------------------------------------
+// --- microphones: x forward, y left
 inline constexpr int kMicrophones = 3;  // [FRM A8]
 inline constexpr Place kMicrophone[kMicrophones] = {
     {0.008, -0.031},  // 0 right [FRM A8]
@@ -21,11 +21,11 @@ inline constexpr double kMicCountsPerPa =
     kMicSensitivityVPa / kAdcReferenceV * (kAdcMax + 1);  // [derived: sensitivity and converter]
 inline constexpr double kMicIdleCounts =
     2048;  // [assumed: biased at half the supply; demos expect about 2000]
-// the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a moving robot add
-// theirs
+// the part's own noise (35 dBA) is a tenth of a count; the converter and the supply of a
+// moving robot add theirs
 inline constexpr double kMicNoiseCounts = 1.5;  // standard deviation [assumed: an ordinary 12-bit converter]
 
-// --- codec and loudspeaker ---------------------------------------------------------------------------------
+// --- codec and loudspeaker
 inline constexpr Cycle kCodecSampleCycles =
     2048;  // 256 bits of 8 cycles: 7200 Hz [lib: codec/e_init_dci_master.s]
 static_assert(kFcyHz == 7200 * kCodecSampleCycles);
@@ -42,7 +42,7 @@ inline constexpr double kSpeakerZM = 0.035;  // m [assumed: on the top board, be
 inline constexpr double kSpeakerFullScalePa =
     0.0894;  // Pa at 1 m, peak [assumed: a miniature loudspeaker of this size]
 
-// --- processor time of the codec's interrupt ---------------------------------------------------------------
+// --- processor time of the codec's interrupt
 // entry, context and the reading of four samples; the handler's own C is counted besides
 
 }  // namespace board

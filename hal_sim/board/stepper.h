@@ -13,8 +13,8 @@
 // Not modelled: half steps and single-coil drive, pull-out at high load, ringing, steps that a real rotor
 // does not finish because its coils were on for too short.
 //
-// A motor may be made to lose steps (damage.h): its rotor follows the pattern electrically, its wheel does
-// not.
+// A motor may be made to lose steps (damage.h): its rotor follows the pattern electrically,
+// its wheel does not.
 //
 // Steps that were lost and coils that heat the motor are counted (faults()); copies count for themselves.
 #pragma once

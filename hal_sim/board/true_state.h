@@ -3,7 +3,7 @@
 // (GPS, compass, inertial unit, gyroscope). No e-puck has them.
 #pragma once
 #include "hal_sim/board/cycle.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/device_desc.h"
 
 namespace board {
 

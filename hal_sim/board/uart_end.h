@@ -26,7 +26,7 @@ class UartEnd {
   virtual std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle at) = 0;
 
   /// The line was held low for longer than a byte; over at cycle `at`. Nothing, on most lines.
-  virtual void on_break(Cycle at) {}
+  virtual void on_break(Cycle /*at*/) {}
 
   /// The robot begins as when it was first switched on. Nothing, for ends that are no part of it.
   virtual void begin_again() {}
@@ -47,8 +47,8 @@ class UartEnd {
   /// when nobody outside can.
   virtual std::string name() const = 0;
 
-  /// What was lost on the way out: "file:F: cannot be written: No space left on device"; empty while all is
-  /// well.
+  /// What was lost on the way out: "file:F: cannot be written: No space left on device";
+  /// empty while all is well.
   virtual std::string error() const { return {}; }
 
  protected:

@@ -24,8 +24,8 @@ class VirtualDevices {
   }
   const std::map<std::string, double>& sensors() const { return sensors_; }
 
-  /// Called with every line that firmware writes to the simulator's console, without its newline; may be
-  /// empty.
+  /// Called with every line that firmware writes to the simulator's console, without its
+  /// newline; may be empty.
   std::function<void(const std::string&)> on_console;
 
   /// Keys of a keyboard by Webots' numbers, and when each is down (s, world time). Set before the run.

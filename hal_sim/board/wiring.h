@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Which pin of the processor leads where: the one home of it in C++. Facts restated from the library
-// [lib: motor_led/e_epuck_ports.h]; tests/board/wiring_test.cpp holds firmware/include's copy against this
-// one.
+// Which pin of the processor leads where: the one home of it in C++. Facts restated from the
+// library [lib: motor_led/e_epuck_ports.h]; tests/board/wiring_test.cpp holds firmware/include's
+// copy against this one.
 //
 //   RA6 7 9 12 10 13 14 15  ring LEDs 0..7      RC1 front LED   RC2 body LED   RC13 camera reset
 //   RC3 HREF  RC4 VSYNC  RC14 pixel clock       RD8..15 camera data

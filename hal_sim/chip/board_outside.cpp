@@ -82,7 +82,7 @@ void BoardOutside::end_window(dspic::Dspic30f6014a& chip, Cycle now) {
   if (sends_sound_ && board_.codec().line().take_activity()) follow_codec(chip, now);
 }
 
-// --- pins ------------------------------------------------------------------------------------------------
+// --- pins
 
 void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t driven,
                                std::uint16_t by_peripheral, Cycle at) {
@@ -115,8 +115,8 @@ std::uint16_t BoardOutside::on_board(Port port, std::uint16_t lat, Cycle at) {
   return static_cast<std::uint16_t>((lat & ~kept) | (board_.port_read('D', Board::Register::Lat, at) & kept));
 }
 
-// a port that holds the line low where its module has let go: whoever listens takes more than a word for a
-// break
+// a port that holds the line low where its module has let go: whoever listens takes more
+// than a word for a break
 void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
   low_lines_ = low;
   for (int n = 1; n <= 2; ++n) {
@@ -165,6 +165,7 @@ dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
               board_.camera() ? board::kCameraData : std::uint16_t{0}};
     case Port::F: {
+      // a serial line that nobody drives is high
       std::uint16_t levels = kSerialIn;
       if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
       if (board_.remote().level(at)) levels |= kRemote;
@@ -219,7 +220,7 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
   return Outside::nth_edge(pin, edge, after, n);
 }
 
-// --- analogue, serial ------------------------------------------------------------------------------------
+// --- analogue, serial
 
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   if (channel >= board::kMicChannel && channel < board::kAccChannel)
@@ -227,6 +228,7 @@ int BoardOutside::analogue_counts(int channel, Cycle at) {
   return beside_microphones(channel, at);
 }
 
+// proximity sensors, then what a part or another owner of the input puts there, then the accelerometer
 int BoardOutside::beside_microphones(int channel, Cycle at) {
   if (channel >= board::kIrChannel)
     return board_.ir_counts(channel - board::kIrChannel, at, lit_for(channel - board::kIrChannel, at));
@@ -268,7 +270,7 @@ void BoardOutside::i2c_stop(Cycle at) {
   board_.i2c().stop(at);
 }
 
-// --- codec -----------------------------------------------------------------------------------------------
+// --- codec
 
 // the codec looks at the word that begins a frame; those of other slots are for other devices on the line
 std::uint16_t BoardOutside::dci_word(int slot, std::uint16_t transmitted, int bits, Cycle end) {

@@ -6,8 +6,8 @@
 //   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
 //   UART words <-> Uart ends; I2C <-> the board's bus; DCI words -> the codec
 //
-// Not modelled: serial lines level by level; levels of port B's pins
-// (they are analogue inputs); a far end with a rate of its own: it follows the robot's, 8 bits, no parity.
+// Not modelled: serial lines level by level; levels of port B's pins (they are analogue inputs); a far end
+// with a rate of its own: it follows the robot's, 8 bits, no parity.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -69,8 +69,8 @@ class BoardOutside final : public dspic::Outside {
  private:
   /// The codec's clocks: the bit clock, and whether it agrees with the codec's registers.
   void follow_codec(dspic::Dspic30f6014a& chip, Cycle now);
-  /// When the IR emitters of one line went on and off, in turns: results of the converter are asked for
-  /// later.
+  /// When the IR emitters of one line went on and off, in turns: results of the converter
+  /// are asked for later.
   struct Emitter {
     static constexpr int kRemembered = 16;
     std::array<Cycle, kRemembered> changed{};

@@ -50,7 +50,7 @@ bool CameraPins::take_news() {
   return news;
 }
 
-// --- edges -----------------------------------------------------------------------------------------------
+// --- edges
 
 std::int64_t CameraPins::count(int bit, bool rising, Cycle at) const {
   const std::int64_t frame = floor_div(at - f_.start, f_.length);
@@ -105,7 +105,7 @@ Cycle CameraPins::next_byte(Cycle after) {
   return std::min(nth_edge(Href, true, after, 1), nth_edge(Pclk, false, after, 1));
 }
 
-// --- levels ----------------------------------------------------------------------------------------------
+// --- levels
 
 std::uint16_t CameraPins::levels(Cycle at) {
   if (!refresh(at)) return 0;
@@ -117,12 +117,14 @@ std::uint16_t CameraPins::levels(Cycle at) {
 
 std::uint8_t CameraPins::data(Cycle at) {
   if (!refresh(at)) return 0;
+  // Where in the frame, and in the line, the clock is; between lines there is no data.
   const std::int64_t frame = floor_div(at - f_.start, f_.length);
   const Cycle phase = at - f_.start - frame * f_.length - f_.first;
   const std::int64_t line = floor_div(phase, f_.line);
   if (line < 0 || line >= f_.lines || phase - line * f_.line >= f_.high) return 0;
   board::Camera& camera = *board_.camera();
   const Cycle start = f_.start + frame * f_.length;
+  // The first read in a frame takes the whole of it: all lines, all bytes.
   if (captured_ != start) {
     if (!lines_.empty()) finish_picture();
     board::Camera::Cut all;
@@ -136,11 +138,13 @@ std::uint8_t CameraPins::data(Cycle at) {
     captured_ = start;
     line_ = -1;
   }
+  // A line is rendered when it is first read.
   if (line != line_) {
     bytes_.resize(static_cast<std::size_t>(f_.bytes));
     camera.put_line(static_cast<int>(line), bytes_.data(), start + f_.first + line * f_.line);
     line_ = line;
   }
+  // The byte that lies at the pins now.
   const std::int64_t index = floor_div(2 * (phase - line * f_.line), f_.byte_half_cycles);
   const std::int64_t place = std::clamp<std::int64_t>(index, 0, f_.bytes - 1);
   const std::uint8_t byte = bytes_[static_cast<std::size_t>(place)];
@@ -148,7 +152,7 @@ std::uint8_t CameraPins::data(Cycle at) {
   return byte;
 }
 
-// --- pictures --------------------------------------------------------------------------------------------
+// --- pictures
 
 void CameraPins::note_read(std::int64_t line, std::int64_t index, std::uint8_t byte, Cycle at) {
   if (lines_.empty() || lines_.back().line != line) lines_.push_back({line, index, -1, 0, {}});

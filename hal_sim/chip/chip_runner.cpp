@@ -15,8 +15,7 @@ namespace chip {
 
 namespace {
 
-constexpr unsigned kIfs0 = dspic::sfr("IFS0"), kRamStart = dspic::Processor::kRamStart,
-                   kRamEnd = dspic::Processor::kRamEnd, kPsvStart = 0x8000, kPsvpag = dspic::sfr("PSVPAG");
+constexpr unsigned kRamStart = dspic::Processor::kRamStart, kRamEnd = dspic::Processor::kRamEnd;
 constexpr std::size_t kMostReports = 64;
 /// Which drivers are the host's: those whose functions lead there.
 api::HostLibrary::Served served_by(const dspic::FirmwareFile& file) {
@@ -73,6 +72,14 @@ ChipRunner::ChipRunner(std::string name, std::shared_ptr<const ChipImage> image,
   places_ = std::make_unique<ProgramPlaces>(file_, program_, image_->shared_handler(), *processor_, chip_);
   endings_ = std::make_unique<Endings>(file_, program_, *processor_, chip_, *places_);
   calls_ = std::make_unique<LibraryCalls>(image_->functions(), *processor_, *places_, chip_, board);
+  const ChipData::Parts parts{file_, program_, chip_, *processor_, *places_, library_.get(), plain_from_};
+  data_ = std::make_unique<ChipData>(
+      parts,
+      [this](unsigned address, unsigned char byte) {
+        chip_.digest().note(EventDigest::Kind::Written, address << 8 | byte, end_);
+      },
+      [this] { wake(); });
+  view_ = view_of(device());
   if (is_checked) check_memory();
   tell_calls();
   chip_.comment_on([this](const dspic::Diagnosis& d) { return comment(d); });
@@ -134,7 +141,7 @@ void ChipRunner::program_eeprom() {
   }
 }
 
-// --- time -------------------------------------------------------------------------------------------------
+// --- time
 
 /// Behind windows that it was idle for: there is nothing in them but time.
 void ChipRunner::catch_up(Cycle now) {
@@ -143,8 +150,8 @@ void ChipRunner::catch_up(Cycle now) {
     if (const auto kind = processor_->run(now)) reset(*kind);
 }
 
-// what came from outside finds the program where it is by now; who looks at each step sees it sleep up to
-// then
+// what came from outside finds the program where it is by now; who looks at each step sees
+// it sleep up to then
 void ChipRunner::begin_window(Cycle now) {
   if (watches_.empty() && chip_.may_have_news()) catch_up(now);
   end_ = std::max(end_, now);
@@ -261,10 +268,10 @@ void ChipRunner::report(const Ending& ending, const std::vector<unsigned>& calle
   report.kind = ending.kind;
   report.vector = ending.vector;
   report.message = ending.message;
-  report.place = place_of(ending.place);
+  report.place = data_->place_of(ending.place);
   if (report.place.function == "?") report.place.function = places_->text_of(ending.place);
   if (!callers.empty()) report.backtrace.push_back(report.place);
-  for (const unsigned call : callers) report.backtrace.push_back(place_of(call));
+  for (const unsigned call : callers) report.backtrace.push_back(data_->place_of(call));
   report.cycle = processor_->now();
   report.time_s = to_world_s ? to_world_s(report.cycle) : 0;
   // it may come ten thousand times a second, from here and from there
@@ -346,7 +353,7 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
     };
     // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
     const unsigned here = processor_->pc(), own = places_->own(here);
-    const host::Place place = place_of(own);
+    const host::Place place = data_->place_of(own);
     const auto find = [&] { return is_written_by_none(*this, place, by_name); };
     const std::string line = place.file + ":" + std::to_string(place.line);
     if (enabled ? own == here && image_->is_endless(line, enabled, find) : place.line > 0)
@@ -435,102 +442,11 @@ void ChipRunner::observe(host::Observer* observer) {
   processor_->tell_course(observer ? this : nullptr);
 }
 
-// at the observer's own instants, which may lie before the latest of the program: what comes between them
-// must not be carried out while somebody looks
-bool ChipRunner::flag(int vector, Cycle at) { return device().has_flag(vector + dspic::kFirstIrqVector, at); }
-
-Cycle ChipRunner::flag_horizon(int vector, Cycle at) {
-  return device().horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
-}
-
 std::int64_t ChipRunner::interrupts_served() const {
   std::int64_t all = 0;
   for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
     all += device().served_interrupts(vector);
   return all;
-}
-
-void ChipRunner::carry_out(Cycle at) { device().run_events(at); }
-
-// --- data and code
-
-const host::Variable* ChipRunner::find_variable(const std::string& expression, std::string& error) const {
-  using Kind = dspic::DebugInfo::Kind;
-  const auto known = variables_.find(expression);
-  if (known != variables_.end()) return &known->second;
-  // main.c:count and tick:count are statics of a file and of a function
-  const std::size_t colon = expression.find(':');
-  const std::string scope = colon == std::string::npos ? "" : expression.substr(0, colon);
-  const std::string plain_name = colon == std::string::npos ? expression : expression.substr(colon + 1);
-  const auto is_in_scope = [&](const dspic::DebugInfo::Variable& v) {
-    return scope.empty() || places_->is_of(scope, v);
-  };
-  dspic::DebugInfo::Found found;
-  if (!file_.debug.info().find(plain_name, 0, found, error, is_in_scope)) {
-    if (!scope.empty()) {
-      if (!found.variable) error += ", in '" + scope + "'";
-      return nullptr;
-    }
-    const auto object = file_.objects.find(expression);  // assembler text has no types
-    const auto bytes = file_.object_bytes.find(expression);
-    if (object == file_.objects.end() || bytes == file_.object_bytes.end() || bytes->second > 4)
-      return nullptr;
-    const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
-    return &variables_.emplace(expression, plain).first->second;
-  }
-  const auto& type = file_.debug.info().types[static_cast<std::size_t>(found.type)];
-  host::Variable v;
-  v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
-  v.bytes = type.bytes;
-  v.kind = type.kind == Kind::Signed                                   ? host::Variable::Kind::Signed
-           : type.kind == Kind::Float                                  ? host::Variable::Kind::Float
-           : type.kind == Kind::Unsigned || type.kind == Kind::Pointer ? host::Variable::Kind::Unsigned
-                                                                       : host::Variable::Kind::Aggregate;
-  v.first_bit = found.bit;
-  v.bits = found.width;
-  return &variables_.emplace(expression, v).first->second;
-}
-
-std::vector<char> ChipRunner::read_variable(const std::string& variable, std::size_t bytes) const {
-  const auto found = file_.objects.find(variable);
-  if (found == file_.objects.end()) return {};
-  const auto size = file_.object_bytes.find(variable);
-  if (size != file_.object_bytes.end() && bytes > size->second) return {};
-  std::vector<char> data(bytes ? bytes : 2);
-  read_memory(found->second, data.data(), data.size());
-  return data;
-}
-
-void ChipRunner::read_memory(std::uintptr_t address, void* to, std::size_t bytes) const {
-  auto* out = static_cast<unsigned char*>(to);
-  for (std::size_t i = 0; i < bytes; ++i) {
-    const auto at = static_cast<unsigned>(address + i);
-    const auto in_register = [&](unsigned reg) { return device().peek(reg, chip_.latest()); };
-    const auto in_flash = [&] {  // through the PSV window
-      return program_.read(in_register(kPsvpag) << 15 | (at & 0x7FFE));
-    };
-    const std::uint32_t word = at < kRamStart ? in_register(at & ~1u) : at >= kPsvStart ? in_flash() : 0;
-    if (is_served(at))
-      out[i] = static_cast<unsigned char>(library_->peek(at & ~1u, chip_.latest()) >> 8 * (at & 1));
-    else
-      out[i] = at >= kRamStart && at < kRamEnd ? processor_->ram(at)
-                                               : static_cast<unsigned char>(word >> 8 * (at & 1));
-  }
-}
-
-void ChipRunner::write_memory(std::uintptr_t address, const void* from, std::size_t bytes) {
-  const auto* in = static_cast<const unsigned char*>(from);
-  for (std::size_t i = 0; i < bytes; ++i) {
-    const auto at = static_cast<unsigned>(address + i);
-    if (is_served(at))
-      library_->write(at & ~1u, static_cast<std::uint16_t>(in[i] << 8 * (at & 1)),
-                      static_cast<std::uint16_t>(0xFF << 8 * (at & 1)), chip_.latest());
-    else if (at >= kRamStart && at < kRamEnd)
-      processor_->set_ram(at, in[i]);
-    if (at < kRamStart) device().write(at, in[i], 8, chip_.latest());
-    chip_.digest().note(EventDigest::Kind::Written, at << 8 | in[i], end_);
-  }
-  wake();
 }
 
 bool ChipRunner::is_ending(const board::Diagnosis& d) const {
@@ -542,10 +458,6 @@ bool ChipRunner::is_ending(const board::Diagnosis& d) const {
   for (int trap = 1; trap < dspic::kFirstIrqVector; ++trap)
     if (is_of(trap)) return !places_->has_handler(trap);
   return false;
-}
-
-host::Place ChipRunner::place_of(std::uintptr_t code) const {
-  return places_->place_of(static_cast<unsigned>(code));
 }
 
 }  // namespace chip

@@ -2,15 +2,14 @@
 // A robot's own binary on the model of its chip, soldered to the board.
 //
 //   .hex or .elf --FirmwareFile--> flash --> dspic::Processor <--> SolderedChip <--> Board
-//                                                  |                                   |
-//                                     api::HostLibrary, when it is linked with hal_sim: drivers known by
-//                                     heart
+//                                                    |                                 |
+//                                                    '-------- api::HostLibrary -------'
+//                                                    when it is linked with hal_sim: drivers known by heart
 //
 // Time is the chip's, exact to the cycle as far as docs/dev/chip.md says. Traps and resets are the chip's
 // own: the program goes on at their vectors; a beginning that the program did not ask for is reported
-// (endings.h), and so is what it makes of the library (library_calls.h). Lines,
-// variables and types are those of the image's debug information; without it, functions and variables are
-// known by name.
+// (endings.h), and so is what it makes of the library (library_calls.h). Lines, variables and types are those
+// of the image's debug information; without it, functions and variables are known by name.
 #pragma once
 #include <algorithm>
 #include <memory>
@@ -23,6 +22,7 @@
 #include "dspic30/core/processor.h"
 #include "dspic30/core/program_watch.h"
 #include "hal_sim/api/host_library.h"
+#include "hal_sim/chip/chip_data.h"
 #include "hal_sim/chip/chip_image.h"
 #include "hal_sim/chip/endings.h"
 #include "hal_sim/chip/library_calls.h"
@@ -73,31 +73,15 @@ class ChipRunner final : public host::Runner,
   std::uint64_t hash() const override;
   bool hashes_events() const override { return true; }
 
-  const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
-  std::vector<char> read_variable(const std::string& name, std::size_t bytes) const override;
-  void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const override;
-  void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) override;
-  host::Place place_of(std::uintptr_t code) const override;
-  /// The program's own line: of the call, where a function of the library runs.
-  host::Place place_now() const override { return place_of(places_->own(processor_->pc())); }
+  host::ProgramData& data() const override { return *data_; }
+  host::ChipView* chip() const override { return view_.get(); }
 
   void observe(host::Observer* observer) override;
-  bool flag(int vector, Cycle at) override;
-  Cycle flag_horizon(int vector, Cycle at) override;
-  bool has_chip() const override { return true; }
-  void carry_out(Cycle at) override;
-  std::uint16_t peek(unsigned address, Cycle at) override { return device().peek(address, at); }
-  Cycle register_horizon(unsigned address, Cycle at) override { return device().horizon(address, at); }
   std::int64_t interrupts_served() const override;
-  std::int64_t served(int vector) const override {
-    return chip_.device().served_interrupts(vector + dspic::kFirstIrqVector);
-  }
 
   const dspic::Processor& processor() const { return *processor_; }
-  /// Whatever the program jumps to is translated at once: for tests.
-  void translate_all() { processor_->translate_all(); }
-  /// No routine is known by heart any more: for tests.
-  void know_nothing() { processor_->know(nullptr); }
+  /// For tests, which change how it runs and not what it does.
+  dspic::Processor& processor() { return *processor_; }
   const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const dspic::FirmwareFile& file() const { return file_; }
@@ -146,10 +130,6 @@ class ChipRunner final : public host::Runner,
   void calls_back(unsigned function, Cycle at) override {
     if (observer_) observer_->callback(function, at);
   }
-  /// Is it a register of the library's, which hal_sim serves?
-  bool is_served(unsigned address) const {
-    return address >= dspic::Processor::kRamStart && address < plain_from_;
-  }
   void catch_up(Cycle now);
   void report(const Ending& ending, const std::vector<unsigned>& callers = {});
   bool is_ending(const board::Diagnosis& diagnosis) const;
@@ -166,11 +146,12 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<ProgramPlaces> places_;
   std::unique_ptr<Endings> endings_;
   std::unique_ptr<LibraryCalls> calls_;
+  std::unique_ptr<ChipData> data_;
+  std::unique_ptr<host::ChipView> view_;
   std::unique_ptr<MemoryReports> memory_;              // null: the image was not built to be checked
   unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
   std::vector<StepWatch*> watches_;
-  mutable std::map<std::string, host::Variable> variables_;  // that were asked for
   Cycle end_ = 0, idle_until_ = 0;
   bool runs_ = false;                // run_until() has begun and not ended
   std::set<std::uint32_t> agendas_;  // functions, and where they return to; of an observer's, with hal_dspic

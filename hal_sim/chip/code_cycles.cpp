@@ -76,6 +76,7 @@ void CodeCycles::follow(const Instruction& i, Pointers& p) {
     p.ram = static_cast<std::uint16_t>(ram ? p.ram | bit(n) : p.ram & ~bit(n));
     p.table = static_cast<std::uint16_t>(table ? p.table | bit(n) : p.table & ~bit(n));
   };
+  // What is written points nowhere known, unless it is one of the forms below.
   const Pointers before = p;
   p.ram = static_cast<std::uint16_t>(p.ram & ~d.writes);
   p.table = static_cast<std::uint16_t>(p.table & ~d.writes);
@@ -148,6 +149,7 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
     sum.least += least;
     sum.most += most;
   };
+  // Two ways on: the shorter one is the least, the longer one the most.
   const auto name_at = [this](std::uint32_t begin) {
     const auto* const function = file_.code.function_at(begin);
     return function ? function->name + "()" : std::string("code without a name");
@@ -163,6 +165,7 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
     Instruction i = at(address);
     if (dspic::is_host_place(address)) return without_bound("is played by the simulator", address);
     if (!i.row) return without_bound("goes where no instruction is", address);
+    // What the instruction itself takes.
     add_table_reads(i, pointers);
     if (!jumped) add(i.decoded.lead, i.decoded.lead);
     add(i.least, i.most);
@@ -170,6 +173,7 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
     const Insn id = i.row->id;
     if (id == Insn::Retfie) add(kEntryOfHandler, kEntryOfHandler);
     if (is_return(id)) return sum;
+    // Where the course, or how often it goes round, depends on a register, code alone says nothing.
     if (calls_by_register(id)) return without_bound("calls through a pointer", address);
     if (id == Insn::Bra_Wn || id == Insn::Goto_Wn) return without_bound("jumps through a pointer", address);
     if (id == Insn::Do_lit14_Expr || id == Insn::Do_Wn_Expr) return without_bound("loops by DO", address);
@@ -177,12 +181,14 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
     if (id == Insn::Reset) return without_bound("resets", address);
     if (id == Insn::Repeat_Wn)
       return without_bound("repeats an instruction as often as a register says", address);
+    // A jump: the rest is what it leads to.
     if (is_jump(id)) {
       const PathCycles rest = from(i.target, true, depth + 1);
       if (!rest.is_known()) return rest;
       add(rest.least, rest.most);
       return sum;
     }
+    // A call takes what its callee takes, and goes on behind it.
     if (calls(id)) {
       const PathCycles callee = from(i.target, true, depth + 1);
       if (!callee.is_known()) {
@@ -201,6 +207,7 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
       if (behind.row) add(-behind.decoded.lead, -behind.decoded.lead);
       continue;
     }
+    // A branch or skip: both ways are followed to their ends.
     if (is_conditional(program_.read(address))) {
       const bool skips = i.target == 0;
       const Cycle more = skips ? i.decoded.d : 1;
@@ -221,6 +228,7 @@ std::vector<CodeCycles::Line> CodeCycles::lines(std::uint32_t begin, std::uint32
   std::map<std::pair<std::string, int>, Line> all;
   Pointers pointers;
   for (std::uint32_t address = begin; address < end;) {
+    // Each instruction counts for the source line that it belongs to.
     Instruction i = at(address);
     if (!i.row) break;
     const auto* const row = file_.code.line_at(address);
@@ -234,6 +242,7 @@ std::vector<CodeCycles::Line> CodeCycles::lines(std::uint32_t begin, std::uint32
     const bool is_branch = is_conditional(program_.read(address));
     const std::uint32_t next = address + 2 * static_cast<unsigned>(i.row->words);
     Cycle more = is_branch ? (i.target == 0 ? i.decoded.d : 1) : 0;
+    // What it takes once, and its repetitions.
     line.least += i.least + i.decoded.lead;
     line.most += i.most + i.decoded.lead + more;
     if (i.repeats > 0) {
@@ -243,12 +252,14 @@ std::vector<CodeCycles::Line> CodeCycles::lines(std::uint32_t begin, std::uint32
     }
     line.repeats |= id == Insn::Repeat_Wn;
     const bool leaves = is_jump(id) && (i.target < begin || i.target >= end);
+    // What it calls is named, not counted.
     if (calls_by_register(id)) line.calls.push_back("a pointer");
     if (calls(id) || leaves) {
       const auto* const function = file_.code.function_at(i.target);
       line.calls.push_back(function ? function->name : "?");
     }
     follow(i, pointers);
+    // Behind a branch or a call nothing is known of what registers point to.
     if (calls(id) || calls_by_register(id) || is_branch || i.target != 0) pointers = {};
     address = next;
   }

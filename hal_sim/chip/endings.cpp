@@ -74,6 +74,7 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
       return of_trap(noted_.trap,
                      "a second trap came before the first one's handler, so the processor resets");
     case dspic::ResetKind::IllegalOpcode: {
+      // the chip takes both for an illegal opcode; what stands there tells them apart
       const bool is_pointer = dspic::find_row(program_.read(here)) != nullptr;
       return Ending{host::kTrapIllegal, "Reset",
                     is_pointer
@@ -100,7 +101,7 @@ Ending Endings::of_null_pointer(unsigned from) const {
           places_.own(from)};
 }
 
-// --- RESET ------------------------------------------------------------------------------------------------
+// --- RESET
 
 std::optional<Ending> Endings::of_instruction(unsigned at) const {
   if (const auto given_up = of_giving_up(at)) return given_up;

@@ -106,7 +106,7 @@ std::vector<std::string> variables_in(const host::Runner& program, const host::P
       std::string error;
       // images of the chip know names, but not their types
       if (std::find(found.begin(), found.end(), name) == found.end() &&
-          (program.find_variable(name, error) || !program.read_variable(name, 1).empty()))
+          (program.data().find_variable(name, error) || !program.data().read_variable(name, 1).empty()))
         found.push_back(name);
     }
     return found;
@@ -130,11 +130,13 @@ bool Writer::is_handler() const {
 
 std::vector<Writer> writers_of(const std::string& variable, const host::Place& place) {
   const fs::path folder = fs::path(place.file).parent_path();
+  // assigned, counted up or down, or its address taken
   const sim::Pattern writes("(\\+\\+|--|(^|[^&])&)\\s*" + variable + "\\b|\\b" + variable +
                             "\\b(\\s*(\\[[^\\]]*\\]|\\.\\w+))*\\s*(\\+\\+|--|(<<|>>|[-+*/%&|^])?=(?!=))");
   std::vector<Writer> writers;
   for (const fs::path& file : sources_in(folder)) {
     std::string function;
+    // Line by line, with a count of braces that says in which function a line is.
     int depth = 0, number = 0;
     for (const std::string& line : lines_of(file.string())) {
       ++number;
@@ -195,6 +197,7 @@ board::Diagnosis endless_wait(const host::Runner& program, const host::Place& pl
       (w.is_handler() ? handlers : others).push_back(w.function + "() (" + w.place + ")");
     }
   for (std::string& name : names) name = "`" + name + "`";
+  // Handlers come first: what is missing is their interrupt. Then what a handler may call.
   wait.message = "the program waits here for " + joined(names) + "; nothing will ever set it: ";
   const auto only = [](const std::vector<std::string>& functions) {
     return "only " + joined(functions) + " could, and ";

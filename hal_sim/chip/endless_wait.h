@@ -27,8 +27,8 @@ std::vector<Writer> writers_of(const std::string& variable, const host::Place& p
 /// Can nobody write what the line looks at, though some interrupts are enabled? True when all who do are
 /// handlers, or functions of agendas, whose interrupts are not. What other functions write may be called.
 bool is_written_by_none(const host::Runner& program, const host::Place& place, const IsEnabled& is_enabled);
-/// Nothing that the loop at `place` looks at can change, since `since`, for no interrupt that could is
-/// enabled.
+/// Nothing that the loop at `place` looks at can change, since `since`, for no interrupt
+/// that could is enabled.
 board::Diagnosis endless_wait(const host::Runner& program, const host::Place& place, board::Cycle since);
 
 }  // namespace chip

@@ -124,6 +124,7 @@ std::string Lcov::text() const {
       out << all << ':' << count << '\n' << of_those << ':' << hit << '\n';
       hit = 0;
     };
+    // In the order in which lcov itself writes: functions, branches, lines, each with its totals.
     out << "TN:\nSF:" << file << '\n';
     if (!source.version.empty()) out << "VER:" << source.version << '\n';
     for (const auto& [name, function] : source.functions)

@@ -33,8 +33,8 @@ struct Lcov {
 
   /// False: `error` says what is wrong in which line: "line 3: got ..., expected ...".
   bool read(const std::string& text, std::string& error);
-  /// Adds the counts of another run. False, and nothing is changed: a source was another one then; `error`
-  /// names it.
+  /// Adds the counts of another run. False, and nothing is changed: a source was another one
+  /// then; `error` names it.
   bool add(const Lcov& other, std::string& error);
   std::string text() const;
 };

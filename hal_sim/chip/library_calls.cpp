@@ -97,7 +97,7 @@ void LibraryCalls::forget_starts() {
   idle_agendas_.clear();
 }
 
-// --- what a call says ------------------------------------------------------------------------------------
+// --- what a call says
 
 void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
@@ -115,6 +115,7 @@ void LibraryCalls::entered(unsigned address) {
   const auto signed_w = [this](int n) {
     return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
   };
+  // Two mistakes that several functions share: an index out of range, and a scan that was never started.
   const auto index = [&](const char* what, int count) {
     if (processor_.w(0) >= count)
       note_range(site, what, processor_.w(0), 0, count - 1, "what lies behind the array is read");
@@ -179,6 +180,7 @@ void LibraryCalls::set_speed(const Site& site, int wheel, int speed) {
          "got " + std::to_string(speed) + " steps/s, expected -" + std::to_string(kMaxSpeed) + " to " +
              std::to_string(kMaxSpeed) + "; the library takes the nearest of these",
          "the motors are not faster");
+  // It shall turn from now on: look() holds this against the steps that it makes.
   if (speed != 0 && w.speed == 0) {
     w.since = now;
     w.steps = steps_of(wheel, now);
@@ -201,6 +203,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
          "anew",
          "name the function");
   if (cycle != 0 || !site.prefix.empty() || functions_.motors_.count(function)) return;
+  // Somebody may still give it a cycle, so this is told at the end.
   board::Diagnosis& idle = idle_agendas_[function];
   if (!idle.cause.empty()) return;
   idle = {"agenda without a period",
@@ -212,7 +215,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
           1};
 }
 
-// --- standing still --------------------------------------------------------------------------------------
+// --- standing still
 
 std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
   return wheel == 0 ? board_.left_steps(now) : board_.right_steps(now);
@@ -261,7 +264,7 @@ std::vector<board::Diagnosis> LibraryCalls::diagnoses(Cycle now) const {
   return all;
 }
 
-// --- what the library's handlers would stumble over ------------------------------------------------------
+// --- what the library's handlers would stumble over
 
 void LibraryCalls::index_written(api::HostVariable index, unsigned value, int size) {
   const std::string name =
@@ -289,7 +292,7 @@ void LibraryCalls::stack_out_of_range(unsigned stack, unsigned least, unsigned l
           "see that nothing writes to W15 or SPLIM, and how deep calls and local arrays reach");
 }
 
-// --- telling ---------------------------------------------------------------------------------------------
+// --- telling
 
 /// The call that led here; one of the host's functions need not have left a return address.
 unsigned LibraryCalls::caller() const {

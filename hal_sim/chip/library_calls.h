@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// What a program makes of the e-puck library, seen where its functions begin: arguments out of range, what
-// was never started, a speed that moves nothing. Functions are known by the image's symbols (also of the
-// other forms of a driver, whose labels our headers give a prefix), so images without symbols are not
-// watched. A call that is right costs the PC a look; nothing else in the program does, and nothing of its
-// course changes.
+// What a program makes of the e-puck library, seen where its functions begin: arguments out of range,
+// what was never started, a speed that moves nothing. Functions are known by the image's symbols (also
+// of the other forms of a driver, whose labels our headers give a prefix), so images without symbols are
+// not watched. A call that is right costs the PC a look; nothing else in the program does, and nothing
+// of its course changes.
 #pragma once
 #include <array>
 #include <cstdint>

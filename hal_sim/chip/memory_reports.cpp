@@ -142,6 +142,7 @@ bool MemoryReports::entered(unsigned address) {
     case Function::Realloc:
     case Function::Free:
       if (check_.is_away()) break;  // one of these calls another
+      // What was asked for is kept until the call returns, and with that the block is known.
       asked_ = function;
       asked_bytes_ = function == Function::Malloc    ? w(0)
                      : function == Function::Calloc  ? w(0) * w(1)
@@ -173,6 +174,7 @@ void MemoryReports::note_local() {
     local.name += c;
   }
   const unsigned end = local.begin + local.bytes;
+  // It takes the place of locals that lay there before, and gets its gaps.
   if (local.begin < stack_begin_ || end > processor_.w(15)) return;
   locals_.erase(
       std::remove_if(locals_.begin(), locals_.end(),
@@ -220,6 +222,7 @@ void MemoryReports::returned(std::uint16_t w0) {
     case Function::Realloc: {
       const auto old = heap_.find(asked_block_);
       const unsigned before = old == heap_.end() ? 0 : old->second.bytes;
+      // The old block is free where it moved, or where 0 bytes were asked for; what it held stays written.
       if (w0 != asked_block_ && (w0 != 0 || asked_bytes_ == 0)) free_block(asked_block_);
       if (w0 == 0) return;
       allocate(w0, asked_bytes_, false);
@@ -274,6 +277,7 @@ const MemoryReports::Object* MemoryReports::owner(unsigned address, unsigned byt
     name = called;
     return true;
   };
+  // In the heap the owner is a block, elsewhere a local variable or a global one.
   if (is_heap(address)) {
     name = "the heap";
     for (const auto& [at, of_heap] : heap_) {
@@ -318,6 +322,7 @@ std::string MemoryReports::what(const dspic::MemoryFinding& f) const {
     default:
       break;
   }
+  // Nobody wrote it: what it is called, by what knows its place.
   std::string name;
   for (const Object& o : locals_)
     if (f.address >= o.begin && f.address < o.begin + o.bytes) name = o.name;

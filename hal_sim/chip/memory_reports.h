@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// --sanitize: what an image that was built to be checked (dspic30/memory/host_places.h) does to its memory,
-// in a person's words. The checker sees addresses (dspic30/core/memory_check.h); here variables have names:
-// those of the symbol table, local ones as the program tells them, blocks of the heap from malloc() and
-// free().
+// --sanitize: what an image that was built to be checked (dspic30/memory/host_places.h) does to its
+// memory, in a person's words. The checker sees addresses (dspic30/core/memory_check.h); here variables
+// have names: those of the symbol table, local ones as the program tells them, blocks of the heap from
+// malloc() and free().
 #pragma once
 #include <cstdint>
 #include <functional>

@@ -17,8 +17,8 @@ std::vector<std::uint32_t> copies_of(const dspic::FirmwareFile& file, const std:
 /// Names of the functions that hold them.
 std::set<std::string> holders_of(const dspic::FirmwareFile& file, const std::string& function);
 
-/// How a function is measured that has copies in others, "; to measure it alone ...". The one home of this
-/// advice.
+/// How a function is measured that has copies in others, "; to measure it alone ...". The one
+/// home of this advice.
 extern const char* const kMeasureAlone;
 
 /// What is said behind the times of a function with code, of which copies were not measured: "; its copies in

@@ -32,6 +32,7 @@ double instruction_rate_hz(std::uint16_t fosc) {
     default:
       return 0;
   }
+  // the PLL on the fast internal oscillator [DS70143 20.2]
   switch (primary) {
     case 0x01:
       return kFrcHz * 4 / kClocksPerInstruction;
@@ -42,6 +43,7 @@ double instruction_rate_hz(std::uint16_t fosc) {
     default:
       break;
   }
+  // the PLL on the crystal
   const int times = 4 << ((primary & 3) - 1);  // 01, 10, 11: 4, 8, 16
   if ((primary & 3) == 0) return 0;
   switch (primary >> 2) {

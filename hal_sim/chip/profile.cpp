@@ -81,6 +81,7 @@ Profile::Kind Profile::kind_of(unsigned pc) {
 
 void Profile::after(const Step& step) {
   const Cycle took = step.took;
+  // The first step of all begins the profile.
   if (from_ < 0) {
     from_ = step.begin;
     here().frames.push_back({function_of(step.pc), 0, 0, step.begin});
@@ -93,6 +94,7 @@ void Profile::after(const Step& step) {
   }
   ++steps_;
   in_handlers_ += step.end - step.begin - took;  // the share of those by heart
+  // A handler begins: its entry is its own time.
   if (step.entered != dspic::kNoVector) {
     enter_handler(step);
     here().clock += took;
@@ -103,17 +105,19 @@ void Profile::after(const Step& step) {
     watch_stack(step.end);
     return;
   }
+  // Its time is that of the context, and of the function.
   here().clock += took;
   functions_[static_cast<std::size_t>(function_of(step.pc))].own += took;
   if (contexts_.size() > 1) in_handlers_ += took;
   watch_stack(step.end);
   watch_flags();
-  if (step.left) return leave_handler(step);
+  if (step.left) return leave_handler();
   if (step.pc == dspic::kHostHandlerReturn) return call_agenda(step);
   if (dspic::is_host_place(step.pc) && step.next == step.pc) {  // a function of the host that waits
     here().waited += took;
     return;
   }
+  // Where the course goes: calls and returns move the context's stack, a way back may be a loop.
   switch (kind_of(step.pc)) {
     case Kind::Call:
       if (const int host = host_function_called(step.pc); host && !dspic::is_host_place(step.next))
@@ -242,7 +246,7 @@ void Profile::enter_handler(const Step& step) {
   contexts_.push_back(std::move(context));
 }
 
-void Profile::leave_handler(const Step& step) {
+void Profile::leave_handler() {
   if (contexts_.size() == 1) return;
   Context& context = here();
   come_back(context, 0);
@@ -426,6 +430,7 @@ ProfileReport Profile::report() const {
   report.slept = slept_;
   report.waited = contexts_[0].waited;
   report.in_handlers = in_handlers_;
+  // Functions, with who called the longest of their calls, and where they stand in the source.
   if (const FunctionTally& own = functions_.back(); own.own > 0)
     report.functions.push_back({name_of(handler_by_heart_), "", own.cycles, own.own, "", false});
   for (std::size_t f = 1; f + 1 < functions_.size(); ++f) {
@@ -440,10 +445,12 @@ ProfileReport Profile::report() const {
   }
   std::stable_sort(report.functions.begin(), report.functions.end(),
                    [](const auto& a, const auto& b) { return a.own > b.own; });
+  // Interrupts.
   for (const auto& [vector, tally] : interrupts_)
     report.interrupts.push_back(
         {vector, dspic::vector_name(vector), tally.cycles, tally.latency, tally.period,
          vector >= dspic::kFirstIrqVector ? device_.missed_interrupts(vector) : 0, tally.missed});
+  // Waits, and among the loops the main one.
   const Loop* main_loop = nullptr;
   for (const auto& [target, loop] : loops_) {
     Spread wait = loop.wait;
@@ -464,6 +471,7 @@ ProfileReport Profile::report() const {
   }
   std::stable_sort(report.waits.begin(), report.waits.end(),
                    [](const auto& a, const auto& b) { return a.cycles.sum > b.cycles.sum; });
+  // The stack where it was deepest, and by what calls.
   if (stack_top_ > 0) {
     const unsigned base = stack_base_ > 0 ? stack_base_ : dspic::Processor::kRamStart;
     report.data_bytes = static_cast<int>(base - dspic::Processor::kRamStart);

@@ -83,8 +83,8 @@ class Profile final : public StepWatch {
 
  private:
   enum class Kind : std::uint8_t { Unknown, Plain, Call, CallRegister, Return, Branch };
-  /// The latest turn of a loop, where a wait is looked for. A function that is called may have waits of its
-  /// own.
+  /// The latest turn of a loop, where a wait is looked for. A function that is called may
+  /// have waits of its own.
   struct Round {
     unsigned target = ~0u;
     std::array<std::uint16_t, 16> w{};
@@ -148,7 +148,7 @@ class Profile final : public StepWatch {
   int host_function_called(unsigned pc) const;
   Context& here() { return contexts_.back(); }
   void enter_handler(const Step& step);
-  void leave_handler(const Step& step);
+  void leave_handler();
   void call(const Step& step, bool by_register);
   void call_agenda(const Step& step);
   void note_host_call(const Step& step, int function);

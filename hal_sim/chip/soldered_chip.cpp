@@ -59,7 +59,7 @@ std::string hint_for(dspic::Cause cause) {
 
 }  // namespace
 
-// --- life -----------------------------------------------------------------------------------------------
+// --- life
 
 void SolderedChip::power_up(dspic::Configuration configuration) {
   latest_ = 0;
@@ -97,7 +97,7 @@ void SolderedChip::watch(dspic::EventWatch* watch) {
   device_->watch(watch);
 }
 
-// --- diagnoses ------------------------------------------------------------------------------------------
+// --- diagnoses
 
 std::vector<board::Diagnosis> SolderedChip::diagnoses() const {
   std::vector<board::Diagnosis> all;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The dsPIC30F6014A of one robot, soldered in: the models of the chip, their pins on the board, resets with
-// their causes, data EEPROM, and what the chip has to say about a program. Its runner gives it time and
-// instructions.
+// The dsPIC30F6014A of one robot, soldered in: the models of the chip, their pins on the board, resets
+// with their causes, data EEPROM, and what the chip has to say about a program. Its runner gives it
+// time and instructions.
 //
 //   runner --registers, interrupts, instants--> SolderedChip: Dspic30f6014a <--> BoardOutside <--> Board
 //
@@ -26,8 +26,8 @@ class SolderedChip final : private dspic::DiagnosticSink {
   // --- life
   /// A new device at cycle 0. `configuration`: the program's words; the EEPROM is the board's.
   void power_up(dspic::Configuration configuration);
-  /// Chip and board: registers and pins to their reset values, for the cause noted last; without one for an
-  /// instruction.
+  /// Chip and board: registers and pins to their reset values, for the cause noted last; without one
+  /// for an instruction.
   void reset(Cycle now);
   /// Behind a reset whose instant may lie some cycles beyond the end of the last window: as when it was
   /// powered up, at `now`.

@@ -26,12 +26,12 @@ class StepWatch {
  public:
   virtual ~StepWatch() = default;
   /// At a boundary, before anything happens there.
-  virtual void before(Cycle at) {}
-  virtual void after(const Step& step) {}
+  virtual void before(Cycle /*at*/) {}
+  virtual void after(const Step& /*step*/) {}
   /// The instruction at `pc` led to a reset: what comes instead of after().
-  virtual void led_to_reset(unsigned pc) {}
+  virtual void led_to_reset(unsigned /*pc*/) {}
   /// A reset: the program begins anew.
-  virtual void was_reset(Cycle at) {}
+  virtual void was_reset(Cycle /*at*/) {}
 };
 
 }  // namespace chip

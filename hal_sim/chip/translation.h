@@ -10,8 +10,8 @@ namespace chip {
 
 /// It may not be there.
 std::filesystem::path translator_library();
-/// For Processor::set_translator(); null with TWINPUCK_INTERPRET set. Without the library, nothing is
-/// translated.
+/// For Processor::set_translator(); null with TWINPUCK_INTERPRET set. Without the library,
+/// nothing is translated.
 dspic::Translator* translation();
 
 }  // namespace chip

@@ -50,6 +50,7 @@ int growth(const Instruction& i) {
     default:
       break;
   }
+  // A pointer that is W15 itself moves it.
   int bytes = 0;
   for (const Operand kind : i.row->kinds) {
     if (kind == Operand::Source && f.s == kW15) bytes += moved(f.p, size);

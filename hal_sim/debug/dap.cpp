@@ -168,6 +168,7 @@ void DapServer::answer(const Json& request) {
                              {"supportsDisassembleRequest", true},
                              {"supportsInstructionBreakpoints", true},
                              {"supportsTerminateRequest", true}});
+  // Requests that need no program.
   if (command == "disconnect" || command == "terminate") {
     respond(request);
     ended_ = true;
@@ -195,6 +196,7 @@ void DapServer::answer(const Json& request) {
   if (command == "readMemory") return read_memory(request);
   if (command == "disassemble") return disassemble(request);
   if (command == "evaluate") return evaluate(request);
+  // From here on the program runs, or is asked to stand.
   if (command == "configurationDone") {
     respond(request);
     if (stops_on_entry_)
@@ -205,6 +207,7 @@ void DapServer::answer(const Json& request) {
     pause_asked_ = runs_;
     return respond(request);
   }
+  // What is left lets the program run, or steps it.
   const bool by_instruction = arguments.value("granularity", "") == "instruction";
   const std::map<std::string, Plan> plans{
       {"continue", Plan::Continue},
@@ -355,6 +358,7 @@ void DapServer::variables(const Json& request) {
           value.part = Part{{&variable, variable.type}, {}, session_->pc()};
           add(variable.name, session_->values().typed(*value.part), reference(value));
         }
+      // Globals that the debug information may not know, such as those of assembler text.
       for (const auto& [name, address] : session_->file().objects) {
         const auto bytes = session_->file().object_bytes.find(name);
         if (bytes == session_->file().object_bytes.end() || bytes->second > 4) continue;
@@ -495,6 +499,7 @@ void DapServer::disassemble(const Json& request) {
     // a place where something begins is where an instruction begins
     if (at<wanted&& static_cast<std::int64_t>(next)> wanted) next = static_cast<std::uint32_t>(wanted);
   }
+  // So many from there on; what lies beyond the memory is told as no memory.
   if (here < 0) here = static_cast<std::int64_t>(places.size());
   Json all = Json::array();
   const dspic::CodeMap& map = session_->file().code;

@@ -179,6 +179,7 @@ class Expression {
 
   CValue primary() {
     if (!*at_) return fail("a value is missing");
+    // What is no name.
     if (takes("(")) {
       const CValue value = conditional();
       if (ok() && !takes(")")) fail("')' is missing");
@@ -193,6 +194,7 @@ class Expression {
     at_ += name.size();
     CValue value;
     Part part;
+    // A name: a variable, a constant of an enumeration, a register or a field of one.
     if (names_.find_variable(name, part)) return of_part(part);
     if (const auto constant = info().enumerators.find(name); constant != info().enumerators.end())
       return constant_of(static_cast<std::uint64_t>(constant->second), constant->second < 0);
@@ -207,6 +209,7 @@ class Expression {
       at_ = dot;
     }
     if (names_.find_other(name, value)) return value;
+    // Nothing has this name: the nearest that something has is told.
     std::vector<std::string> known;
     for (const auto& variable : names_.debug_info().variables) known.push_back(variable.name);
     const std::string near = sim::did_you_mean(name, known);
@@ -235,6 +238,7 @@ class Expression {
     const bool is_hex = at_[0] == '0' && (at_[1] == 'x' || at_[1] == 'X');
     const bool is_binary = at_[0] == '0' && (at_[1] == 'b' || at_[1] == 'B');
     const char* end = at_;
+    // As far as it may belong to a number; a point or an exponent makes it a real one.
     bool is_real = false;
     for (; std::isalnum(static_cast<unsigned char>(*end)) || *end == '.'; ++end) {
       const bool is_exponent = !is_hex && !is_binary && (*end == 'e' || *end == 'E');
@@ -244,6 +248,7 @@ class Expression {
     std::string text(from, end);
     at_ = end;
     char* rest = nullptr;
+    // A real number is a double, 32 bits here, unless its suffix says otherwise.
     if (is_real) {
       const double value = std::strtod(text.c_str(), &rest);
       const std::string suffix = rest;
@@ -251,6 +256,7 @@ class Expression {
       if (suffix.empty() || suffix == "f" || suffix == "F") return real_number(kDouble, value);
       return fail("'" + text + "' is no number");
     }
+    // A whole number, whose suffix says at least how wide it is.
     const bool is_octal = !is_hex && !is_binary && text[0] == '0';
     const std::uint64_t raw = std::strtoull(text.c_str() + (is_binary ? 2 : 0), &rest,
                                             is_binary  ? 2
@@ -306,6 +312,7 @@ class Expression {
   bool reads_type(CType& type) {
     int longs = 0, shorts = 0, chars = 0, ints = 0, floats = 0, doubles = 0;
     bool is_unsigned = false, is_signed = false, is_named = false, is_void = false, is_any = false;
+    // Words in any order, as in C, up to the first that belongs to no type.
     for (std::string word; !(word = word_here()).empty();) {
       Part variable;
       if (word == "const" || word == "volatile") {
@@ -347,6 +354,7 @@ class Expression {
       is_any = true;
     }
     if (!is_any) return false;
+    // What those words mean together; int is what nothing else says.
     if (!is_named) {
       const ValueKind whole = is_unsigned ? ValueKind::Unsigned : ValueKind::Signed;
       if (!is_void && !(longs + shorts + chars + ints + floats + doubles) && !is_unsigned && !is_signed)
@@ -358,6 +366,7 @@ class Expression {
                                                 : longs   ? 32u
                                                           : 16u};
     }
+    // A star for each level of pointers.
     while (takes("*")) {
       ++type.stars;
       while (word_here() == "const" || word_here() == "volatile") at_ += word_here().size();
@@ -411,6 +420,7 @@ class Expression {
     if (!ok() || (!place.part && !place.data)) return place;
     CValue value;
     value.type = place.type;
+    // An array gives the address of its first element.
     if (place.part && place.type.kind == ValueKind::Image && place.type.stars == 0) {
       const auto& type = info().types[static_cast<std::size_t>(place.type.index)];
       if (type.kind != ImageKind::Array) return place;  // a struct stays one
@@ -421,6 +431,7 @@ class Expression {
       return at || is_skipped_ ? value
                                : fail("an array that the optimiser keeps nowhere here has no address");
     }
+    // Anything else gives what stands there, as a value of its type.
     std::optional<std::uint64_t> raw =
         place.part ? names_.raw_value(*place.part) : names_.raw_value(*place.data);
     if (!raw && is_skipped_) raw = 0;
@@ -536,11 +547,13 @@ class Expression {
 
   CValue applied(const std::string& op, const CValue& a, const CValue& b) {
     if (!ok()) return a;
+    // Operands have to be numbers or pointers.
     const bool first = a.type.stars > 0, second = b.type.stars > 0;
     const bool compares = op == "==" || op == "!=" || op == "<" || op == ">" || op == "<=" || op == ">=";
     const auto is_number = [](const CValue& v) { return v.type.is_integer() || v.type.is_float(); };
     if ((!first && !is_number(a)) || (!second && !is_number(b)))
       return fail("got '" + std::string(begin_) + "', expected numbers or pointers beside '" + op + "'");
+    // | second)|Pointers can be compared, moved and subtracted, in units of what they point to.
     if (first || second) {
       if (compares) return integer(kInt, compared(op, a.raw, b.raw));
       if (op == "+" && first != second)
@@ -554,6 +567,7 @@ class Expression {
       return fail("got '" + std::string(begin_) + "', expected numbers beside '" + op + "'");
     }
     if (op == "<<" || op == ">>") return shifted(op, a, b);
+    // Numbers are first made of one type, by C's rules.
     const CType type = common_type(a.type, b.type);
     const CValue x = converted(a, type), y = converted(b, type);
     if (type.is_float()) {

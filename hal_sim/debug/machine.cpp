@@ -24,7 +24,7 @@ bool Machine::watch(chip::StepWatch* watcher, bool on) {
 
 unsigned Machine::word(Address address) const {
   unsigned value = 0;
-  runner_.read_memory(address & kAddressMask, &value, 2);
+  runner_.data().read_memory(address & kAddressMask, &value, 2);
   return value;
 }
 
@@ -70,12 +70,12 @@ std::string Machine::instruction(std::uint32_t address, std::uint32_t& next) con
 // --- data
 
 void Machine::read(const Data& data, void* to) const {
-  runner_.read_memory(data.address & kAddressMask, to, data.bytes);
+  runner_.data().read_memory(data.address & kAddressMask, to, data.bytes);
 }
 
 bool Machine::write(const Data& data, const void* from) {
   if (data.address + data.bytes > dspic::Processor::kRamEnd) return false;
-  runner_.write_memory(data.address, from, data.bytes);
+  runner_.data().write_memory(data.address, from, data.bytes);
   return true;
 }
 

@@ -81,6 +81,7 @@ std::string Monitor::execute(const std::string& given) {
                                           {"backi", Plan::BackInstruction},
                                           {"rsi", Plan::BackInstruction},
                                           {"rc", Plan::BackContinue}};
+  // Commands that let the program run; an empty line does them once more.
   if (const auto plan = plans.find(word); plan != plans.end()) return run(plan->second, rest);
   last_ = word == "x" || word == "list" || word == "dis" ? line : "";  // the others are not worth repeating
   if (word == "help" || word == "h") return kHelp;

@@ -50,6 +50,7 @@ bool Session::open_world(std::vector<std::string>& problems) {
   twin_.reset();  // the next world gets the addresses that this one had
   twin_ = twin::Twin::open(setup_.world, setup_.options, problems);
   if (!twin_) return false;
+  // The first robot of that name, or the first one of all, that runs firmware.
   robot_ = -1;
   for (int i = 0; i < twin_->robots() && robot_ < 0; ++i) {
     const std::string& name = twin_->world().robots[static_cast<std::size_t>(i)].name;
@@ -278,6 +279,8 @@ bool Session::wants_stop(Cycle at) {
   const bool comes_again =
       !put_off_.empty() && put_off_.back().nesting == nesting && put_off_.back().pc == pc();
   if (comes_again) put_off_.pop_back();
+  // A run that repeats an earlier one stops only where that ends; on the way back it notes each place where
+  // it might stop.
   if (target_ && is_reached(*target_)) return true;
   if (is_repeating_) {
     if (!looks_back_) return false;
@@ -286,6 +289,7 @@ bool Session::wants_stop(Cycle at) {
     if (is_way_back(here)) latest_ = here;
     return pause_;
   }
+  // What stops any run: the user, a reset, a trap, a watchpoint.
   if (pause_) {
     stop_ = {Stop::Why::Pause, 0, "paused"};
     return true;
@@ -304,6 +308,7 @@ bool Session::wants_stop(Cycle at) {
     return true;
   }
   if (watch_hit() && plan_ != Plan::GoTo) return true;
+  // Breakpoints, those of functions that the simulator plays included.
   if (comes_again || last_repeats_ || plan_ == Plan::GoTo) return false;
   if (const int id = hit_here(true)) {
     stop_ = {Stop::Why::Breakpoint, id, "breakpoint " + std::to_string(id)};
@@ -319,6 +324,7 @@ bool Session::wants_stop(Cycle at) {
     }
     return true;
   }
+  // The end of a step.
   if (plan_ == Plan::Continue || !is_step_over(at)) return false;
   stop_ = {Stop::Why::Step, 0, ""};
   return true;
@@ -429,6 +435,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   const std::size_t colon = where.rfind(':');
   const std::string number = where.substr(colon == std::string::npos ? 0 : colon + 1);
   const bool is_number = !number.empty() && number.find_first_not_of("0123456789") == std::string::npos;
+  // A line, of the file where the program stands when none is named.
   if (is_number && number.size() < 9) {
     const auto* line = map.line_at(pc());
     const std::string source = colon != std::string::npos ? where.substr(0, colon)
@@ -463,6 +470,7 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
       if (!is_address) error += "; as a function, it " + chip::why_no_code(file(), where);
     }
   }
+  // A condition has to make sense at the breakpoint, or there is none.
   std::int64_t value = 0;
   std::string wrong;
   if (b.addresses.empty()) return nullptr;
@@ -489,6 +497,7 @@ std::vector<std::size_t> Session::files_meant(const std::string& path) const {
   const auto& files = file().code.files;
   std::vector<std::size_t> found;
   if (path.empty()) return found;
+  // The very file; else those whose paths end in what was named.
   const fs::path wanted = fs::weakly_canonical(path, none);
   for (std::size_t i = 0; i < files.size(); ++i)
     if (fs::path(files[i]).is_absolute() && fs::weakly_canonical(files[i], none) == wanted)

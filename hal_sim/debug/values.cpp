@@ -225,7 +225,7 @@ std::optional<Data> Values::find_untyped(const std::string& name) const {
 
 std::uint64_t Values::read(const Data& data) const {
   std::uint64_t value = 0;
-  runner_.read_memory(data.address & kAddressMask, &value, std::min(data.bytes, 8u));
+  runner_.data().read_memory(data.address & kAddressMask, &value, std::min(data.bytes, 8u));
   return data.width > 0 ? value >> data.bit & ((std::uint64_t{1} << data.width) - 1) : value;
 }
 

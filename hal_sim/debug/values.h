@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program's variables and registers by the names and types of its sources, where it stands or, with `pc`,
-// would stand.
+// A program's variables and registers by the names and types of its sources, where it stands or,
+// with `pc`, would stand.
 #pragma once
 #include <optional>
 #include <string>
@@ -60,9 +60,9 @@ class Values final : public Names {
   const bool is_tried_;
 };
 
-/// A number by the names that are known everywhere, globals and statics, as the program has it now.
-/// `is_tried`: it has not run yet, so its values mean nothing. False: `error` says why, "got ..., expected
-/// ...".
+/// A number by the names that are known everywhere, globals and statics, as the program has it
+/// now. `is_tried`: it has not run yet, so its values mean nothing. False: `error` says why, "got
+/// ..., expected ...".
 bool number_of(const chip::ChipRunner& runner, const std::string& expression, bool is_tried, double& value,
                std::string& error);
 

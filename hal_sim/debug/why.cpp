@@ -124,6 +124,7 @@ std::string Machine::why() {
   Machine& machine = *this;
   if (machine.runner().processor().is_asleep())
     return "it sleeps (PWRSAV) until an enabled interrupt\n" + interrupts();
+  // The innermost loop around the program, of the function that runs or of one that called it.
   Loop loop;
   Frame where;
   for (const Frame& frame : machine.frames()) {
@@ -138,6 +139,7 @@ std::string Machine::why() {
   } else {
     text = fmt::format("it goes round in {}, {:#08x} to {:#08x}", machine.file().code.describe(loop.begin),
                        loop.begin, loop.end);
+    // What the loop reads may end it: so that is shown, with what it is now and who could change it.
     std::set<Place> reads;
     collect_reads(machine, loop.begin, loop.end, 1, reads);
     text += reads.empty() ? ", and reads nothing by its address\n" : ", and reads\n";
@@ -148,6 +150,7 @@ std::string Machine::why() {
       text += place.address < dspic::kSfrBytes ? about_register(machine, place) : writers(machine, place);
     }
   }
+  // Interrupts that would come, and are held off.
   std::string pending;
   dspic::Dspic30f6014a& chip = machine.runner().device();
   for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)

@@ -82,8 +82,8 @@ class AdcScan {
   /// When a program sees first, from `at` on, that the accelerometer index is 49: e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
 
-  /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first sample. Keeps
-  /// the value.
+  /// e_ambient_ir[sensor] and e_ambient_and_reflected_ir[sensor] at `at`; 0 before the first
+  /// sample. Keeps the value.
   int dark(int sensor, Cycle at);
   int lit(int sensor, Cycle at);
   /// The first at one instant less the second at another, as a program reads a sensor.

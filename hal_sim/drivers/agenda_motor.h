@@ -87,8 +87,8 @@ class AgendaMotor {
     return true;
   }
 
-  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the caller, firing
-  /// by firing.
+  /// Processes all ticks up to `tick`; pins change at their ticks. Speed 0 is stepped by the
+  /// caller, firing by firing.
   void advance_to(std::int64_t tick, const TickLine& line, board::Stepper& stepper) {
     if (tick <= count.tick) return;
     if (count.counts() && speed_ != 0 && tick - count.tick >= count.ticks_to_fire())

@@ -30,7 +30,7 @@ AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
   for (AgendaMotor& m : motors_) m.count.active = false;
 }
 
-// --- ticks -----------------------------------------------------------------------------------------------
+// --- ticks
 
 std::int64_t AgendaTimer::ticks_at(Cycle at) const {
   if (walking_) return walk_tick_;
@@ -105,7 +105,7 @@ void AgendaTimer::forget(Cycle at) {
   if (!walking_) find_next_fire();
 }
 
-// --- the list --------------------------------------------------------------------------------------------
+// --- the list
 
 AgendaTimer::Node* AgendaTimer::find(Function function) {
   for (Node& node : nodes_)
@@ -253,7 +253,7 @@ void AgendaTimer::name_motor(Wheel wheel, Function function) {
   motor_functions_[static_cast<int>(wheel)] = function;
 }
 
-// --- motors ----------------------------------------------------------------------------------------------
+// --- motors
 
 void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at) {
   if (coils_off_at < at) {
@@ -326,7 +326,7 @@ Cycle AgendaTimer::coils_horizon(Wheel wheel, Cycle at) const {
   return line_.cycle_of(m.count.tick + m.count.ticks_to_fire());
 }
 
-// --- the interrupt handler -------------------------------------------------------------------------------
+// --- the interrupt handler
 
 Cycle AgendaTimer::next_interrupt() const {
   if (!running_ || walking_ || next_fire_ < 0) return kNever;
@@ -341,7 +341,7 @@ void AgendaTimer::begin(Cycle at) {
       floor_div(at - (line_.origin + walk_tick_ * kAgendaTickCycles), kAgendaTickCycles);
   if (lost > 0 && running_) {
     settle_motors(walk_tick_ - 1);
-    lose(lost, at);
+    lose(lost);
     line_.late_tick = walk_tick_;
     line_.late_cycle = at;
   }
@@ -377,6 +377,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     if (!count.counts()) continue;
     ++count.counter;
     if (count.counter < count.cycle) continue;
+    // It fires: a function is called by whoever asked, a motor steps here.
     if (node.kind == Kind::User) {
       walk_cost_ += costs_->fires - cost;
       in_callback_ = true;
@@ -420,7 +421,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at) {
   const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
   if (since < 1) return;
   settle_motors(done);
-  lose(since - 1, at);
+  lose(since - 1);
   line_.late_tick = done + 1;
   line_.late_cycle = at;
 }
@@ -433,7 +434,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
   const std::int64_t since = floor_div(at - (line_.origin + done * kAgendaTickCycles), kAgendaTickCycles);
   if (since < 1 && !pending) return;
   settle_motors(done);
-  lose(since - (pending ? 1 : 0), at);
+  lose(since - (pending ? 1 : 0));
   if (!pending) return;
   line_.late_tick = done + 1;
   line_.late_cycle = at;
@@ -451,7 +452,7 @@ Cycle AgendaTimer::tick_after(Cycle after) const {
 }
 
 /// Ticks that never come; below 0: more than come by themselves.
-void AgendaTimer::lose(std::int64_t ticks, Cycle at) {
+void AgendaTimer::lose(std::int64_t ticks) {
   line_.origin += ticks * kAgendaTickCycles;
   for (AgendaMotor& m : motors_) m.disturb();
   if (ticks <= 0) return;
@@ -466,7 +467,7 @@ void AgendaTimer::release(Cycle at) {
   resume(done, at);
 }
 
-// --- costs and digest ------------------------------------------------------------------------------------
+// --- costs and digest
 
 Cycle AgendaTimer::cost_of(const Node& node) const {
   const AgendaCount& count = count_of(node);
@@ -502,6 +503,7 @@ std::uint64_t AgendaTimer::calling_ticks_q32() const {
   };
   std::vector<Rhythm> rhythms;
   std::int64_t calling = 0;
+  // When each agenda fires first, and how often.
   for (const Node& node : nodes_) {
     const AgendaCount& count = count_of(node);
     if (!needs_handler(node) || !count.counts()) continue;
@@ -513,6 +515,7 @@ std::uint64_t AgendaTimer::calling_ticks_q32() const {
       calling += static_cast<std::int64_t>(kAllTicks) / count.cycle;
   }
   constexpr std::int64_t kNeverMeet = 1 << 20;  // a minute and more
+  // For each choice of agendas: the ticks at which all of them fire, found by joining them one by one.
   for (unsigned chosen = 1; chosen < 1u << rhythms.size(); ++chosen) {
     Rhythm all{0, 0};
     for (std::size_t i = 0; i < rhythms.size() && all.period < kNeverMeet; ++i) {
@@ -531,6 +534,7 @@ std::uint64_t AgendaTimer::calling_ticks_q32() const {
       all.period = meet ? together : kNeverMeet;
     }
     if (all.period >= kNeverMeet) continue;
+    // counted in and out by turns (inclusion and exclusion)
     const std::int64_t part = static_cast<std::int64_t>(kAllTicks) / all.period;
     calling += __builtin_popcount(chosen) % 2 ? part : -part;
   }

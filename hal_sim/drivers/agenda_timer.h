@@ -55,14 +55,14 @@ class AgendaTimer {
   /// The state's hash counts cycles from here on, so that one begun later has that of one begun at 0.
   void count_from(Cycle origin) { origin_ = origin; }
 
-  // --- the timer -----------------------------------------------------------------------------------------
+  // --- the timer
   /// Timer 2 starts from 0: the first tick is one period later.
   void start(Cycle at);
   /// Timer 2 stops; nothing counts until the next start.
   void stop(Cycle at);
   bool is_running() const { return running_; }
-  /// Processor reset: list, statics and timer as after loading; wheels keep their position and lose their
-  /// current.
+  /// Processor reset: list, statics and timer as after loading; wheels keep their position and
+  /// lose their current.
   void reset(Cycle at);
   /// The driver's variables alone return to their start values: no agenda, speed 0. Timer and coils go on.
   void forget(Cycle at);
@@ -83,7 +83,7 @@ class AgendaTimer {
   /// Ticks that were lost because the handler was busy or masked for longer than a tick, since the reset.
   std::int64_t lost_ticks() const { return lost_ticks_; }
 
-  // --- the list; results as the C functions return them (1 done, 2 not found) ----------------------------
+  // --- the list; results as the C functions return them (1 done, 2 not found)
   int activate(Function function, int cycle, Cycle at);
   int destroy(Function function, Cycle at);
   int set_cycle(Function function, int cycle, Cycle at);
@@ -93,7 +93,7 @@ class AgendaTimer {
   /// Tells which functions are run_left_motor and run_right_motor, so that their firing is evaluated here.
   void name_motor(Wheel wheel, Function function);
 
-  // --- motors --------------------------------------------------------------------------------------------
+  // --- motors
   /// e_set_speed_left / right: coils off, clamp, new cycle; the coils may be off before the cycle is new.
   void set_speed(Wheel wheel, int speed, Cycle at) { set_speed(wheel, speed, at, at); }
   void set_speed(Wheel wheel, int speed, Cycle coils_off_at, Cycle at);
@@ -116,11 +116,11 @@ class AgendaTimer {
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`, which is not before the last instant that anybody asked for.
   const Stepper& stepper_at(Wheel wheel, Cycle at) const;
-  /// The motor itself, brought to `at`; changing it is up to the caller (pins written directly, other
-  /// drivers).
+  /// The motor itself, brought to `at`; changing it is up to the caller (pins written
+  /// directly, other drivers).
   Stepper& stepper(Wheel wheel, Cycle at);
 
-  // --- the interrupt handler -----------------------------------------------------------------------------
+  // --- the interrupt handler
   /// Cycle of the next tick at which a user agenda fires (or a motor traps); kNever if none.
   Cycle next_interrupt() const;
   /// The handler starts. Must be called at or after next_interrupt(), or when it was let go as pending. One
@@ -135,8 +135,8 @@ class AgendaTimer {
   void finish(Cycle at);
   bool is_walking() const { return walking_; }
 
-  /// Nodes that a search for this function passes before it finds its own: those added later; all when it has
-  /// none.
+  /// Nodes that a search for this function passes before it finds its own: those added later;
+  /// all when it has none.
   int nodes_passed(Function function) const;
   bool is_motor(Function function) const {
     return function && (function == motor_functions_[0] || function == motor_functions_[1]);
@@ -222,7 +222,7 @@ class AgendaTimer {
   void resume(std::int64_t done, Cycle at);
   void resume(std::int64_t done, Cycle at, bool pending);
   void abandon(Cycle at);
-  void lose(std::int64_t ticks, Cycle at);
+  void lose(std::int64_t ticks);
   void find_next_fire();
   void find_shares() const;
   std::uint64_t calling_ticks_q32() const;

@@ -3,9 +3,9 @@
 //
 //   launch() --VSYNC--> begin_frame() --HREF--> take_line() --HREF--> take_line() ...
 //
-// The fast driver (camera/fast_2_timer) reads the data pins every kMaskCycles from kFirstByteCycles after
-// HREF on and does not look at the pixel clock; the others (camera/slow_3_timer) take each byte by its
-// interrupt.
+// The fast driver (camera/fast_2_timer) reads the data pins every kMaskCycles from kFirstByteCycles
+// after HREF on and does not look at the pixel clock; the others (camera/slow_3_timer) take each
+// byte by its interrupt.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every number of the library's drivers that their closed forms need, each with one source (tags as in
-// hal_sim/board/epuck_params.h).
+// Every number of the library's drivers that their closed forms need, each with one source (tags
+// as in hal_sim/board/epuck_params.h).
 #pragma once
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/board/sound_params.h"
@@ -11,7 +11,7 @@ using board::Cycle;
 using board::kFcyHz;
 using board::kNever;
 
-// --- agendas and motors ----------------------------------------------------------------------------------
+// --- agendas and motors
 inline constexpr Cycle kAgendaTickCycles = 1475;  // PR2 + 1 [lib: motor_led/advance_one_timer/e_agenda.c]
 inline constexpr int kSpeedUnit = 10000;  // ticks times steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 inline constexpr int kMaxSpeed = 1000;    // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
@@ -20,7 +20,7 @@ inline constexpr int kPowerSaveSpeed = 650;  // TRESHV [lib: motor_led/advance_o
 inline constexpr int kPowerSaveTicks = kSpeedUnit / kPowerSaveSpeed;
 static_assert(kPowerSaveTicks == 15);
 
-// --- ADC scan --------------------------------------------------------------------------------------------
+// --- ADC scan
 inline constexpr Cycle kScanSequenceCycles =
     900;  // conversions: 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
 // the converter stands from a sequence's end until the handler has listed the next one's channels; the mean

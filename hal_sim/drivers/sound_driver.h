@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // codec/e_sound.c: sounds of the bank, put out by the data converter interface (DCI).
 //
-//   e_play_sound -> four words in the DCI's buffers -> every 4 samples: buffers out, interrupt, four new
-//   words
-//                                                      -> board::Codec
+//   e_play_sound -> four words in the DCI's buffers --every 4 samples--> out, to board::Codec
+//                   ^-- the interrupt brings four new words ---'
 //
 // For programs of the PC: what the interrupt handler puts out is told to the codec in closed form. Modelled:
 // 7200 samples a second in groups of four, the pointer that is moved before it is read (so a sound lacks its

@@ -247,6 +247,7 @@ Clicks earliest(const Case& c, std::initializer_list<const Noticed*> all, const 
 /// Those of Damage and of the line that a case looks at; all of them for `forget`.
 template <typename F>
 void each_notice(const Case& c, Board& board, F f) {
+  // What the line notes.
   if (c.kind->name == std::string("bytes_lost") || is_kind(c, "bytes_garbled") || is_kind(c, "line_cut")) {
     if (!board.uart(uart_of(c)).damage()) return;
     board::LineDamage& line =
@@ -259,6 +260,7 @@ void each_notice(const Case& c, Board& board, F f) {
     }
     return;
   }
+  // What the board notes: at sensors, wheels, ears, or of the whole robot.
   if (!board.damage()) return;
   Damage& damage = board.be_damaged();
   if (c.kind->parameters.size() > 0 && std::strcmp(c.kind->parameters[0].name, "sensor") == 0) {
@@ -293,18 +295,9 @@ std::string set_variable(const Case& c, twin::Twin& twin, bool is_tried, bool& c
   host::Runner* program = twin.mind(c.robot).runner();
   if (!program) return "variable: got a robot that runs no program";
   std::string error;
-  const host::Variable* v = program->find_variable(word(c, "variable"), error);
+  const host::Variable* v = program->data().find_number(word(c, "variable"), error);
   if (!v) return "variable: " + error;
-  if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
-    return fmt::format("variable: got '{}', expected a number; name a member or element",
-                       word(c, "variable"));
-  if (is_tried) return "";
-  char before[8] = {}, bytes[8] = {};
-  program->read_memory(v->address, before, v->bytes);
-  std::copy(std::begin(before), std::end(before), bytes);
-  host::set_variable_value(*v, bytes, number(c, "value"));
-  program->write_memory(v->address, bytes, v->bytes);
-  changed = std::memcmp(before, bytes, sizeof bytes) != 0;
+  if (!is_tried) changed = program->data().set_number(*v, number(c, "value"));
   return "";
 }
 
@@ -405,6 +398,7 @@ void apply(Case& c, std::vector<Case*>& cases, twin::Twin& twin) {
     if (h.mind.runner()) h.mind.runner()->restart();
     is_done = true;
   }
+  // Of what moves a robot: did it stand elsewhere, or move otherwise, before?
   if (is_kind(c, "lifted")) {
     is_done = h.simulation().scene().z_m(c.robot) != state.z_m;
   } else if (is_kind(c, "bump") || is_kind(c, "robot_moved")) {
@@ -415,6 +409,7 @@ void apply(Case& c, std::vector<Case*>& cases, twin::Twin& twin) {
               state.spin_rad_s != now.spin_rad_s;
   }
   if (is_done && c.is_active() && c.took_effect < 0) c.took_effect = h.simulation().now();
+  // Whoever found that nothing would happen looks again, and the run's digest tells that somebody did this.
   h.mind.disturb();
   if (h.mind.runner()) h.mind.runner()->wake();
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(c.robot) * 2 + c.is_active());
@@ -431,6 +426,7 @@ Clicks noticed(const Case& c, twin::Twin& twin) {
   Board& board = twin.mind(c.robot).board();
   const Clicks world_now = simulation.now();
   const Cycle now = mind.now();
+  // Some are felt by what the program or the world gets just now.
   const bool lasts_now = c.is_active();
   if (is_kind(c, "wheel_slip") || is_kind(c, "lifted")) {
     const Clicks slipped = simulation.slipped_at(c.robot);
@@ -450,6 +446,7 @@ Clicks noticed(const Case& c, twin::Twin& twin) {
   if (is_kind(c, "pin_forced") && lasts_now && free_level(c, board, now) != (number(c, "level") != 0))
     return world_now;
   if (is_kind(c, "bytes_sent") && board.uart(uart_of(c)).injected() > c.first_byte) return world_now;
+  // Of the others the board keeps when they were first felt.
   Clicks first = -1;
   each_notice(c, board, [&](Noticed& what) {
     const Clicks at = earliest(c, {&what}, board);

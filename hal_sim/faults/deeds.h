@@ -39,8 +39,8 @@ std::string check(const Case& c, twin::Twin& twin);
 void apply(Case& c, std::vector<Case*>& cases, twin::Twin& twin);
 /// The first time since `c` began at which it changed something; -1: it did not. Does not change anything.
 Clicks noticed(const Case& c, twin::Twin& twin);
-/// Before others of its kind begin on that robot: what was noticed so far is to be taken, then it is
-/// forgotten.
+/// Before others of its kind begin on that robot: what was noticed so far is to be taken,
+/// then it is forgotten.
 void forget(const Case& c, twin::Twin& twin);
 /// Is noticed() to be asked every tick, because it tells of that instant only?
 bool is_looked_for(const Case& c);

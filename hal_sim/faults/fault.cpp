@@ -174,6 +174,7 @@ bool split(const std::string& line, std::vector<Word>& words, std::string& error
       continue;
     }
     Word word;
+    // A key, then perhaps a value: quoted, or up to the next space outside of brackets.
     while (i < line.size() && line[i] != ' ' && line[i] != '=') word.key += line[i++];
     if (i < line.size() && line[i] == '=') {
       word.has_value = true;
@@ -252,6 +253,7 @@ bool parse_fault_line(const std::string& line, Fault& fault, std::string& error)
                         hint(words[0].key, kind_names()));
     return false;
   }
+  // The line becomes a file of one fault, so both are read, and refused, by one reader.
   std::string text = "[[fault]]\nkind = " + quoted(words[0].key) + "\n";
   for (std::size_t i = 1; i < words.size(); ++i) {
     Word& w = words[i];

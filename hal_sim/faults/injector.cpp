@@ -79,6 +79,7 @@ class Injector::Work {
                                            fault.kind,
                                            meant.empty() ? "" : "; did you mean '" + meant + "'?"));
     }
+    // Values are judged before anything is kept.
     if (const std::string wrong = check_values(fault, *entry->kind); !wrong.empty())
       throw std::runtime_error(wrong);
     entry->by_hand = by_hand;
@@ -95,6 +96,7 @@ class Injector::Work {
                                            meant.empty() ? "" : ": did you mean '" + meant + "'?",
                                            signals::robots_text(twin_)));
     }
+    // One case for each robot that is meant, each with a condition of its own.
     for (int r = 0; r < twin_.robots(); ++r) {
       if (!is_all && r != one) continue;
       Case c;
@@ -319,6 +321,7 @@ std::string said(const Fault& fault) {
     for (const Parameter& p : kind ? kind->parameters : std::vector<Parameter>{})
       if (name == p.name) type = p.type;
     std::string shown;
+    // As the line that asks for it would be typed.
     switch (type) {
       case sim::ValueType::Integer:
         shown = std::to_string(value.integer);

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Does faults and stimuli to a running twin, each at its tick, and keeps book of whether anybody felt them.
 //
-//   faults -> [ not begun -> begun -> ended ] -> board (damage.h), world -> what the program and the world
-//   get
-//                                    \-> took effect at: the first time that this was another thing
+//   faults -> [ not begun -> begun -> ended ] -> board (damage.h), world -> what the program and world get
+//                                                       \-> took effect at: when that first differed
 //
-// Whoever steps the twin calls look() between ticks, or advance() in place of the simulation's: it steps no
-// further than to the next tick at which something is due. A time begins at the first tick at or after it; a
-// condition is looked at every tick, and begins at the tick at which it is first seen to hold. Of several
-// that are due at one tick those that end come first, then those that begin, in the order in which they were
-// added. Faults of one kind on one thing add up: shares and films multiply, voltages and irradiances are
-// sums.
+// Whoever steps the twin calls look() between ticks, or advance() in place of the simulation's: it steps
+// no further than to the next tick at which something is due. A time begins at the first tick at or after
+// it; a condition is looked at every tick, and begins at the tick at which it is first seen to hold. Of
+// several that are due at one tick those that end come first, then those that begin, in the order in which
+// they were added. Faults of one kind on one thing add up: shares and films multiply, voltages and
+// irradiances are sums.
 //
 // When the world begins again (Simulation::begin_again(), with Twin::begin_again() for its robots), so do its
 // faults: those that were added wait again, counted from then, and those of begin() are gone. One that took
@@ -28,8 +27,8 @@
 
 namespace faults {
 
-/// What became of a fault; of one on several robots, the earliest of them. Times in s of the world; negative:
-/// not (yet).
+/// What became of a fault; of one on several robots, the earliest of them. Times in s of the world;
+/// negative: not (yet).
 struct Status {
   int id = 0;
   Fault fault;

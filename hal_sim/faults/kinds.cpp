@@ -17,6 +17,7 @@ const Parameter kShareOfBytes{"share", Type::Number, "", 0, 1, "", "0.1", "of th
 
 }  // namespace
 
+// The one table of faults and stimuli; kinds.h says what the columns are.
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> kAll{
       {"sensor_blocked",

@@ -27,8 +27,8 @@ class FirmwareMind final : public sim::RobotMind {
     board_.publish_sound(field, now);
   }
 
-  /// Another program is flashed and started where the robot stands; as the constructor's otherwise. Between
-  /// ticks.
+  /// Another program is flashed and started where the robot stands; as the constructor's
+  /// otherwise. Between ticks.
   void flash(const RunnerFactory& make_runner);
 
   /// The robot is, from world time `now` on, as when the world began (Board::begin_again()). Between ticks,

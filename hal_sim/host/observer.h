@@ -25,7 +25,7 @@ class Observer {
   virtual void reached(Cycle at) = 0;
   /// The chip changes by itself in cycle `at`, which may lie before the program's time: what changed before
   /// is in place. Told in order of time.
-  virtual void about_to_change(Cycle at) {}
+  virtual void about_to_change(Cycle /*at*/) {}
   /// The processor leaves what it did at `entry` for the handler of `vector`, whose flag rose at `flagged`
   /// (-1 unknown) and whose first instruction comes at `first`.
   virtual void handler_begins(int vector, Cycle flagged, Cycle entry, Cycle first) = 0;

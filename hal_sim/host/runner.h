@@ -19,9 +19,10 @@
 #include <vector>
 
 #include "hal_sim/board/diagnosis.h"
+#include "hal_sim/host/chip_view.h"
 #include "hal_sim/host/observer.h"
 #include "hal_sim/host/place.h"
-#include "hal_sim/host/variables.h"
+#include "hal_sim/host/program_data.h"
 
 namespace board {
 class Board;
@@ -76,12 +77,12 @@ class Runner {
   /// A window begins at `now`, after Board::exchange(): what came from outside is on its way. Windows that
   /// were left out, because idle_until() lies beyond them, have passed.
   virtual void begin_window(Cycle now) = 0;
-  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it, which
-  /// the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks on
-  /// nothing outside.
+  /// The program runs until cycle `end`, or up to the end of the instruction or block that reaches it,
+  /// which the next window makes up for. Returns when it is there, sleeps beyond it or has stopped; blocks
+  /// on nothing outside.
   virtual void run_until(Cycle end) = 0;
-  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs on, kNever: for
-  /// ever.
+  /// Until this cycle run_until() would do nothing, if nothing comes from outside; 0: it runs
+  /// on, kNever: for ever.
   virtual Cycle idle_until() const = 0;
   /// The windows up to `end`, before which it is idle, have passed.
   virtual void pass_to(Cycle end) = 0;
@@ -90,9 +91,9 @@ class Runner {
   /// Grows whenever the program has run: what it knows and did is as it was until then.
   virtual std::uint64_t turns() const = 0;
   /// Something outside changed (a byte came in, the selector was turned): a wait looks again.
-  virtual void wake() = 0;
+  virtual void wake() {}
   /// Somebody will press, or presses, a key of a remote control: the receiver's line has a new future.
-  virtual void remote_changed() = 0;
+  virtual void remote_changed() {}
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Traps stay
   /// reported.
   virtual void restart() = 0;
@@ -127,18 +128,10 @@ class Runner {
   /// World time of a cycle, for reports; set by the mind, empty on a bench.
   std::function<double(Cycle)> to_world_s;
 
-  // --- the program's data and code. Addresses are those of its debug information
-  /// A variable, element or member by an expression in C (variables.h); null with `error` saying why.
-  virtual const Variable* find_variable(const std::string& expression, std::string& error) const = 0;
-  /// Bytes of a global object by its name; 0 `bytes`: all of it. Empty when unknown.
-  virtual std::vector<char> read_variable(const std::string& name, std::size_t bytes) const = 0;
-  virtual void read_memory(std::uintptr_t address, void* to, std::size_t bytes) const = 0;
-  /// As a debugger would; a wait looks again.
-  virtual void write_memory(std::uintptr_t address, const void* from, std::size_t bytes) = 0;
-  /// Function, file and line of an instruction.
-  virtual Place place_of(std::uintptr_t code) const = 0;
-  /// Where the program stands, or was stopped; without a function: it has not begun.
-  virtual Place place_now() const = 0;
+  /// The program's data and code; those of a program of the PC nobody sees.
+  virtual ProgramData& data() const = 0;
+  /// The chip with its registers; null: there is none. It belongs to the runner.
+  virtual ChipView* chip() const { return nullptr; }
 
   // --- for whoever writes its course down; no change of course
   /// Null: nobody. The observer outlives the robot or is taken away.
@@ -149,20 +142,6 @@ class Runner {
   void tell_asked(Cycle at) const {
     if (observer_) observer_->reached(at);
   }
-  /// Whether the flag of an interrupt (natural order) is set at `at`, not before what has already run; and
-  /// the first cycle after `at` at which it may change by itself, kNever if none.
-  virtual bool flag(int vector, Cycle at) = 0;
-  virtual Cycle flag_horizon(int vector, Cycle at) = 0;
-  /// Is there a chip with all its registers? Only then the rest of this group means anything.
-  virtual bool has_chip() const = 0;
-  /// What happens in the chip by itself up to `at` has happened.
-  virtual void carry_out(Cycle at) = 0;
-  /// A register as the program would read it at `at`, without the effects of reading.
-  virtual std::uint16_t peek(unsigned address, Cycle at) = 0;
-  /// The first cycle after `at` at which a register may change by itself.
-  virtual Cycle register_horizon(unsigned address, Cycle at) = 0;
-  /// Handlers of an interrupt (natural order) begun so far.
-  virtual std::int64_t served(int vector) const = 0;
   /// The library's drivers where they are closed forms; null: the program's own run.
   virtual const drivers::Drivers* closed_drivers() const { return nullptr; }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <deque>
 #include <stdexcept>
 
@@ -82,11 +83,31 @@ class TypedLine final : public board::UartEnd {
 
 Inputs::~Inputs() = default;
 
+/// One that is done to the world, or to the program or the board of a robot.
+struct Inputs::Kind {
+  const char* name;
+  void (Inputs::*of_world)(const Json&);
+  void (Inputs::*of_robot)(const Json&, int robot);
+  bool is_asked_for = true;  ///< by pages; else it follows from something that they ask for
+};
+
+const std::vector<Inputs::Kind>& Inputs::kinds() {
+  static const std::vector<Kind> all = {
+      {"world", &Inputs::refurnish, nullptr},     {"program", &Inputs::flash, nullptr, false},
+      {"move", &Inputs::move, nullptr},           {"faults", &Inputs::add_faults, nullptr},
+      {"end_fault", &Inputs::end_fault, nullptr}, {"lamp", &Inputs::set_lamp, nullptr},
+      {"sensor", nullptr, &Inputs::set_sensor},   {"selector", nullptr, &Inputs::turn_selector},
+      {"battery", nullptr, &Inputs::set_battery}, {"type", nullptr, &Inputs::type},
+      {"key", nullptr, &Inputs::press_key},       {"reset", nullptr, &Inputs::restart},
+      {"set", nullptr, &Inputs::set_variable},    {"write", nullptr, &Inputs::write_memory},
+  };
+  return all;
+}
+
 bool Inputs::is_input(const std::string& what) {
-  for (const char* known : {"move", "type", "selector", "key", "battery", "set", "reset", "sensor", "lamp",
-                            "write", "faults", "end_fault", "world"})
-    if (what == known) return true;
-  return false;
+  const auto& all = kinds();
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Kind& kind) { return kind.is_asked_for && what == kind.name; });
 }
 
 int Inputs::robot_of(const Json& input) const {
@@ -116,109 +137,121 @@ TypedLine& Inputs::line(int robot, int port) {
   return *line;
 }
 
-void Inputs::apply(const Json& input, const sim::WorldDesc* parsed) {
-  const auto what = input.at("do").get<std::string>();
+void Inputs::refurnish(const Json& input) {
+  sim::LoadedWorld loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
+  if (!loaded.world) refuse_input(loaded.report("world"));
+  refurnish(input, std::move(*loaded.world));
+}
+
+void Inputs::refurnish(const Json& input, sim::WorldDesc world) {
   sim::Simulation& simulation = twin_.simulation();
-  if (what == "world") {
-    sim::LoadedWorld loaded;
-    if (parsed)
-      loaded.world = *parsed;
-    else
-      loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
-    if (!loaded.world) refuse_input(loaded.report("world"));
-    if (loaded.world->robots.size() != twin_.world().robots.size() ||
-        loaded.world->physics_hz != twin_.world().physics_hz)
-      refuse_input("text: got other robots or another tick, expected the same");
-    std::size_t movable = 0;
-    for (const auto& object : loaded.world->objects) movable += object.movable;
-    const auto before = input.at("before").get<std::vector<int>>();
-    if (before.size() != movable) refuse_input("before: expected one number for each movable object");
-    for (int body : before)
-      if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
-        refuse_input(fmt::format("before: got {}, expected a movable object or -1", body));
-    loaded.world->seed = twin_.world().seed;
-    for (std::size_t i = 0; i < twin_.world().robots.size(); ++i)
-      loaded.world->robots[i].firmware = twin_.world().robots[i].firmware;
-    simulation.refurnish(*loaded.world, before);
-    return;
-  }
-  if (what == "program") {
-    const std::string wrong =
-        twin_.flash(input.at("robots").get<std::vector<int>>(), input.at("image").get<std::string>());
-    if (!wrong.empty()) refuse_input(wrong);
-    return;
-  }
-  if (what == "move") {
-    const int body =
-        input.contains("body") ? whole(input, "body", 0, simulation.scene().bodies() - 1) : robot_of(input);
-    simulation.move(body,
-                    {number(input, "x", -1000, 1000), number(input, "y", -1000, 1000),
-                     number(input, "heading", -1e6, 1e6)},
-                    simulation.scene().z_m(body));
-    return;
-  }
-  if (what == "faults") {
-    const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
-    if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
-    for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
-    return;
-  }
-  if (what == "end_fault") {
-    faults_.end(whole(input, "fault", 0, static_cast<int>(faults_.statuses().size()) - 1));
-    return;
-  }
-  if (what == "lamp") {
-    const auto& lamps = twin_.world().lamps;
-    const int lamp = whole(input, "lamp", 0, static_cast<int>(lamps.size()) - 1);
-    const auto& desc = lamps[static_cast<std::size_t>(lamp)];
-    const double intensity_w_m2 =
-        input.contains("intensity") ? number(input, "intensity", 0, 1e4) : desc.intensity_w_m2;
-    simulation.set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
-    return;
-  }
-  const int robot = robot_of(input);
+  if (world.robots.size() != twin_.world().robots.size() || world.physics_hz != twin_.world().physics_hz)
+    refuse_input("text: got other robots or another tick, expected the same");
+  std::size_t movable = 0;
+  for (const auto& object : world.objects) movable += object.movable;
+  const auto before = input.at("before").get<std::vector<int>>();
+  if (before.size() != movable) refuse_input("before: expected one number for each movable object");
+  for (int body : before)
+    if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
+      refuse_input(fmt::format("before: got {}, expected a movable object or -1", body));
+  world.seed = twin_.world().seed;
+  for (std::size_t i = 0; i < twin_.world().robots.size(); ++i)
+    world.robots[i].firmware = twin_.world().robots[i].firmware;
+  simulation.refurnish(world, before);
+}
+
+void Inputs::flash(const Json& input) {
+  const std::string wrong =
+      twin_.flash(input.at("robots").get<std::vector<int>>(), input.at("image").get<std::string>());
+  if (!wrong.empty()) refuse_input(wrong);
+}
+
+void Inputs::move(const Json& input) {
+  sim::Simulation& simulation = twin_.simulation();
+  const int body =
+      input.contains("body") ? whole(input, "body", 0, simulation.scene().bodies() - 1) : robot_of(input);
+  simulation.move(
+      body,
+      {number(input, "x", -1000, 1000), number(input, "y", -1000, 1000), number(input, "heading", -1e6, 1e6)},
+      simulation.scene().z_m(body));
+}
+
+void Inputs::add_faults(const Json& input) {
+  const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
+  if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
+  for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+}
+
+void Inputs::end_fault(const Json& input) {
+  faults_.end(whole(input, "fault", 0, static_cast<int>(faults_.statuses().size()) - 1));
+}
+
+void Inputs::set_lamp(const Json& input) {
+  const auto& lamps = twin_.world().lamps;
+  const int lamp = whole(input, "lamp", 0, static_cast<int>(lamps.size()) - 1);
+  const auto& desc = lamps[static_cast<std::size_t>(lamp)];
+  const double intensity_w_m2 =
+      input.contains("intensity") ? number(input, "intensity", 0, 1e4) : desc.intensity_w_m2;
+  twin_.simulation().set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
+}
+
+void Inputs::set_variable(const Json& input, int robot) {
+  host::ProgramData& data = program_of(input, robot).data();
+  std::string error;
+  const host::Variable* v = data.find_number(input.at("variable").get<std::string>(), error);
+  if (!v) refuse_input(error);
+  data.set_number(*v, input.at("value").get<double>());
+}
+
+void Inputs::write_memory(const Json& input, int robot) {
+  const int bytes = whole(input, "bytes", 1, 8);
+  const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
+  const auto value = input.at("value").get<std::uint64_t>();
+  program_of(input, robot)
+      .data()
+      .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
+}
+
+void Inputs::set_sensor(const Json& input, int robot) {
+  twin_.mind(robot).board().virtual_devices().set(input.at("name").get<std::string>(),
+                                                  input.at("value").get<double>());
+}
+
+void Inputs::turn_selector(const Json& input, int robot) {
+  twin_.mind(robot).board().turn_selector(whole(input, "position", 0, 15));
+}
+
+void Inputs::set_battery(const Json& input, int robot) {
   host::FirmwareMind& mind = twin_.mind(robot);
-  if (what == "sensor") {
-    mind.board().virtual_devices().set(input.at("name").get<std::string>(), input.at("value").get<double>());
-  } else if (what == "selector") {
-    mind.board().turn_selector(whole(input, "position", 0, 15));
-  } else if (what == "battery") {
-    mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
-  } else if (what == "type") {
-    line(robot, whole(input, "port", 1, 2)).type(bytes_of(input.at("bytes").get<std::string>()));
-  } else if (what == "key") {
-    const double hold_s = input.value("hold", 0.1);
-    if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
-    mind.press_key({whole(input, "key", 0, 63), sim::to_seconds(simulation.now()), hold_s,
-                    input.value("address", 0) & 31});
-  } else if (what == "reset") {
-    program_of(input, robot).restart();
-  } else if (what == "set") {
-    host::Runner& program = program_of(input, robot);
-    const auto expression = input.at("variable").get<std::string>();
-    std::string error;
-    const host::Variable* v = program.find_variable(expression, error);
-    if (!v) refuse_input(error);
-    if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
-      refuse_input(
-          fmt::format("variable: got '{}', expected a number; name a member or element", expression));
-    char bytes[8] = {};
-    program.read_memory(v->address, bytes, v->bytes);
-    host::set_variable_value(*v, bytes, input.at("value").get<double>());
-    program.write_memory(v->address, bytes, v->bytes);
-  } else if (what == "write") {
-    const int bytes = whole(input, "bytes", 1, 8);
-    const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
-    const auto value = input.at("value").get<std::uint64_t>();
-    program_of(input, robot)
-        .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
-  } else {
-    refuse_input(fmt::format("do: got '{}', expected an input", what));
-  }
-  if (mind.runner()) mind.runner()->wake();
+  mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
+}
+
+void Inputs::type(const Json& input, int robot) {
+  line(robot, whole(input, "port", 1, 2)).type(bytes_of(input.at("bytes").get<std::string>()));
+}
+
+void Inputs::restart(const Json& input, int robot) { program_of(input, robot).restart(); }
+
+void Inputs::press_key(const Json& input, int robot) {
+  const double hold_s = input.value("hold", 0.1);
+  if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
+  twin_.mind(robot).press_key({whole(input, "key", 0, 63), sim::to_seconds(twin_.simulation().now()), hold_s,
+                               input.value("address", 0) & 31});
+}
+
+void Inputs::apply(const Json& input) {
+  const auto what = input.at("do").get<std::string>();
+  const auto& all = kinds();
+  const auto kind = std::find_if(all.begin(), all.end(), [&](const Kind& k) { return what == k.name; });
+  if (kind == all.end()) refuse_input(fmt::format("do: got '{}', expected an input", what));
+  if (kind->of_world) return (this->*kind->of_world)(input);
+  const int robot = robot_of(input);
+  (this->*kind->of_robot)(input, robot);
+  // a program that waits looks again, and the digest sees what was done
+  if (host::Runner* program = twin_.mind(robot).runner()) program->wake();
   std::uint64_t hash = sim::mix64(static_cast<std::uint64_t>(robot) + 1);
   for (const char c : bare(input).dump()) hash = sim::mix64(hash ^ static_cast<unsigned char>(c));
-  simulation.note_intervention(hash);
+  twin_.simulation().note_intervention(hash);
 }
 
 void Inputs::step() {

@@ -27,17 +27,36 @@ class Inputs {
   ~Inputs();
   /// Does it; throws std::runtime_error that says what is wrong, "got ..., expected ...", when nothing was
   /// done. Json's own exceptions pass: a member is missing or of another type.
-  /// `parsed`: what the text of a "world" says, for who knows it already; null: it is read.
-  void apply(const Json& input, const sim::WorldDesc* parsed = nullptr);
+  void apply(const Json& input);
+  /// A "world", for whoever has parsed its text already.
+  void refurnish(const Json& input, sim::WorldDesc world);
   /// Is it one of these? Other requests do not change the world.
   static bool is_input(const std::string& what);
-  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its advance(), or by
-  /// step().
+  /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its
+  /// advance(), or by step().
   faults::Injector& faults() { return faults_; }
   /// One tick, with the faults that are due before and behind it.
   void step();
 
  private:
+  struct Kind;
+  static const std::vector<Kind>& kinds();
+  // to the world
+  void refurnish(const Json& input);
+  void flash(const Json& input);
+  void move(const Json& input);
+  void add_faults(const Json& input);
+  void end_fault(const Json& input);
+  void set_lamp(const Json& input);
+  // to a robot
+  void set_sensor(const Json& input, int robot);
+  void turn_selector(const Json& input, int robot);
+  void set_battery(const Json& input, int robot);
+  void type(const Json& input, int robot);
+  void press_key(const Json& input, int robot);
+  void restart(const Json& input, int robot);
+  void set_variable(const Json& input, int robot);
+  void write_memory(const Json& input, int robot);
   int robot_of(const Json& input) const;
   host::Runner& program_of(const Json& input, int robot);
   TypedLine& line(int robot, int port);

@@ -128,6 +128,7 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
       if (end == std::string::npos) break;  // cut off: the last line is not whole
       const Json line = Json::parse(text.substr(begin, end - begin));
       begin = end + 1;
+      // The first line says of what run this is.
       if (number++ == 0) {
         if (line.at("twinpuck_inputs").get<int>() != 1) throw std::runtime_error("version: expected 1");
         Opening& o = replay->opening;

@@ -148,6 +148,7 @@ class Translation {
       made += text;
       at_ = end;
     };
+    // Words of conditions that muParser spells otherwise.
     if (name == "and") return put("&&");
     if (name == "or") return put("||");
     if (name == "not") return put("!");
@@ -158,6 +159,7 @@ class Translation {
       if (end + 1 < text_.size() && (begins_word(text_[end + 1]) || text_[end + 1] == '$'))
         refuse(unknown_robot(name));
     }
+    // A function that muParser knows; whatever else has a name is a signal.
     std::size_t open = end;
     while (open < text_.size() && text_[open] == ' ') ++open;
     const bool is_called = open < text_.size() && text_[open] == '(';

@@ -272,7 +272,7 @@ int robot_before_dot(const twin::Twin& twin, const std::string& text, std::strin
 
 // --- of the chip and the program
 
-Named find_pin(twin::Twin& twin, int robot, const std::string& name) {
+Named find_pin(twin::Twin& /*twin*/, int robot, const std::string& name) {
   const int bit =
       name.size() > 1 && name.size() < 4 && name.find_first_not_of("0123456789", 1) == std::string::npos
           ? std::stoi(name.substr(1))
@@ -288,13 +288,13 @@ Named find_pin(twin::Twin& twin, int robot, const std::string& name) {
 Named find_register(twin::Twin& twin, int robot, const std::string& name) {
   const host::Runner* runner = program(twin, robot);
   std::string error = "got a register of a robot without a chip, expected a robot that runs firmware";
-  if (!runner || !runner->has_chip()) throw std::runtime_error(error);
+  if (!runner || !runner->chip()) throw std::runtime_error(error);
   const auto found = trace::find_signals(name, runner, error);
   if (found.size() != 1 || found[0].source.kind != trace::Source::Register)
     throw std::runtime_error(error.empty() ? "got '" + name + "', expected a register" : error);
   return {"", [robot, s = found[0]](twin::Twin& t) {
-            const auto value =
-                t.mind(robot).runner()->peek(static_cast<unsigned>(s.source.index), t.mind(robot).now());
+            const auto value = t.mind(robot).runner()->chip()->peek(static_cast<unsigned>(s.source.index),
+                                                                    t.mind(robot).now());
             return double(value >> s.shift & ((1u << s.width) - 1));
           }};
 }
@@ -304,20 +304,17 @@ Named find_variable(twin::Twin& twin, int robot, const std::string& expression) 
   if (!runner) throw std::runtime_error("got a variable of a robot that runs no program");
   std::string error;
   // what has a name has a place that stays
-  if (const host::Variable* v = runner->find_variable(expression, error)) {
-    if (v->kind == host::Variable::Kind::Aggregate || v->bytes > 8)
-      throw std::runtime_error("got '" + expression + "', expected a number; name a member or element");
+  if (runner->data().find_variable(expression, error)) {
+    if (!runner->data().find_number(expression, error)) throw std::runtime_error(error);
     // looked up at each look: another program may have been flashed, with its variables elsewhere
     return {"", [robot, expression](twin::Twin& t) {
               const auto* now = program(t, robot);
               std::string none;
-              const host::Variable* found = now ? now->find_variable(expression, none) : nullptr;
-              if (!found || found->bytes > 8) return std::nan("");
-              char bytes[8] = {};
-              now->read_memory(found->address, bytes, found->bytes);
-              return host::variable_value(*found, bytes);
+              const host::Variable* found = now ? now->data().find_number(expression, none) : nullptr;
+              return found ? now->data().number(*found) : std::nan("");
             }};
   }
+  // Else it is an expression of C: tried once, to tell what is wrong with it, and computed at each look.
   const auto* chip = dynamic_cast<const chip::ChipRunner*>(runner);
   std::string why;
   double tried = 0;
@@ -350,6 +347,7 @@ Named find(twin::Twin& twin, int robot, const std::string& name) {
   if (const auto reg = inside("reg")) return needs_robot(), find_register(twin, robot, *reg);
   if (const auto var = inside("var")) return needs_robot(), find_variable(twin, robot, *var);
   if (!name.empty() && name[0] == '$') return needs_robot(), find_variable(twin, robot, name.substr(1));
+  // A signal of the table, by its name, or by its name and a number.
   for (const Signal& s : all()) {
     int index = 0;
     const std::string plain(s.name);

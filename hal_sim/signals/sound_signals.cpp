@@ -21,6 +21,7 @@ constexpr double kFullScale = 32768;                            // of the loudsp
 Heard listen(const sim::Scene& scene, int robot) {
   Heard heard;
   if (!sim::has_sound(scene)) return heard;
+  // Pressure at each microphone, and how fast it changes, at instants of the last moments.
   const auto pressure = [&](int mic, sim::Clicks at) {
     const board::Place& p = board::kMicrophone[mic];
     return sim::sense_sound_pa(scene, robot, {p.x_m, p.y_m, board::kMicrophoneZM}, at);

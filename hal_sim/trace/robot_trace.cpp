@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/memory/sfr_table.h"
 
 namespace trace {
 
@@ -62,13 +63,13 @@ RobotTrace::~RobotTrace() {
   if (runner_) runner_->observe(nullptr);
 }
 
-// --- signals ---------------------------------------------------------------------------------------------
+// --- signals
 
 void RobotTrace::reached(Cycle at) {
   if (at <= last_ || signals_.empty()) return;
   // what the chip does by itself before `at` comes back in about_to_change(). No further than the window: of
   // what comes from outside later nothing is known yet
-  if (runner_ && runner_->has_chip()) runner_->carry_out(std::min(at - 1, runner_->cycles()));
+  if (runner_ && runner_->chip()) runner_->chip()->carry_out(std::min(at - 1, runner_->cycles()));
   show_until(at);
 }
 
@@ -118,12 +119,13 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
     case Source::Steps:
       return static_cast<std::uint64_t>(board_.steps(static_cast<board::Wheel>(source.index), at));
     case Source::Flag:
-      return runner_ && runner_->flag(source.index, at);
+      return runner_ && runner_->chip() && runner_->chip()->flag(source.index, at);
     case Source::Service:
       return std::any_of(open_.begin(), open_.end(),
                          [&](const Span& open) { return open.vector == source.index; });
     case Source::WireByte:
     case Source::WireBusy: {
+      // frames come in time: those that are over give their byte, one that goes on makes the line busy
       auto& frames = frames_[index];
       while (!frames.empty() && frames.front().end <= at) frames.pop_front();
       const bool busy = !frames.empty() && frames.front().start <= at;
@@ -131,10 +133,11 @@ std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
       return source.kind == Source::WireBusy ? busy : wire_byte_[index];
     }
     case Source::Register:
-      return runner_->peek(static_cast<unsigned>(source.index), at);
+      return runner_->chip()->peek(static_cast<unsigned>(source.index), at);
     case Source::Variable: {
       char bytes[16] = {};
-      runner_->read_memory(source.variable.address, bytes, std::min(source.variable.bytes, sizeof bytes));
+      runner_->data().read_memory(source.variable.address, bytes,
+                                  std::min(source.variable.bytes, sizeof bytes));
       const double value = host::variable_value(source.variable, bytes);
       if (source.variable.kind == host::Variable::Kind::Float) return bits_of(value);
       if (source.variable.bits > 0 || source.variable.bytes > sizeof(std::uint64_t))
@@ -154,6 +157,7 @@ Cycle RobotTrace::horizon(Cycle at) {
     const Cycle then = board_.port_horizon(letter, at);
     next = std::min(next, then > at ? then : at + drivers::kAgendaTickCycles);
   };
+  // The soonest instant at which any of the signals can change. What changes at calls only has none.
   for (const Sampled& s : sampled_) {
     switch (s.source.kind) {
       case Source::Lat:
@@ -167,7 +171,8 @@ Cycle RobotTrace::horizon(Cycle at) {
         port('D');
         break;
       case Source::Flag:
-        if (runner_) next = std::min(next, runner_->flag_horizon(s.source.index, at));
+        if (runner_ && runner_->chip())
+          next = std::min(next, runner_->chip()->flag_horizon(s.source.index, at));
         break;
       case Source::WireByte:
       case Source::WireBusy:
@@ -181,7 +186,7 @@ Cycle RobotTrace::horizon(Cycle at) {
         break;
       case Source::Register:
         if (!runs_freely(s.source.index))
-          next = std::min(next, runner_->register_horizon(static_cast<unsigned>(s.source.index), at));
+          next = std::min(next, runner_->chip()->register_horizon(static_cast<unsigned>(s.source.index), at));
         break;
       case Source::Tris:
       case Source::Service:
@@ -202,7 +207,7 @@ void RobotTrace::frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycl
   if (shown) frames_[line].push_back({byte, start, end});
 }
 
-// --- the processor's course ------------------------------------------------------------------------------
+// --- the processor's course
 
 void RobotTrace::handler_begins(int vector, Cycle flagged, Cycle entry, Cycle first) {
   reached(entry);
@@ -258,6 +263,7 @@ void RobotTrace::waited(Cycle from, Cycle to, int depth) {
     spans_.push_back(span);
     return;
   }
+  // Main's waits: one that goes straight on is one span, and between two the program was busy.
   if (wait_.end == from && wait_.end > wait_.begin) {
     wait_.end = to;
     return;

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Writes down one robot's course: the changes of chosen signals, and what its processor did when.
 //
-//   Robot --reached(at)--> every cycle since the last call at which a signal can change: sample, compare,
-//   keep
+//   Robot --reached(at)--> cycles since the last call at which a signal can change --> sample, compare, keep
 //
 // Pins that the board evaluates in closed form (coils, IR pulses) are asked at each cycle at which they can
 // change, so a change has its exact cycle. Variables have none: they are looked at whenever the program calls

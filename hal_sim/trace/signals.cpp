@@ -123,7 +123,7 @@ bool is_of_drivers(const Signal& port) {
 
 // the same bits of the chip's own register, unless the board alone knows
 void take_from_chip(Signal& port, const host::Runner& runner) {
-  if (!runner.has_chip() || (runner.closed_drivers() && is_of_drivers(port))) return;
+  if (!runner.chip() || (runner.closed_drivers() && is_of_drivers(port))) return;
   const char* kind = nullptr;
   if (port.source.kind == Source::Lat) kind = "LAT";
   if (port.source.kind == Source::Port) kind = "PORT";
@@ -166,12 +166,12 @@ bool port_signal(const std::string& name, Signal& out) {
 // a number, or the numbers of an array
 std::string add_variable(const std::string& name, const host::Runner& runner, std::vector<Signal>& out) {
   std::string error;
-  const host::Variable* v = runner.find_variable(name, error);
+  const host::Variable* v = runner.data().find_variable(name, error);
   if (!v) return error.empty() ? "got '" + name + "', expected a variable" : error;
   if (v->kind == host::Variable::Kind::Aggregate) {
     for (int i = 0; i < kMostElements; ++i) {
       const std::string element = name + "[" + std::to_string(i) + "]";
-      if (!runner.find_variable(element, error)) {
+      if (!runner.data().find_variable(element, error)) {
         if (i > 0) return "";
         return "got '" + name + "', a struct, expected one of its members";
       }
@@ -196,7 +196,7 @@ std::string add_variable(const std::string& name, const host::Runner& runner, st
 
 std::vector<Signal> find_signals(const std::string& name, const host::Runner* runner, std::string& error) {
   error.clear();
-  const bool has_chip = runner && runner->has_chip();
+  const bool has_chip = runner && runner->chip();
   for (const Named& n : kNamed)
     if (name == n.name) {
       Signal found = signal(n.group, n.name, n.source, n.index, n.shift, n.width);
@@ -224,6 +224,7 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
     return {};
   }
   if (!error.empty()) return {};
+  // Else it is a variable of the program.
   std::vector<Signal> found;
   std::string wrong = "no firmware";
   if (runner) {
@@ -254,6 +255,7 @@ bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_
   char* end = nullptr;
   const double number = std::strtod(text.c_str(), &end);
   const bool is_number = !text.empty() && !std::isspace(static_cast<unsigned char>(text[0])) && *end == 0;
+  // A number with a fraction, as far as the variable can hold it.
   if (signal.real) {
     const bool is_float = signal.source.variable.bytes == sizeof(float);
     const double most = is_float ? static_cast<double>(std::numeric_limits<float>::max())
@@ -265,6 +267,7 @@ bool value_of_signal(const Signal& signal, const std::string& text, std::uint64_
     std::memcpy(&bits, &held, sizeof bits);
     return true;
   }
+  // A whole number: within the signal's width, or as bits in hexadecimal.
   const std::uint64_t all = signal.width < 64 ? (std::uint64_t{1} << signal.width) - 1 : ~std::uint64_t{0};
   const std::uint64_t top = signal.is_signed ? all >> 1 : all & signal.possible;
   const std::string range = signal.is_signed ? fmt::format("a whole number from -{} to {}", top + 1, top)

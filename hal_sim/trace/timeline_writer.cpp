@@ -42,7 +42,7 @@ std::string span_name(const Span& span, const host::Runner* runner) {
     case Span::Kind::Callback:
       break;
   }
-  const std::string known = runner ? runner->place_of(span.function).function : "";
+  const std::string known = runner ? runner->data().place_of(span.function).function : "";
   return known.empty() ? fmt::format("{:#x}", span.function) : known;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// From what a user calls a firmware to an image file: a file as it is, a folder or a controller's name built
-// first.
+// From what a user calls a firmware to an image file: a file as it is, a folder or a
+// controller's name built first.
 #include <climits>
 #include <cmath>
 #include <cstdlib>

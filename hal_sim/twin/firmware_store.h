@@ -7,15 +7,18 @@
 #include <vector>
 
 #include "programs/build/build.h"
-#include "sim_core/world/world_desc.h"
+
+namespace sim {
+struct WorldDesc;
+}
 
 namespace twin {
 
 /// What a robot runs whose program comes from outside.
 inline constexpr const char* kExtern = "<extern>";
 
-/// One `--fw` or `--uart`: what a robot gets instead of what the world file says. Robot "*" means every
-/// robot.
+/// One `--fw` or `--uart`: what a robot gets instead of what the world file says. Robot
+/// "*" means every robot.
 struct Choice {
   std::string robot;
   std::string value;
@@ -77,9 +80,9 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
 /// Where the image of a folder of C files is kept that is built with these options.
 std::string image_file(const std::string& folder, const Options& options);
 
-/// Finds the controller that `name` means and builds it when it is source. Returns the path of the image;
-/// empty on failure, with lines appended to `problems`. Images lie in the user's cache, and builds are
-/// incremental.
+/// Finds the controller that `name` means and builds it when it is source. Returns the path of the
+/// image; empty on failure, with lines appended to `problems`. Images lie in the user's cache, and
+/// builds are incremental.
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems, Program* program = nullptr);
 

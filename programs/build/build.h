@@ -21,11 +21,11 @@ struct Launch {
   bool is_extern = false;                ///< waits for a program from outside
 };
 
-/// Whether a file or folder means a program of the PC and not firmware. A folder: C or C++ that includes
-/// Webots' headers (also by way of headers of its own), C++ without the e-puck's library, a Makefile of
-/// Webots, Python, Java, MATLAB, or an executable with the folder's name. A file: a source of one of these
-/// languages, a jar or class, a script with #!, an ELF program of this machine. "<extern>" is one. Reads
-/// files.
+/// Whether a file or folder means a program of the PC and not firmware. A folder: C or C++ that
+/// includes Webots' headers (also by way of headers of its own), C++ without the e-puck's library, a
+/// Makefile of Webots, Python, Java, MATLAB, or an executable with the folder's name. A file: a source
+/// of one of these languages, a jar or class, a script with #!, an ELF program of this machine.
+/// "<extern>" is one. Reads files.
 bool is_pc_program(const std::string& path);
 
 /// Compiles what must be compiled into `cache_folder` (made if need be) and says how to start it; blocks

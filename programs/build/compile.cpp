@@ -219,6 +219,7 @@ class Build {
       // of programs from a Mac: arrays of a constant's size
       attempts.push_back({"clang", attempts[0].words});
     }
+    // The first that compiles is taken; of those that fail the first one's messages are told.
     for (const Attempt& attempt : attempts) {
       Words said;
       if (!compile_in(source, object, attempt, own, more, said)) {
@@ -282,6 +283,7 @@ class Build {
       if (line.size() > 4000 || !std::regex_match(line, m, kMissing)) continue;
       const std::string name = m[2];
       if (!missed_.insert(name).second) return false;
+      // A header of a known library, or a file of that name near the one that asks for it.
       for (const Home& home : header_homes()) {
         std::error_code none;
         if (name.rfind(home.header, 0) != 0 || !fs::exists(fs::path(home.folder) / name, none)) continue;
@@ -332,6 +334,7 @@ class Build {
     for (const std::string& word : libraries_)
       if (word.rfind("-L", 0) == 0 && fs::is_directory(folder_ / word.substr(2), none))
         folders.push_back((folder_ / word.substr(2)).lexically_normal());
+    // Each library: built already, or of a folder of its name, whose sources are compiled along.
     for (const std::string& word : libraries_) {
       bool is_built = false;
       for (const fs::path& place : folders) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Inside programs/build: a folder or file of C and C++ becomes a program, kept under a name made of its
-// content.
+// Inside programs/build: a folder or file of C and C++ becomes a program, kept under a name
+// made of its content.
 #pragma once
 #include <functional>
 #include <string>

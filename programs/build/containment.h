@@ -6,8 +6,8 @@
 
 namespace programs {
 
-/// Shall programs of the PC be contained? The environment says so: TWINPUCK_CONTAIN=1, as `twinpuck grade`
-/// does.
+/// Shall programs of the PC be contained? The environment says so: TWINPUCK_CONTAIN=1,
+/// as `twinpuck grade` does.
 bool is_contained();
 
 /// `words`, which start a process, so that it sees no file but the system's programs and libraries and what

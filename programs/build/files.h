@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 inline constexpr std::size_t kMostFiles = 5000;                 ///< of a folder that are looked at
 inline constexpr std::size_t kMostText = std::size_t{4} << 20;  ///< bytes of a source that are read
 
-/// Regular files below a folder, but for hidden ones and hidden folders; sorted. Links are followed, not in
-/// circles.
+/// Regular files below a folder, but for hidden ones and hidden folders; sorted. Links are
+/// followed, not in circles.
 std::vector<fs::path> files_below(const fs::path& folder);
 /// A pipe, socket or device whose name is that of a source or header; empty: none. Reading one may never end.
 fs::path odd_file_below(const fs::path& folder);

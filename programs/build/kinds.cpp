@@ -171,6 +171,7 @@ Found look_at_folder(const fs::path& folder) {
   const Contents in(folder);
   Found found;
   found.folder = folder;
+  // What lies in the folder.
   const auto is = [&](Kind kind, const fs::path& main) {
     found.kind = kind;
     found.main = main;
@@ -197,6 +198,7 @@ Found look_at_folder(const fs::path& folder) {
     return is(Kind::Python, python);
   if (is_webots || (has_code && is_webots_make)) return is(Kind::Compiled, {});
   if (is_chip) return is(Kind::Firmware, {});
+  // Then what is named as the folder in other languages, and sources of any name.
   if (const fs::path java = in.named(".java"); !java.empty()) return is(Kind::Java, java);
   if (const fs::path jar = in.named(".jar"); !jar.empty()) return is(Kind::Jar, jar);
   if (const fs::path made = in.named(".class"); !made.empty()) return is(Kind::Class, made);
@@ -211,6 +213,7 @@ Found look_at_folder(const fs::path& folder) {
     if (const auto files = in.of_kind(ending); files.size() == 1) return is(kind, files[0]);
   if (is_ready) return is(Kind::Executable, program);
   if (!in.of_kind(".m").empty()) return is(Kind::Matlab, in.of_kind(".m")[0]);
+  // Nothing that runs here: say what it is instead.
   if (!in.of_kind(".bsg").empty())
     found.why = "got a program of BotStudio, expected one in C, C++, Python or Java; BotStudio is not run";
   else if (const fs::path windows = in.named(".exe"); !windows.empty())

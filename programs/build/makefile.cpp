@@ -46,8 +46,8 @@ void ask(std::ostream& out, const std::string& variable) {
       << "\t-@printf '=%s\\n' $(strip $(" << variable << ")) 2>/dev/null\n";
 }
 
-/// A place where Makefiles find what they include of Webots: nothing is in these files, for only variables
-/// count.
+/// A place where Makefiles find what they include of Webots: nothing is in these files, for
+/// only variables count.
 void make_home(const fs::path& home) {
   std::error_code none;
   for (const char* folder :

@@ -72,6 +72,7 @@ RuntimeIni read_runtime_ini(const fs::path& folder, std::vector<std::string>& wa
         warn("got section [" + section + "], expected environment variables, python, java or matlab");
       continue;
     }
+    // A setting: of the environment, or of one language.
     const std::size_t sign = line.find('=');
     if (sign == std::string::npos) {
       warn("got a line without =, expected NAME = VALUE");

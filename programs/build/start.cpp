@@ -59,6 +59,7 @@ class Starter {
         launch_(launch) {}
 
   bool run() {
+    // What the user's runtime.ini asks for.
     std::vector<std::string> warnings;
     ini_ = read_runtime_ini(found_.folder, warnings);
     if (tell_)
@@ -68,6 +69,7 @@ class Starter {
     for (const auto& [name, value] : ini_.environment)
       if (name != "PYTHONPATH" && name != "LD_LIBRARY_PATH" && name != "WEBOTS_LIBRARY_PATH")
         launch_.environment.push_back(name + "=" + value);
+    // How it is started is its kind's affair.
     switch (found_.kind) {
       case Kind::Compiled:
         return compiled() && with_libraries();
@@ -233,6 +235,7 @@ class Starter {
                                         classpath,
                                         "-sourcepath",
                                         found_.folder.string()};
+    // Classes are kept under a name made of all sources and the class path.
     std::uint64_t h = hash_of(hash_of(3, classpath), found_.main.string());
     int files = 0;
     for (const fs::path& file : files_below(found_.folder))
@@ -242,6 +245,7 @@ class Starter {
     const fs::path kept = home / fmt::format("{}-{:016x}.classes", found_.main.stem().string(), h);
     launch_.files = files;
     if (fs::is_directory(kept, none)) return kept;
+    // They are made beside that place and moved there whole.
     const fs::path draft = kept.string() + fmt::format(".{}", getpid());
     fs::create_directories(draft, none);
     command.insert(command.end(), {"-d", draft.string(), found_.main.string()});
@@ -259,11 +263,13 @@ class Starter {
   }
 
   bool java() {
+    // The virtual machine.
     const std::string wanted = ini_.commands.count("java") ? ini_.commands["java"] : "java";
     fs::path machine = on_path(wanted);
     if (machine.empty()) machine = on_path("java");
     if (machine.empty())
       return fail("got a program in Java, expected java to run it; apt install default-jre-headless");
+    // Its class path: our library, what the user asks for, archives in the folder, then the program.
     const fs::path product = places::tools_folder();
     std::string classpath = (product / "Controller.jar").string();
     for (const auto& [name, value] : ini_.environment)

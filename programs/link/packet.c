@@ -35,7 +35,7 @@ const struct link_row* link_row_of(int number) {
   return 0;
 }
 
-/* --- writing --------------------------------------------------------------------------------------------- */
+/* --- writing */
 
 static unsigned char* room(struct link_packet* packet, size_t bytes) {
   size_t at = packet->size, needed = at + bytes;
@@ -91,7 +91,7 @@ void link_free(struct link_packet* packet) {
   memset(packet, 0, sizeof *packet);
 }
 
-/* --- reading --------------------------------------------------------------------------------------------- */
+/* --- reading */
 
 void link_read(struct link_reader* reader, const void* bytes, size_t size) {
   reader->at = (const unsigned char*)bytes;

@@ -45,8 +45,7 @@ const struct link_row* link_row_of(int number);
 /** All rows, and how many. */
 const struct link_row* link_rows(size_t* count);
 
-/* --- writing ---------------------------------------------------------------------------------------------
- */
+/* --- writing */
 
 /** A packet that is being written. Begin with zeros; link_free() in the end. Out of memory ends the process.
  */
@@ -70,8 +69,7 @@ void link_append(struct link_packet* packet, const struct link_packet* from);
 void link_clear(struct link_packet* packet);
 void link_free(struct link_packet* packet);
 
-/* --- reading ---------------------------------------------------------------------------------------------
- */
+/* --- reading */
 
 #define LINK_MOST_MEMBERS 8 /* of one kind in a record */
 

@@ -207,6 +207,7 @@ std::string words_of(const ProcessEnd& end) {
 
 std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
   adopt_orphans();
+  // A socket for the link, a pipe for what it prints, nothing to read.
   int sockets[2] = {-1, -1}, pipes[2] = {-1, -1};
   const int nothing = open("/dev/null", O_RDONLY | O_CLOEXEC);
   const bool have_sockets = socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets) == 0;
@@ -218,6 +219,7 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
     std::vector<std::string> named = start.words;
     if (!start.name.empty()) named[0] = start.name;
     const CallWords words(named), assignments(environment);
+    // vfork() shares our memory until the program begins, so no signal may come in between
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -236,6 +238,7 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
       pid = -1;
     }
   }
+  // The child has its ends, and ours are enough.
   for (const int fd : {nothing, sockets[1], pipes[1]})
     if (fd >= 0) close(fd);
   if (pid < 0) {
@@ -244,6 +247,7 @@ std::unique_ptr<Partner> Partner::start(const Start& start, std::string& why) {
     why = start.words[0] + ": cannot be started: " + std::strerror(wrong);
     return nullptr;
   }
+  // Its group can be ended from now on, whatever happens here.
   {
     const std::lock_guard<std::mutex> lock(leaders().changing);
     leaders().pids.insert(pid);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A program of the PC at the other end of the link: a process that we start, or one from outside that
-// connects.
+// A program of the PC at the other end of the link: a process that we start, or one from
+// outside that connects.
 //
 //   start()  --socket, pipe of its output--> process in a session of its own
 //   listen() --path of a socket------------> whoever connects, of the same user
@@ -43,9 +43,9 @@ class Partner {
  public:
   /// Null, with `why`, when it cannot be started.
   static std::unique_ptr<Partner> start(const Start& start, std::string& why);
-  /// Waits for a program from outside at a socket of this name in the user's folder for them, which the
-  /// environment of that program names as TWINPUCK_CONTROLLER=unix:PATH. Null, with `why`, when that cannot
-  /// be made.
+  /// Waits for a program from outside at a socket of this name in the user's folder for them, which
+  /// the environment of that program names as TWINPUCK_CONTROLLER=unix:PATH. Null, with `why`, when
+  /// that cannot be made.
   static std::unique_ptr<Partner> listen(const std::string& name, std::string& why);
   ~Partner();
   Partner(const Partner&) = delete;
@@ -71,8 +71,8 @@ class Partner {
   std::size_t packet_bytes() const { return bytes_; }
 
   enum class Sent { Yes, Gone, Deaf };
-  /// Gone: nobody is there any more, which receive() tells as well. Deaf: it takes nothing for
-  /// `milliseconds`.
+  /// Gone: nobody is there any more, which receive() tells as well. Deaf: it takes
+  /// nothing for `milliseconds`.
   Sent send(const link_packet& packet, int milliseconds = 1000);
 
   /// Waits up to `milliseconds` for its process to end, and tells what it still printed. Empty: it goes on.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The camera of Webots' e-puck, 52 x 39 pixels, taken with the robot's own: each eighth pixel of the middle
-// of its array in RGB565, frame after frame at its own rate, one being taken while the program looks at the
-// one before.
+// The camera of Webots' e-puck, 52 x 39 pixels, taken with the robot's own: each eighth pixel of the
+// middle of its array in RGB565, frame after frame at its own rate, one being taken while the program
+// looks at the one before.
 #pragma once
 #include <cstdint>
 #include <vector>

@@ -8,11 +8,35 @@
 
 namespace programs {
 
+namespace {
+
+/// Of a program of the PC nobody sees data or code.
+class UnseenData final : public host::ProgramData {
+ public:
+  explicit UnseenData(std::string robot) : robot_(std::move(robot)) {}
+  const host::Variable* find_variable(const std::string& expression, std::string& error) const override {
+    error =
+        "got '" + expression + "', but " + robot_ + " runs a program of the PC, whose variables nobody sees";
+    return nullptr;
+  }
+  std::vector<char> read_variable(const std::string&, std::size_t) const override { return {}; }
+  void read_memory(std::uintptr_t, void* to, std::size_t bytes) const override { std::memset(to, 0, bytes); }
+  void write_memory(std::uintptr_t, const void*, std::size_t) override {}
+  host::Place place_of(std::uintptr_t) const override { return {}; }
+  host::Place place_now() const override { return {}; }
+
+ private:
+  const std::string robot_;
+};
+
+}  // namespace
+
 ProgramRunner::ProgramRunner(std::string name, std::shared_ptr<Seat> seat, board::Board& board, Cycle start)
     : Runner(std::move(name)),
       seat_(std::move(seat)),
       board_(board),
       puck_(std::make_unique<Puck>(board, start)),
+      data_(std::make_unique<UnseenData>(this->name())),
       end_(start),
       began_(board.clock().click_at(start)) {
   seat_->runner = this;
@@ -94,16 +118,6 @@ void ProgramRunner::reset_under_program() {
   puck_.reset();  // its drivers let go of the pins first
   puck_ = std::make_unique<Puck>(board_, end_);
   puck_->adopt(*kept, end_);
-}
-
-const host::Variable* ProgramRunner::find_variable(const std::string& expression, std::string& error) const {
-  error =
-      "got '" + expression + "', but " + name() + " runs a program of the PC, whose variables nobody sees";
-  return nullptr;
-}
-
-void ProgramRunner::read_memory(std::uintptr_t, void* to, std::size_t bytes) const {
-  std::memset(to, 0, bytes);
 }
 
 }  // namespace programs

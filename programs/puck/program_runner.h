@@ -63,8 +63,6 @@ class ProgramRunner final : public host::Runner {
   void pass_to(Cycle end) override { end_ = std::max(end_, end); }
   std::int64_t interrupts_served() const override { return 0; }
   std::uint64_t turns() const override { return turns_; }
-  void wake() override {}
-  void remote_changed() override {}
   void restart() override;
   Cycle cycles() const override { return end_; }
   Cycle lived_cycles() const override { return end_; }
@@ -74,20 +72,8 @@ class ProgramRunner final : public host::Runner {
   const std::vector<host::TrapReport>& traps() const override { return traps_; }
   std::vector<board::Diagnosis> diagnoses() const override { return dated({}, board_.diagnoses(end_)); }
   std::uint64_t hash() const override { return puck_->hash(); }
-  const host::Variable* find_variable(const std::string& expression, std::string& error) const override;
-  std::vector<char> read_variable(const std::string&, std::size_t) const override { return {}; }
-  void read_memory(std::uintptr_t, void* to, std::size_t bytes) const override;
-  void write_memory(std::uintptr_t, const void*, std::size_t) override {}
-  host::Place place_of(std::uintptr_t) const override { return {}; }
-  host::Place place_now() const override { return {}; }
+  host::ProgramData& data() const override { return *data_; }
   void observe(host::Observer*) override {}  // it has no course of its own
-  bool flag(int, Cycle) override { return false; }
-  Cycle flag_horizon(int, Cycle) override { return board::kNever; }
-  bool has_chip() const override { return false; }
-  void carry_out(Cycle) override {}
-  std::uint16_t peek(unsigned, Cycle) override { return 0; }
-  Cycle register_horizon(unsigned, Cycle) override { return board::kNever; }
-  std::int64_t served(int) const override { return 0; }
   const drivers::Drivers* closed_drivers() const override { return &puck_->drivers(); }
 
  private:
@@ -98,6 +84,7 @@ class ProgramRunner final : public host::Runner {
   std::shared_ptr<Seat> seat_;
   board::Board& board_;
   std::unique_ptr<Puck> puck_;
+  std::unique_ptr<host::ProgramData> data_;
   Cycle end_;
   sim::Clicks began_;         // world time at which the program began
   std::int64_t time_ms_ = 0;  // since then, at the end of the last step

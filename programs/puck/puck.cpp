@@ -26,8 +26,8 @@ constexpr int kFullScale = 4095;
 constexpr double kGroundScale = 1000;     // [Webots: E-puckGroundSensors.proto, lookup table]
 constexpr double kRingApertureRad = 0.3;  // [assumed: as the usual profile's lobe]
 constexpr double kInfraRed = 1, kGeneric = 0, kLaser = 3;  // WbDistanceSensorType
-// the e-puck 2's sensor of the time of flight, which looks ahead [Webots: E-puck.proto, version 2: 0 to 2 m
-// in mm]
+// the e-puck 2's sensor of the time of flight, which looks ahead
+// [Webots: E-puck.proto, version 2: 0 to 2 m in mm]
 constexpr double kTofMostMm = 2000, kTofForwardM = 0.035, kTofHeightM = 0.028;
 constexpr double kMicZero = 2048, kMicScale = 16;  // 12 bits of the converter to signed 16
 constexpr double kAccZero = 2048, kAccPerG = 768;  // counts [lib: a_d/advance_ad_scan/e_acc.h]
@@ -115,7 +115,7 @@ Puck::Puck(board::Board& board, Cycle start)
 
 sim::Vec3 Puck::in_world_axes(const sim::Vec3& v) const { return in_axes(board_, v); }
 
-// --- the list ------------------------------------------------------------------------------------
+// --- the list
 
 void Puck::add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs) {
   devices_.push_back({name, kind, node, index, std::move(needs)});
@@ -156,6 +156,7 @@ void Puck::add_own() {
 }
 
 void Puck::add_of_world() {
+  // Emitters and receivers of the world file.
   const board::PacketDevices& packets = board_.packets();
   for (int e = 0; e < packets.emitters(); ++e)
     add(packets.emitter_name(e), Kind::Emitter, WB_NODE_EMITTER, e,
@@ -163,6 +164,7 @@ void Puck::add_of_world() {
   for (int r = 0; r < packets.receivers(); ++r)
     add(packets.receiver_name(r), Kind::Receiver, WB_NODE_RECEIVER, r, {double(packets.receiver_channel(r))});
   int number = -1;  // of the setup's devices
+  // Its other devices, each with what a program asks about it (put_device()).
   for (const sim::DeviceDesc& device : board_.setup().devices) switch (++number, device.kind) {
       case sim::DeviceKind::Gps:
         add(device.name, Kind::Gps, WB_NODE_GPS, 0);
@@ -258,7 +260,7 @@ void Puck::find_device(const std::string& name, link_packet& to) {
   put_nothing(to, "got device \"" + name + "\", expected one that this robot has");
 }
 
-// --- commands ------------------------------------------------------------------------------------
+// --- commands
 
 void Puck::note(std::uint64_t what) { hash_ = sim::fold(hash_, what); }
 
@@ -274,6 +276,7 @@ std::string Puck::command(const link_record& record, Cycle at) {
   const auto wrong = [&] {
     return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);
   };
+  // A device that does nothing takes every command.
   if (device.kind == Kind::Idle && record.number != LINK_ENABLE) return "";
   note(static_cast<std::uint64_t>(record.number) << 32 ^ static_cast<std::uint64_t>(tag));
   board::PacketDevices& packets = board_.packets();
@@ -376,7 +379,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
   return "";
 }
 
-// --- samples -------------------------------------------------------------------------------------
+// --- samples
 
 void Puck::sample(std::int64_t milliseconds, Cycle at, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i) {
@@ -596,7 +599,7 @@ void Puck::tell_playing(Cycle at, link_packet& to) {
     }
 }
 
-// --- time ----------------------------------------------------------------------------------------
+// --- time
 
 Cycle Puck::next_event() const {
   Cycle next = wheels_.next_event();

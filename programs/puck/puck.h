@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-// The e-puck as a program of the PC commands it: devices with names and tags, on the board and the library's
-// drivers.
+// The e-puck as a program of the PC commands it: devices with names and tags, on the board and
+// the library's drivers.
 //
 //   records of commands -> Puck -> drivers/ and board/ -> pins, coils, codec ...
 //   board/, drivers/ -> Puck -> records of samples
 //
-// Units, ranges, refresh and noise are those of the robot's own library: proximity and light in counts of the
-// scan (one pair each 17 ms), motors in steps, the camera at its own rate of frames, the accelerometer as the
-// mean of five samples. GPS, compass, inertial unit and devices of [[robot.device]] are the simulator's
-// truth. Sources: docs/webots.md. Instants are cycles of the robot's clock and never go back. One thread at a
-// time.
+// Units, ranges, refresh and noise are those of the robot's own library: proximity and light in counts of
+// the scan (one pair each 17 ms), motors in steps, the camera at its own rate of frames, the accelerometer
+// as the mean of five samples. GPS, compass, inertial unit and devices of [[robot.device]] are the
+// simulator's truth. Sources: docs/webots.md. Instants are cycles of the robot's clock and never go back.
+// One thread at a time.
 #pragma once
 #include <cstdint>
 #include <memory>

@@ -4,16 +4,16 @@
 #pragma once
 #include <vector>
 
+#include "sim_core/world/device_desc.h"
 #include "sim_core/world/scene.h"
-#include "sim_core/world/world_desc.h"
 
 namespace programs {
 
 /// Most distances of a lidar or range finder: what a packet holds.
 inline constexpr int kMostRanges = 12000;
 
-/// Columns and rows that are measured: those of the description, or, if these were too many, each n-th of
-/// both.
+/// Columns and rows that are measured: those of the description, or, if these were too
+/// many, each n-th of both.
 struct RangeGrid {
   int columns = 1, rows = 1;
 };

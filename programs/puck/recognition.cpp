@@ -33,6 +33,7 @@ std::vector<Notable> notables(const sim::Scene& scene, int robot, sim::Clicks at
   std::vector<Notable> all;
   const sim::WorldDesc& world = scene.world();
   int id = 0;
+  // Robots, then objects. Each counts for the ids, also one that cannot be recognised.
   for (int r = 0; r < scene.robots(); ++r) {
     ++id;
     const sim::RobotDesc& desc = world.robots[static_cast<std::size_t>(r)];
@@ -56,6 +57,7 @@ std::vector<Notable> notables(const sim::Scene& scene, int robot, sim::Clicks at
     if (desc.recognition_colours.empty()) continue;
     sim::Pose2 pose = desc.pose;
     double z_m = desc.z_m;
+    // a loose object is where the engine has it
     const auto moving = std::find(loose.begin(), loose.end(), static_cast<int>(o));
     if (moving != loose.end()) {
       const int body = scene.robots() + static_cast<int>(moving - loose.begin());
@@ -86,6 +88,7 @@ void Puck::recognise(std::int64_t milliseconds, Cycle at, link_packet& to) {
   recognition_elapsed_ms_ += milliseconds;
   if (recognition_elapsed_ms_ < recognition_period_ms_) return;
   recognition_elapsed_ms_ = 0;
+  // Where the lens is, and how many pixels its picture has.
   const auto camera =
       std::find_if(devices_.begin(), devices_.end(), [](const Device& d) { return d.kind == Kind::Camera; });
   const sim::Scene* scene = board_.scene();

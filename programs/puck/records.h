@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Records that both kinds of bodies write, robots and supervisors without one, and when a step of either
-// ends.
+// Records that both kinds of bodies write, robots and supervisors without one, and when a
+// step of either ends.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -12,8 +12,8 @@
 
 namespace programs {
 
-/// World time of so many ms since a program began. Rounded from the whole time, for a ms is no whole number
-/// of clicks.
+/// World time of so many ms since a program began. Rounded from the whole time, for a ms is no
+/// whole number of clicks.
 inline sim::Clicks clicks_of_ms(std::int64_t ms) { return (ms * (sim::kClicksPerSecond / 200) + 2) / 5; }
 
 /// DEVICE: `number` counts from 0, its tag from 1.

@@ -30,6 +30,7 @@ BodilessBody::BodilessBody(const sim::SupervisorDesc& desc) : desc_(desc) { rest
 void BodilessBody::restart() {
   devices_.clear();
   time_ms_ = step_ms_ = 0;
+  // Each device with what its program has to know of it (put_device()).
   bool has_emitter = false, has_receiver = false;
   for (const sim::DeviceDesc& d : desc_.devices) switch (d.kind) {
       case sim::DeviceKind::Emitter:
@@ -123,6 +124,7 @@ std::string BodilessBody::command(const link_record& record) {
   if (tag < 1 || tag > static_cast<std::int64_t>(devices_.size()))
     return fmt::format("{}: got tag {}, expected 1 to {}", row->name, tag, devices_.size());
   Device& device = devices_[static_cast<std::size_t>(tag - 1)];
+  // It has packets and what its world file gives it; other commands mean nothing here.
   const bool emits = device.node == WB_NODE_EMITTER, hears_packets = device.node == WB_NODE_RECEIVER;
   const auto wrong = [&] {
     return fmt::format("{}: got '{}', which is no device for that", row->name, device.name);

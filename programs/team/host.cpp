@@ -20,12 +20,13 @@ void Team::reset(bool reload) {
 
 void Team::restart_program(int robot) { wants_restart_.insert(robot); }
 
-/// At once, so that what the program commands next finds the world as it began. Everything back to its
-/// beginning. Programs of robots begin anew, but for the one that asked for it, as in Webots; with a reload
+/// Puts everything back to its beginning, at once, so that what the program commands next finds the world as
+/// it began. Programs of robots begin anew, but for the one that asked for it, as in Webots; with a reload
 /// all do.
 void Team::carry_out_resets() {
   sim::Simulation& simulation = twin_.simulation();
   const bool resets = wants_reset_ || wants_reload_;
+  // Programs of robots; the one that asked for the reset goes on in the world that begins.
   for (int r = 0; r < twin_.robots(); ++r) {
     if (!resets && wants_restart_.count(r) == 0) continue;
     if (wants_reset_ && !wants_reload_ && resetter_ && resetter_->robot == r && resetter_->partner) {
@@ -50,6 +51,7 @@ void Team::carry_out_resets() {
         member->custom = at_first_->robots[static_cast<std::size_t>(member->robot)].custom_data;
     make_nodes();
   }
+  // Supervisors without a robot.
   for (const auto& member : members_) {
     if (!resets || !member->bodiless) continue;
     if (wants_reload_ || member.get() != resetter_)

@@ -85,7 +85,7 @@ int Team::number_of(const Member& member) const {
   return -1;
 }
 
-// --- between ticks -------------------------------------------------------------------------------
+// --- between ticks
 
 void Team::before_first_tick() {
   if (began_) return;
@@ -114,6 +114,7 @@ void Team::take_turns() {
       }
       if (is_to_begin(*member) || (!member->partner && !member->is_over)) begin(*member);
     }
+    // Programs whose step has ended get their samples, all before the first of them commands anything.
     const sim::Clicks now = twin_.simulation().now();
     std::vector<Member*> due;
     for (const auto& member : members_)
@@ -121,6 +122,7 @@ void Team::take_turns() {
         due.push_back(member.get());
     for (Member* member : due)
       if (member->has_said_hello) hand_over_samples(*member);
+    // Each in turn commands what it likes, up to its next step.
     for (Member* member : due) {
       if (outcome_.ended) return;  // the others have their last go in finish()
       in_turn_ = member;
@@ -239,6 +241,8 @@ void Team::turn(Member& member) {
       case Partner::Got::Nothing:
         break;
     }
+    // Nothing has come for a while: the run may be given up, the program may be making processes without end,
+    // or the user wonders why nothing moves.
     const std::string since =
         fmt::format("{} for {:.0f} s (t={:.3f} s)",
                     member.has_said_hello ? "has not stepped" : "has not called wb_robot_init()",
@@ -257,7 +261,7 @@ void Team::turn(Member& member) {
   }
 }
 
-// --- what a program says -------------------------------------------------------------------------
+// --- what a program says
 
 bool Team::carry_out(Member& member) {
   link_reader reader;
@@ -273,6 +277,7 @@ bool Team::carry_out(Member& member) {
 }
 
 bool Team::carry_out(Member& member, const link_record& record) {
+  // A record that this side sends, or one before HELLO, is no program of ours.
   const link_row* row = link_row_of(record.number);
   if (row->who == LINK_FROM_SIMULATOR)
     return refuse(member, fmt::format("got {}, which the simulator sends", row->name)), true;
@@ -305,10 +310,12 @@ bool Team::carry_out(Member& member, const link_record& record) {
     default:
       break;
   }
+  // Questions are answered at once.
   if (row->who == LINK_FROM_ASKS) {
     answer(member, record);
     return false;
   }
+  // Changes of the world are a supervisor's.
   if (record.number >= LINK_SET) {
     if (member.is_supervisor) {
       nodes_->carry_out(record, number_of(member), member.robot);
@@ -321,6 +328,7 @@ bool Team::carry_out(Member& member, const link_record& record) {
                row->name));
     return false;
   }
+  // Everything else is for the robot's devices.
   const std::string wrong = member.body->command(record);
   if (!wrong.empty()) warn(number_of(member), wrong);
   return false;
@@ -334,6 +342,7 @@ void Team::welcome(Member& member) {
       0.00628;  // rad/s: 1000 is a turn a second [Webots: e-puck of versions 6 to 8]
   link_clear(&packet_);
   link_begin(&packet_, LINK_WELCOME);
+  // What programs of Webots ask about their robot and its world.
   for (const std::int64_t number :
        {std::int64_t{LINK_VERSION}, std::int64_t{member.is_supervisor},
         std::int64_t{world.webots.axes == sim::Axes::Nue}, std::int64_t{is_lab},
@@ -379,7 +388,7 @@ void Team::step(Member& member, std::int64_t milliseconds) {
   done(member, 0);
 }
 
-// --- how programs end ----------------------------------------------------------------------------
+// --- how programs end
 
 void Team::refuse(Member& member, const std::string& why) {
   link_clear(&packet_);
@@ -464,7 +473,7 @@ void Team::finish() {
   }
 }
 
-// --- text ----------------------------------------------------------------------------------------
+// --- text
 
 void Team::print(Member& member, const char* text, std::size_t bytes) {
   constexpr std::size_t kLongestLine = 4096;

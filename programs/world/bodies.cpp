@@ -71,6 +71,7 @@ void Bodies::read_file() {
 void Bodies::tie_file() {
   if (options_.file.empty()) return;
   for (const wbt::NodePtr& n : text_.nodes) tree_.add(*n, Tree::kRoot, "children", -1, *protos_);
+  // Of several nodes in one line the one that resembles the thing most.
   const auto node_at = [&](int line, const std::string& def, const std::string& name, Is is) {
     int best = 0, points = -1;
     for (const int id : tree_.at_line(line)) {
@@ -91,6 +92,7 @@ void Bodies::tie_file() {
     tree_.node(id).is = is;
     tree_.node(id).number = static_cast<int>(number);
   };
+  // Robots, supervisors and lamps are one node each; an object's node may own several bodies.
   for (std::size_t i = 0; i < w.robots.size(); ++i)
     tie_one(w.robots[i].node, w.robots[i].def, w.robots[i].name, Is::Robot, i);
   for (std::size_t i = 0; i < w.supervisors.size(); ++i)
@@ -109,6 +111,8 @@ void Bodies::tie_file() {
 void Bodies::add_rest() {
   const sim::WorldDesc& w = twin_.world();
   owner_.resize(w.objects.size(), 0);
+  // Nodes for what has none yet: the world itself where there is no file, then lamps,
+  // objects, robots, supervisors.
   const auto add = [&](const char* type, const std::string& def, const std::string& name, Is is,
                        std::size_t number) {
     const int id = tree_.add(type, def, Tree::kRoot, "children");
@@ -167,6 +171,7 @@ void Bodies::add_rest() {
 }
 
 int Bodies::add_object(const sim::ObjectDesc& o) {
+  // The node itself, with its place in the axes of programs.
   const int id = tree_.add("Solid", o.def, Tree::kRoot, "children");
   tree_.node(id).is = Is::Object;
   tree_.set(id, "name", o.name);
@@ -178,6 +183,7 @@ int Bodies::add_object(const sim::ObjectDesc& o) {
   std::vector<double> colours;
   for (const sim::Colour& c : o.recognition_colours) colours.insert(colours.end(), {c.r, c.g, c.b});
   tree_.set(id, "recognitionColors", kColour + kList, colours);
+  // Its shape stands there twice, to be seen and to be touched.
   const auto geometry = [&](int parent, const char* field) {
     if (o.kind == sim::ObjectKind::Polygon) return;
     const char* types[] = {"Box", "Cylinder", "Sphere"};

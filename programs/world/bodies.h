@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Ties the tree of nodes to the world that runs: where a node is, what moves when a program writes its place,
-// what stands there when it changes or adds a node. Poses are in programs' axes ([webots] axes), in metres; a
-// robot's is the floor under it. A movable thing is where the engine has it; all else is where its fields
-// say. Not modelled: robots that come during a run; shapes of robots; other axes than upwards for what the
-// engine moves.
+// Ties the tree of nodes to the world that runs: where a node is, what moves when a program writes its
+// place, what stands there when it changes or adds a node. Poses are in programs' axes ([webots] axes), in
+// metres; a robot's is the floor under it. A movable thing is where the engine has it; all else is where its
+// fields say. Not modelled: robots that come during a run; shapes of robots; other axes than upwards for
+// what the engine moves.
 #pragma once
 #include <functional>
 #include <map>

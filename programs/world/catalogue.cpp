@@ -10,9 +10,8 @@ namespace programs {
 
 namespace {
 
-// name, type, and what it holds: B bool, I whole, F number, 2 and V vectors, R rotation, C colour, S text, N
-// node,
-// * list
+// name, type, and what it holds: B bool, I whole, F number, 2 and V vectors, R rotation, C colour, S text,
+// N node, * list
 const std::string kPlaced =
     "translation V 0 0 0|rotation R 0 0 1 0|scale V 1 1 1|children N*|translationStep F 0.01|rotationStep F "
     "0.261799";

@@ -112,6 +112,7 @@ struct Nodes::Inside {
     const std::string def = text_of(r, 0);
     int id = 0;
     std::string why;
+    // By what the program knows it.
     switch (r.ints[0]) {
       case Root:
         id = Tree::kRoot;
@@ -153,6 +154,8 @@ struct Nodes::Inside {
     const auto& [x, y, z] = at.axes;
     std::vector<double> values;
     int count = -1;
+    // Questions: place and centre of mass, axes, velocity, points of contact, the whole pose, whether it
+    // stands firm, how many fields.
     switch (r.ints[1]) {
       case 0:
       case 3:
@@ -199,6 +202,7 @@ struct Nodes::Inside {
     const TreeNode& n = tree().node(id);
     std::vector<double> v = numbers_of(r);
     const std::string name = n.def.empty() ? n.type : n.def, text = text_of(r, 0);
+    // What the program does to it.
     switch (r.ints[1]) {
       case Velocity:
         v.resize(6);
@@ -433,6 +437,7 @@ struct Nodes::Inside {
   void insert(const link_record& r, int program) {
     const Handle* h = handle(r.ints[0]);
     if (!h) return warn(program, fmt::format("field {} is not there any more", r.ints[0]));
+    // It takes a number, a text or a vector of the field's kind, at a place that the list has.
     Value* v = h->of == Handle::Of::Tree ? tree().node(h->node).find(h->name) : nullptr;
     const std::vector<double> given = numbers_of(r);
     const std::string text = text_of(r, 0);
@@ -443,6 +448,7 @@ struct Nodes::Inside {
     const std::int64_t index = r.ints[1] < 0 ? r.ints[1] + count + 1 : r.ints[1];
     if (index < 0 || index > count)
       return warn(program, fmt::format("{}: got place {}, expected 0 to {}", name_of(*h), r.ints[1], count));
+    // It goes in there, and the world follows.
     v->written = true;
     if (member_of(v->type) == kText)
       v->texts.insert(v->texts.begin() + index, text);
@@ -455,6 +461,7 @@ struct Nodes::Inside {
   void remove_member(const link_record& r, int program) {
     const Handle* h = handle(r.ints[0]);
     if (!h) return warn(program, fmt::format("field {} is not there any more", r.ints[0]));
+    // A field of one node empties itself; a list loses a member that it has.
     Value* v = h->of == Handle::Of::Tree ? tree().node(h->node).find(h->name) : nullptr;
     if (!v) return warn(program, name_of(*h) + ": has no members");
     if (!is_list(v->type)) {
@@ -482,6 +489,7 @@ struct Nodes::Inside {
     if (!v || member_of(v->type) != kNode)
       return nothing(out, fmt::format("{}: got a field of {}, expected one of nodes", name_of(*h),
                                       field_type_name(h->type)));
+    // Where among its nodes the new one goes.
     const int count = v->count();
     std::int64_t index = r.ints[1];
     if (index < 0) index = index + count + 1;  // -1: at the end
@@ -489,6 +497,7 @@ struct Nodes::Inside {
       return nothing(
           out, fmt::format("{}: got place {}, expected -{} to {}", name_of(*h), r.ints[1], count + 1, count));
     if (count < 0 && !v->nodes.empty()) return nothing(out, name_of(*h) + ": holds a node already");
+    // What is needed of the field afterwards is kept: handles may move.
     const std::string text = text_of(r, 0);
     const int node = h->node;
     const std::string name = h->name;
@@ -522,6 +531,7 @@ struct Nodes::Inside {
       case Label: {
         v.resize(6);
         if (!are_finite(v)) return warn(program, "a label: got a number that is none, expected finite ones");
+        // Numbers of programs may be anything, so each is brought into its range.
         const auto part = [](double x) { return std::min(1.0, std::max(0.0, x)); };
         sim::PictureLabel label;
         label.id = static_cast<int>(std::min(1e6, std::max(0.0, v[0])));

@@ -18,11 +18,7 @@ const host::Variable* scalar_of(host::FirmwareMind& mind, const std::string& exp
     wrong = "got a robot that runs no firmware, expected one that does";
     return nullptr;
   }
-  const host::Variable* v = mind.runner()->find_variable(expression, wrong);
-  if (!v || (v->kind != host::Variable::Kind::Aggregate && v->bytes <= 8)) return v;
-  wrong = fmt::format("got '{}', which has {} bytes, expected a number; name a member or element", expression,
-                      v->bytes);
-  return nullptr;
+  return mind.runner()->data().find_number(expression, wrong);
 }
 
 std::string range(const std::string& name, double value, double least, double most, const char* unit) {
@@ -101,9 +97,7 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
   } else if (name.rfind("variable:", 0) == 0) {
     const host::Variable* v = scalar_of(mind, behind_colon(name), wrong);
     if (!v) return wrong;
-    char bytes[8] = {};
-    mind.runner()->read_memory(v->address, bytes, v->bytes);
-    numbers[0] = host::variable_value(*v, bytes);
+    numbers[0] = mind.runner()->data().number(*v);
   } else {
     wrong = "no such field";
   }
@@ -131,14 +125,12 @@ std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name
   } else if (name.rfind("variable:", 0) == 0) {
     const host::Variable* v = scalar_of(mind, behind_colon(name), wrong);
     if (!v) return wrong;
-    char bytes[8] = {};
-    mind.runner()->read_memory(v->address, bytes, v->bytes);
-    host::set_variable_value(*v, bytes, value);
-    mind.runner()->write_memory(v->address, bytes, v->bytes);
+    mind.runner()->data().set_number(*v, value);
   } else {
     wrong = "it can only be read";
   }
   if (!wrong.empty()) return wrong;
+  // A program that waits looks again, and the run's digest tells that somebody did this.
   if (mind.runner()) mind.runner()->wake();
   std::uint64_t h = static_cast<std::uint64_t>(robot) + 1;
   for (const char c : name) h = sim::fold(h, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));

@@ -141,6 +141,7 @@ std::string run(Handle& handle, sim::Clicks end, const py::object& each_tick, bo
   const Handle::Running running(handle);
   World& world = handle.world();
   std::exception_ptr thrown;
+  // Python is asked with its lock held; what it throws ends the run and is thrown again behind it.
   const auto guarded = [&thrown](const std::function<bool()>& ask) {
     py::gil_scoped_acquire lock;
     try {
@@ -155,6 +156,7 @@ std::string run(Handle& handle, sim::Clicks end, const py::object& each_tick, bo
   if (!each_tick.is_none())
     on_tick = [&] { return guarded([&] { return py::bool_(each_tick()).cast<bool>(); }); };
   world.should_stop = [&] { return thrown || guarded([] { return false; }); };
+  // The simulation runs without Python's lock.
   World::Why why;
   {
     py::gil_scoped_release free;
@@ -321,7 +323,7 @@ void assign_to(Handle& handle, int robot, const std::string& expression, const p
 
 py::tuple place_of(Handle& handle, int robot) {
   const host::Runner* const runner = handle.world().runner(handle.robot(robot));
-  const host::Place place = runner ? runner->place_now() : host::Place{};
+  const host::Place place = runner ? runner->data().place_now() : host::Place{};
   return py::make_tuple(place.function, place.file, place.line);
 }
 

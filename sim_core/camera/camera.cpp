@@ -103,6 +103,7 @@ class Renderer {
     low = kFarM;
     high = -kFarM;
     const Solid& s = *what.solid;
+    // A prism lies between its corners; with one behind the camera it may reach anywhere.
     if (s.kind == SolidKind::Prism) {
       bool behind = false, before = false;
       double corner_low = kFarM, corner_high = -kFarM;
@@ -122,6 +123,7 @@ class Renderer {
       low = behind ? -kFarM : corner_low;
       high = behind ? kFarM : corner_high;
     } else {
+      // Round solids: between both tangents, or anywhere when the camera is as near.
       const Vec2 rel = what.frame.at - eye_;
       const double ahead = dot(rel, ahead_), side = dot(rel, rightward_), r = s.radius_m;
       if (ahead + r <= kNearM) return false;
@@ -229,7 +231,7 @@ class Renderer {
     }
   }
 
-  // --- light ---------------------------------------------------------------------------------------------
+  // --- light
 
   Vec3 point_of(const Pixel& pixel, std::size_t row, std::size_t column) const {
     const Vec2 p = eye_ + pixel.depth_m * (ahead_ + right_[column] * rightward_);
@@ -323,6 +325,7 @@ class Renderer {
     for (std::size_t row = 0, i = 0; row < up_.size(); ++row) {
       for (std::size_t column = 0; column < columns(); ++column, ++i) {
         const Pixel& pixel = pixels_[i];
+        // What takes no computing: sky, floor and upright faces without lamps.
         if (pixel.item == kNothing) {
           out[i] = sky;
           continue;
@@ -345,6 +348,7 @@ class Renderer {
           out[i] = upright[static_cast<std::size_t>(pixel.item)];
           continue;
         }
+        // All else by the light on that very point.
         const Vec3 point = point_of(pixel, row, column);
         out[i] = times(item.surface->colour, light_on(point, normal_of(pixel, point)));
         if (glows) add_leds(item, point, out[i]);

@@ -7,8 +7,8 @@
 //      +-----> forward            upright, are rasterised column by column against a depth buffer
 //
 // Light: every surface is matt. One of colour c (0 to 1) and unit normal n sends c * E, where
-//   E = sky_light * (0.8 + 0.2 n_z)  +  sum over lamps that are on of  intensity * colour * max(0, n . l) /
-//   att(d)
+//   E = sky_light * (0.8 + 0.2 n_z)  +  sum over lamps that are on of
+//                                       intensity * colour * max(0, n . l) / att(d)
 // (l: unit vector to the lamp, d: distance, att = a0 + a1 d + a2 d2). Where nothing stands, the sky's colour
 // times sky_light. Lamps show as discs of kLampRadiusM, lit LEDs of other robots as spots of their mount's
 // size on the body, an LED in the robot's middle as a glow of the body's lower half.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The grid covers the fixed solids and one cell around them; whatever is outside is binned in the border
-// cells.
+// The grid covers the fixed solids and one cell around them; whatever is outside is binned
+// in the border cells.
 #include "sim_core/geometry/neighbours.h"
 
 #include <algorithm>
@@ -96,6 +96,7 @@ int Neighbours::cell_y(double y) const {
 
 void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m, double pace_m_s, Clicks at) {
   CHECK(moving.size() == bound_m_.size(), "bodies neither come nor go");
+  // Bin the bodies: count those of each cell, then put them one cell behind the other.
   std::fill(moving_first_.begin(), moving_first_.end(), 0);
   for (std::size_t i = 0; i < moving.size(); ++i) {
     place_[i] = moving[i].frame.at;
@@ -110,6 +111,7 @@ void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m, do
   }
   restore(moving_first_, moving.size());
 
+  // For each robot the list of what it may come near.
   list_.clear();
   far_for_.clear();
   at_ = at;
@@ -132,6 +134,7 @@ void Neighbours::rebuild(const std::vector<Placed>& moving, double history_m, do
                                                              : fixed_[static_cast<std::size_t>(c.index)]);
       if (gap > reach) continue;
       clear = std::min(clear, gap - own_m);
+      // for so long it need not be looked at: a body may come towards it as fast as it goes itself
       const double free_m = (c.moving ? 0.5 : 1) * (gap - reach_m_[i]);
       far_for_.push_back(
           free_m > 0 ? static_cast<Clicks>(std::min(free_m * clicks_per_m, static_cast<double>(kLongest)))

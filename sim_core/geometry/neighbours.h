@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Who is near whom: fixed solids in a uniform grid, moving ones binned anew whenever they have moved far
-// enough, and for each robot one list of everything its rays or its bumper could meet until then (a Verlet
-// list). In: placed solids, positions, m. Out: candidate lists, clearances (m), first hit of a long ray.
-// Algorithm: lists are gathered `kSkinM` too wide and hold until bodies may have used up the skin, twice
-// their way; whoever knows how fast they are then asks for new ones. Lists are constant while robots' minds
-// run.
+// enough, and for each robot one list of everything its rays or its bumper could meet until then (a
+// Verlet list). In: placed solids, positions, m. Out: candidate lists, clearances (m), first hit of a
+// long ray. Algorithm: lists are gathered `kSkinM` too wide and hold until bodies may have used up the
+// skin, twice their way; whoever knows how fast they are then asks for new ones. Lists are constant
+// while robots' minds run.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -38,8 +38,8 @@ class Neighbours {
   /// body is, or was in those poses, faster than `pace_m_s`.
   void rebuild(const std::vector<Placed>& moving, double history_m, double pace_m_s, Clicks at);
 
-  /// Distance, m, that robot r had around its bound when the lists were gathered; negative: it may touch
-  /// something.
+  /// Distance, m, that robot r had around its bound when the lists were gathered; negative: it
+  /// may touch something.
   double clearance_m(int robot) const { return clearance_[static_cast<std::size_t>(robot)]; }
 
   /// False: so near to the instant of the lists nothing on robot r's comes within the reach of its rays; or
@@ -54,8 +54,8 @@ class Neighbours {
   const Candidate* begin(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot)]; }
   const Candidate* end(int robot) const { return list_.data() + first_[static_cast<std::size_t>(robot) + 1]; }
 
-  /// Fixed and moving solids that may stand within radius_m of a point, each once, fixed ones first, in
-  /// order.
+  /// Fixed and moving solids that may stand within radius_m of a point, each once, fixed
+  /// ones first, in order.
   void gather(Vec2 point, double radius_m, std::vector<Candidate>& out) const;
 
  private:

@@ -19,6 +19,8 @@ struct Shape {
 };
 
 void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* out) {
+  // The point of the body, made smaller by the slack, that lies furthest in a direction, as
+  // libccd asks for it.
   const Shape& shape = *static_cast<const Shape*>(object);
   const Placed& p = *shape.placed;
   const Solid& s = *p.solid;

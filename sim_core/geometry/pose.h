@@ -68,8 +68,8 @@ struct Frame2 {
   }
 };
 
-/// Pose after travelling `forward_m` along an arc that turns by `turn_rad`: half the turn, the way, half the
-/// turn.
+/// Pose after travelling `forward_m` along an arc that turns by `turn_rad`: half the turn, the
+/// way, half the turn.
 inline Pose2 advance(const Pose2& p, double forward_m, double turn_rad) {
   const SinCos middle = sin_cos(p.heading_rad + 0.5 * turn_rad);
   return {p.x_m + forward_m * middle.c, p.y_m + forward_m * middle.s, p.heading_rad + turn_rad};

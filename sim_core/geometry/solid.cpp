@@ -117,10 +117,31 @@ bool is_at_height(double z_m, const Placed& what) {
   return z >= what.solid->z0_m && z <= what.solid->z1_m;
 }
 
+/// The last of a cast at an upright solid, which the ray is above or beside from `near` to `far`: its two
+/// caps. `by_side`: it came in through a side there, whose normal is `side_normal(where)`; else it begins
+/// inside.
+template <typename Normal>
+bool end_between_heights(const Ray& ray, const Placed& what, double near, double far, double& distance_m,
+                         Vec3* normal, bool by_side, Normal side_normal) {
+  bool by_cap = false;
+  const double z0 = what.z_m + what.solid->z0_m;
+  const double z1 = what.z_m + what.solid->z1_m;
+  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
+  distance_m = near;
+  if (!normal) return true;
+  if (by_cap)
+    *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
+  else
+    *normal = by_side ? side_normal(near) : Vec3{-ray.dir.x, -ray.dir.y, -ray.dir.z};
+  return true;
+}
+
 bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  // In the solid's own frame.
   const Frame2& f = what.frame;
   const Vec2 from = f.to_local({ray.from.x, ray.from.y});
   const Vec2 dir = f.turn_back({ray.dir.x, ray.dir.y});
+  // The ray is inside between the last side that it enters and the first that it leaves.
   double near = 0;
   double far = distance_m;
   const HalfPlane* entered = nullptr;
@@ -142,25 +163,14 @@ bool cast_prism(const Ray& ray, const Placed& what, double& distance_m, Vec3* no
     }
     if (near > far) return false;
   }
-  bool by_cap = false;
-  const double z0 = what.z_m + what.solid->z0_m;
-  const double z1 = what.z_m + what.solid->z1_m;
-  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
-  distance_m = near;
-  if (normal) {
-    if (by_cap) {
-      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
-    } else if (entered) {
-      const Vec2 n = f.turn(entered->normal);
-      *normal = {n.x, n.y, 0};
-    } else {
-      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
-    }
-  }
-  return true;
+  return end_between_heights(ray, what, near, far, distance_m, normal, entered != nullptr, [&](double) {
+    const Vec2 n = f.turn(entered->normal);
+    return Vec3{n.x, n.y, 0};
+  });
 }
 
 bool cast_cylinder(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
+  // Where the ray in plan meets the circle: a t^2 + 2 b t + c = 0.
   const Vec2 rel{ray.from.x - what.frame.at.x, ray.from.y - what.frame.at.y};
   const Vec2 dir{ray.dir.x, ray.dir.y};
   const double r = what.solid->radius_m;
@@ -185,21 +195,9 @@ bool cast_cylinder(const Ray& ray, const Placed& what, double& distance_m, Vec3*
     far = std::min(far, (-b + root) / a);
     if (near > far) return false;
   }
-  bool by_cap = false;
-  const double z0 = what.z_m + what.solid->z0_m;
-  const double z1 = what.z_m + what.solid->z1_m;
-  if (!clip_heights(ray.from.z, ray.dir.z, z0, z1, near, far, by_cap) || near >= distance_m) return false;
-  distance_m = near;
-  if (normal) {
-    if (by_cap) {
-      *normal = {0, 0, ray.dir.z < 0 ? 1.0 : -1.0};
-    } else if (by_side) {
-      *normal = {(rel.x + near * dir.x) / r, (rel.y + near * dir.y) / r, 0};
-    } else {
-      *normal = {-ray.dir.x, -ray.dir.y, -ray.dir.z};
-    }
-  }
-  return true;
+  return end_between_heights(ray, what, near, far, distance_m, normal, by_side, [&](double at_m) {
+    return Vec3{(rel.x + at_m * dir.x) / r, (rel.y + at_m * dir.y) / r, 0};
+  });
 }
 
 bool cast_ball(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal) {
@@ -439,6 +437,7 @@ double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward) {
     if (toward) *toward = what.frame.turn({side.x * away.x / d, side.y * away.y / d});
     return d;
   }
+  // Any prism: the side that the point is furthest outside of.
   double deepest = -1e300;
   Vec2 normal;
   for (const HalfPlane& side : s.sides) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The shapes a world is made of: upright convex prisms, upright cylinders and balls, each in its own frame
-// with a height range; and what a ray, a disc or a neighbour asks of them. Metres. Not modelled: tilted
-// bodies.
+// The shapes a world is made of: upright convex prisms, upright cylinders and balls, each in its own
+// frame with a height range; and what a ray, a disc or a neighbour asks of them. Metres. Not
+// modelled: tilted bodies.
 #pragma once
 #include <vector>
 
@@ -59,9 +59,9 @@ struct Ray {
   Vec3 dir;
 };
 
-/// True when the ray meets the solid nearer than `distance_m`, which then becomes the distance of the first
-/// meeting; `normal`, if given, the unit vector out of the surface there. A ray that starts inside hits at
-/// distance 0.
+/// True when the ray meets the solid nearer than `distance_m`, which then becomes the distance of the
+/// first meeting; `normal`, if given, the unit vector out of the surface there. A ray that starts inside
+/// hits at distance 0.
 bool cast_ray(const Ray& ray, const Placed& what, double& distance_m, Vec3* normal = nullptr);
 
 /// Where a ray of a fan ends, and what the caller has said of the solid that it meets there.

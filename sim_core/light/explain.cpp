@@ -74,6 +74,7 @@ TableStep table_step(const std::vector<ResponseRow>& table, double distance_m) {
 }
 
 ProximityExplanation explain_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
+  // What the sensor says, and the rays by which it came to that.
   ProximityExplanation e;
   e.config = proximity_config(scene, robot, sensor);
   e.response = sense_proximity(scene, robot, sensor, at);
@@ -88,6 +89,7 @@ ProximityExplanation explain_proximity(const Scene& scene, int robot, int sensor
   CHECK(traces.size() == plans.size(), "a ray each");
   e.at_m = traces.front().from_m;
   e.factor = 0;
+  // Each ray: where it goes, what it meets, and how far that seems to be.
   for (std::size_t i = 0; i < traces.size(); ++i) {
     const RayTrace& t = traces[i];
     RayExplanation r;
@@ -112,6 +114,7 @@ ProximityExplanation explain_proximity(const Scene& scene, int robot, int sensor
     e.factor += t.weight * t.colour_factor;
     e.rays.push_back(r);
   }
+  // Where rays answer singly: what each adds, the one on the axis less what the slanted ones have of a wall.
   if (e.config.rays_answer_singly) {
     for (RayExplanation& r : e.rays) {
       if (!r.trace.hit) continue;

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "sim_core/base/check.h"
+#include "sim_core/world/world_desc.h"
 
 namespace sim {
 namespace {
@@ -29,8 +30,8 @@ std::vector<ResponseRow> inverse_square_table() {
   return rows;
 }
 
-/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts. [Enki:
-/// IRSensor.cpp]
+/// m (c - x0^2) / (x^2 - 2 x0 x + c) with x in cm, saturating below x0; noise of 10 counts.
+/// [Enki: IRSensor.cpp]
 std::vector<ResponseRow> enki_table() {
   constexpr double m = 3731, x0_cm = 0.3, c_cm2 = 0.7, noise_counts = 10, range_mm = 120;
   std::vector<ResponseRow> rows;
@@ -106,6 +107,7 @@ const ProximityProfile* find_profile(const std::string& name) {
 }
 
 ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor) {
+  // What the sensor says itself comes before what its robot says, and that before the world.
   const RobotDesc& r = world.robots[static_cast<std::size_t>(robot)];
   const ProximitySettings* own = nullptr;
   for (const SensorDesc& s : r.sensors) {
@@ -129,6 +131,7 @@ ProximityConfig resolve_proximity(const WorldDesc& world, int robot, int sensor)
     }
     break;
   }
+  // Each of the other settings is inherited alone.
   c.type = inherit(&S::type, levels, SensorType::InfraRed);
   c.rays = c.rays_written = inherit(&S::rays, levels, profile->rays);
   c.aperture_rad = inherit(&S::aperture_rad, levels, profile->aperture_rad);
@@ -150,6 +153,7 @@ ProximityConfig config_of(const ProximityProfile& profile) {
 }
 
 std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_width, RayLayout layout) {
+  // Where the rays pass: at which angle around the axis, and how far out of it. [Webots B2]
   struct Place {
     double azimuth_rad, fraction;
   };
@@ -192,6 +196,7 @@ std::vector<RayPlan> plan_rays(int rays, double aperture_rad, double gaussian_wi
       left -= count;
     }
   }
+  // Their directions, and weights that sum up to 1.
   std::vector<RayPlan> plans;
   double total = 0;
   for (const Place& p : places) {
@@ -262,6 +267,7 @@ std::string sensor_list(const std::vector<int>& sensors) {
 }  // namespace
 
 std::vector<std::string> proximity_notices(const WorldDesc& world) {
+  // Sensors of a robot that have the same notice are told together, and so are robots.
   std::vector<std::pair<std::string, std::vector<std::string>>> found;  // notice and whom it concerns
   for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) {
     const RobotDesc& robot = world.robots[static_cast<std::size_t>(r)];

@@ -5,9 +5,12 @@
 #include <string>
 #include <vector>
 
-#include "sim_core/world/world_desc.h"
+#include "sim_core/geometry/pose.h"
+#include "sim_core/world/proximity_desc.h"
 
 namespace sim {
+
+struct WorldDesc;
 
 /// A profile: the table and what goes with it unless a world file says otherwise.
 struct ProximityProfile {

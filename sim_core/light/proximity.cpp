@@ -191,8 +191,8 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundi
   return any;
 }
 
-/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a flat wall leaves to
-/// it.
+/// Enki's law: each slanted ray answers by itself; a ray on the axis answers for what a
+/// flat wall leaves to it.
 double answer_singly(const SensorOptics& s, const RayEnd* ends) {
   double sum = 0;
   for (std::size_t i = 0; i < s.rays.size(); ++i) {
@@ -261,9 +261,11 @@ std::unique_ptr<SensorOptics> make_sensor(const ProximityConfig& config, const S
     s->rays.push_back({plan.weight, 1 / sin_cos(plan.off_axis_rad).c, plan.off_axis_rad});
   }
   CHECK(s->rays.size() <= kMostRays, "the world format limits the number of rays");
+  // The wedge that holds all rays, a little wider than it is, against rounding.
   fan.is_wide = widest > 0.45 * kPi;
   fan.half_sin = std::min(1.0, std::sin(widest) + 1e-9);
   fan.half_cos = std::cos(widest) - 1e-9;
+  // What the sensor answers when nothing is there.
   RayEnd ends[kMostRays];
   fan.end_freely(ends);
   s->nothing = respond(*s, ends);
@@ -362,8 +364,8 @@ Eye eye_of(const Scene& scene, int robot, int sensor, Clicks at) {
   return eye;
 }
 
-/// [Webots B3] intensity times the cosine to the sensor's axis, attenuated, mean of the colours; bodies
-/// block.
+/// [Webots B3] intensity times the cosine to the sensor's axis, attenuated, mean of the
+/// colours; bodies block.
 LampShare share_of(const Scene& scene, const LampDesc& lamp, const Eye& eye, int robot, Clicks at) {
   LampShare share;
   share.from_m = eye.from;

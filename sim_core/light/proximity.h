@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a proximity sensor's optics return at one instant: rays, colour rule, weights, lookup table; no noise
-// drawn. A robot's gains and offsets (its Variation) and the noise itself belong to its board and are not
-// applied here.
+// What a proximity sensor's optics return at one instant: rays, colour rule, weights, lookup table; no
+// noise drawn. A robot's gains and offsets (its Variation) and the noise itself belong to its board and
+// are not applied here.
 #pragma once
 #include <memory>
 #include <vector>

@@ -4,7 +4,7 @@
 #pragma once
 #include <vector>
 
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/proximity_desc.h"
 
 namespace sim {
 

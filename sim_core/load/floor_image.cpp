@@ -47,6 +47,7 @@ std::string read_floor_image(const std::string& path, FloorDesc& floor) {
 
 std::string parse_floor_image(std::string_view bytes, FloorDesc& floor) {
   if (bytes.empty()) return "an empty file";
+  // A picture that is too large is refused before anything is unpacked.
   if (bytes.substr(1, 3) == "PNG") {
     const std::string size = check_size(bytes);
     if (!size.empty()) return fmt::format("{}; at most {} pixels", size, kMostPixels);

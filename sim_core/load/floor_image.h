@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/things_desc.h"
 
 namespace sim {
 

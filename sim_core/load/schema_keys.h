@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the tables of schema_*.cpp are written with: limits, and wrappers that turn a typed assignment into a
-// Setter.
+// What the tables of schema_*.cpp are written with: limits, and wrappers that turn a typed
+// assignment into a Setter.
 #pragma once
 #include <string>
 #include <vector>

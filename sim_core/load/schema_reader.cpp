@@ -43,6 +43,7 @@ bool in_range(const KeySpec& k, double v) { return v >= k.least && v <= k.most; 
 
 /// Reads a node into a value; false when its type or range is wrong.
 bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
+  // A list of `count` numbers, 0: of any.
   const auto numbers = [&](const toml::node& list, std::vector<double>& out, std::size_t count, bool ranged) {
     const toml::array* a = list.as_array();
     if (!a || (count && a->size() != count)) return false;

@@ -15,6 +15,7 @@ TomlTrap find_toml_trap(std::string_view text) {
     const bool basic = in == In::Basic || in == In::LongBasic;
     const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
     std::size_t skip = 0;  // characters of the same line to leave out
+    // Outside of strings: what the parser cannot take. Inside, only the string's end matters.
     if (in == In::Plain) {
       // a byte order mark at the very beginning is all right
       if (static_cast<unsigned char>(c) >= 0x80 && !(i < 3 && text.substr(0, 3) == "\xEF\xBB\xBF"))
@@ -35,6 +36,7 @@ TomlTrap find_toml_trap(std::string_view text) {
       in = In::Plain;
       skip = 2;
     }
+    // a line's end ends comments and short strings
     if (c == '\n') {
       if (in == In::Comment || in == In::Basic || in == In::Literal) in = In::Plain;
       ++line;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What no single key shows: double names, robots without a model, bodies inside each other (by libccd, in
-// 3-D).
+// What no single key shows: double names, robots without a model, bodies inside each other
+// (by libccd, in 3-D).
 #include <fmt/format.h>
 
 #include <map>
@@ -100,6 +100,7 @@ void check_overlaps(const WorldDesc& world, int only, std::vector<WorldProblem>&
       for (Placed& p : *all) p.z_m = 0;
     }
   }
+  // Only bodies near each other are looked at.
   std::vector<double> bounds;
   for (const Placed& p : layout.moving) bounds.push_back(p.solid->bound_m);
   Neighbours near(layout.fixed, bounds, 0, {});

@@ -85,6 +85,7 @@ class Reader : private SchemaReader {
   }
 
   void read_all(const toml::table& root) {
+    // Materials come before what is made of them.
     read_table("", root, &world_);
     read_one("world", root, "world", &world_);
     read_many("material", root, "material", [&](const toml::table& t) {
@@ -98,6 +99,7 @@ class Reader : private SchemaReader {
       }
       world_.materials.push_back(std::move(m));
     });
+    // The arena and its floor.
     if (root.get("arena")) {
       ArenaDesc arena;
       read_one("arena", root, "arena", &arena);
@@ -125,6 +127,7 @@ class Reader : private SchemaReader {
       }
       world_.ramps.push_back(std::move(r));
     });
+    // What several robots share, then what stands about.
     read_one("radio", root, "radio", &world_.radio);
     read_one("bluetooth", root, "bluetooth", &world_.link);
     read_one("webots", root, "webots", &world_.webots);
@@ -144,6 +147,7 @@ class Reader : private SchemaReader {
       read_table("lamp", t, &lamp);
       world_.lamps.push_back(std::move(lamp));
     });
+    // Sounds, robots and supervisors.
     read_sounds(root);
     read_robots(root);
     read_many("supervisor", root, "supervisor", [&](const toml::table& t) {

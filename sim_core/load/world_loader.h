@@ -41,8 +41,8 @@ LoadedWorld parse_world(std::string_view text, const std::string& path, const st
 /// Checks what no single key shows: names, overlaps, sensors that do not exist. Also for worlds built in C++.
 std::vector<WorldProblem> check_world(const WorldDesc& world);
 
-/// Whether a robot of a good world begins inside nothing. Quicker than check_world(), which looks at all
-/// bodies.
+/// Whether a robot of a good world begins inside nothing. Quicker than check_world(), which
+/// looks at all bodies.
 bool has_room(const WorldDesc& world, int robot);
 
 /// A file name as written in a world file, resolved against the world's own folder.

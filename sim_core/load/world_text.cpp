@@ -129,6 +129,7 @@ void WorldText::scan(const std::vector<int>& ids) {
   elements_.clear();
   tables_.clear();
   const std::string_view text = text_;
+  // A table begins, of its own element or within the last one of that name.
   const auto begin_table = [&](std::string path, bool many, std::size_t top, std::size_t begin) {
     const std::size_t dot = path.find('.');
     const std::string owner = path.substr(0, dot);
@@ -143,6 +144,7 @@ void WorldText::scan(const std::vector<int>& ids) {
     }
     tables_.push_back({static_cast<int>(element), own, std::move(path), top, begin, 0, {}});
   };
+  // Line by line: blank, comment, head of a table, or an entry whose value may take several lines.
   begin_table("", false, 0, 0);
   std::size_t comment = std::string::npos;  // where the comment begins that ends right above
   for (std::size_t at = 0; at < text.size();) {
@@ -175,8 +177,10 @@ void WorldText::scan(const std::vector<int>& ids) {
       tables_.back().entries.push_back(std::move(entry));
     }
   }
+  // Each table ends where the next one begins, with the comment above that.
   for (std::size_t i = 0; i < tables_.size(); ++i)
     tables_[i].end = i + 1 < tables_.size() ? tables_[i + 1].top : text.size();
+  // Lines of the elements, counted once through the text.
   std::size_t counted = 0;
   int line = 1;
   const auto line_at = [&](std::size_t at) {

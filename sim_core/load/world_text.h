@@ -47,13 +47,13 @@ class WorldText {
   /// Changes, adds or, with an empty `value`, takes away a key of the element's own table.
   bool set(int id, const std::string& key, const std::string& value);
   bool remove(int id);
-  /// Below the last element of that path, or at the end; `many`: as [[path]], otherwise as [path]. Returns
-  /// its id.
+  /// Below the last element of that path, or at the end; `many`: as [[path]], otherwise as
+  /// [path]. Returns its id.
   int add(const std::string& path, const Values& values, bool many = true);
   /// An element as text_of() gives it, below the last one of its path, or at the end. Returns its id.
   int append(const std::string& element);
-  /// The same once more, right below, with the comment above it; returns the new one's id, 0: nothing to
-  /// copy.
+  /// The same once more, right below, with the comment above it; returns the new one's id,
+  /// 0: nothing to copy.
   int copy(int id);
   /// Adds a table such as [[robot.part]] at the end of an element.
   bool add_inner(int id, const std::string& path, const Values& values);

@@ -151,6 +151,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       ground->CreateFixture(&def);
       return;
     }
+    // A shape of four corners is cut across its longer side into pieces of kLongestPieceM at most.
     std::vector<std::vector<Vec2>> pieces{p.solid->outline};
     if (p.solid->outline.size() == 4) {
       const std::vector<Vec2>& o = p.solid->outline;
@@ -199,6 +200,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     b2FixtureDef fixture;
     fixture.userData.pointer = static_cast<std::uintptr_t>(index);
     double mass, inertia, force, torque;
+    // A robot is held by its wheels' traction, an object by its friction on the floor.
     if (robot) {
       const RobotBody& r = desc_.robots[i];
       mass = r.mass_kg;
@@ -215,6 +217,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       fixture.friction = static_cast<float>(l.side_friction);
       fixture.restitution = static_cast<float>(l.restitution);
     }
+    // Its shape. Box2D would work out the mass from it; ours is set instead.
     if (desc_.solids[i]->kind == SolidKind::Prism) {
       for (const b2PolygonShape& shape : polygons(desc_.solids[i]->outline, Frame2())) {
         fixture.shape = &shape;
@@ -236,6 +239,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.body->SetLinearVelocity(units(bodies_[i].velocity_m_s));
     place(index);
 
+    // The ghost goes where the floor, or what carries it, wants it; a friction joint pulls the body along.
     def.type = b2_kinematicBody;
     part.ghost = world_.CreateBody(&def);
     b2FrictionJointDef joint;
@@ -332,6 +336,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     const std::size_t i = static_cast<std::size_t>(index);
     Part& part = parts_[i];
     const int support = support_[i];
+    // A slope pulls it down.
     SlopeEffect slope;
     if (is_sloping()) {
       slope = loose_slope(index);
@@ -340,6 +345,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       // what lies still on a slope that is too steep begins to slide
       if (support == kInAir || length(slope.pull) > grip) part.body->SetAwake(true);
     }
+    // What sleeps is woken when what it lies on moves.
     if (!part.body->IsAwake()) {
       if (support < 0) return;
       const BodyState& under = bodies_[static_cast<std::size_t>(support)];
@@ -347,6 +353,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       part.body->SetAwake(true);
     }
     const LooseBody& l = desc_.loose[i - desc_.robots.size()];
+    // How firmly what it lies on holds it.
     double force = support == kInAir ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
     if (is_sloping()) {
       force *= slope.press * slope.steep;
@@ -355,6 +362,7 @@ class DynamicMotion final : public Motion, b2ContactFilter {
     part.joint->SetMaxForce(static_cast<float>(force * kUnits));
     part.joint->SetMaxTorque(
         static_cast<float>(force * std::sqrt(desc_.solids[i]->gyration_m2()) * kUnits * kUnits));
+    // The ghost stands still, or moves as the body below does at this place.
     if (support < 0) {
       if (part.ghost->GetLinearVelocity().LengthSquared() > 0) part.ghost->SetLinearVelocity({0, 0});
       if (part.ghost->GetAngularVelocity() != 0) part.ghost->SetAngularVelocity(0);

@@ -23,6 +23,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   std::array<FixedContact, kMostFixedContacts>& contacts = last.contacts;
   std::size_t count = 0;
   bool is_inside = false;
+  // Solids that it may reach in this tick, with how fast it may come nearer, and how much their side rubs.
   for (const Candidate* c = neighbours.begin(robot); c != neighbours.end(robot); ++c) {
     if (c->moving || count == kMostFixedContacts) continue;
     const Placed& other = (*desc_.fixed)[static_cast<std::size_t>(c->index)];
@@ -43,6 +44,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     contact.friction = std::sqrt(body.side_friction * surface.friction);
     contact.solid = c->index;
     contact.blow_m_s = contact.rub_m_s = 0;
+    // What the solid did in the tick before is where this one begins.
     for (std::size_t k = 0; k < before.count; ++k) {
       if (before.contacts[k].solid != c->index) continue;
       contact.blow_m_s = before.contacts[k].blow_m_s;
@@ -51,6 +53,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     ++count;
   }
 
+  // The tick begins with the pushes and blows of the one before.
   const Wanted want = wanted(robot);
   if (count == 0) return drive_freely(robot, want);
   const Drive& d = drives_[static_cast<std::size_t>(robot)];
@@ -67,6 +70,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   for (int round = 0; round < kVelocityIterations && !is_settled; ++round) {
     const Vec2 came = velocity;
     const double came_spin = spin;
+    // The wheels push towards what they want, turning and driving, within what grip allows.
     const double twisted = std::clamp(twist + want.spin_rad_s - spin, -limits.spin_rad_s, limits.spin_rad_s);
     is_settled = twisted == twist;
     spin += twisted - twist;
@@ -78,6 +82,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     velocity = velocity + pushed - push;
     push = pushed;
     bool is_hit = false;
+    // Each solid rubs, by as much as its blow lets it, and gives the blow that keeps the robot out.
     for (std::size_t k = 0; k < count; ++k) {
       FixedContact* const c = &contacts[k];
       const Vec2 along{-c->normal.y, c->normal.x};
@@ -101,6 +106,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     // what a round leaves as it found it stays so
     is_settled = is_settled && velocity == came && spin == came_spin;
   }
+  // The way of the tick, and what the next one begins with.
   last.end = end_;
   last.count = count;
   last.push_m_s = push;

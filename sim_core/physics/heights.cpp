@@ -102,6 +102,7 @@ void Motion::step_heights() {
 
 Motion::Landing Motion::landing_of(int body) {
   const std::size_t i = static_cast<std::size_t>(body);
+  // Without anything below it lands on the floor.
   const BodyState& b = bodies_[i];
   const double tick_s = tick_s_, own = loose(body).restitution;
   const double end = b.z_m + (b.climb_m_s - 0.5 * fall_m_s2_ * tick_s) * tick_s;
@@ -132,6 +133,7 @@ Motion::Landing Motion::landing_of(int body) {
     landing.height_m -= rise;
     landing.climb_m_s = rise / tick_s;
   }
+  // A ramp has a restitution of its own.
   double drop_m = kLedgeM;
   const int ramp =
       desc_.ground->cast({{b.pose.x_m, b.pose.y_m, landing.end_m + 0.5 * kLedgeM}, {0, 0, -1}}, drop_m);

@@ -44,6 +44,7 @@ class KinematicMotion final : public Motion {
       }
       const double gap = plan_distance_m(start, other) - me.bound_m;
       const double least = std::min(gap, 0.5 * kTouchM);
+      // does it enter the other, that far on its way?
       const auto enters = [&](double part) {
         return plan_distance_m(start + part * way, other) - me.bound_m < least;
       };
@@ -52,6 +53,7 @@ class KinematicMotion final : public Motion {
         wall = wall || !c->moving;
       }
       if (!enters(allowed)) continue;
+      // The furthest place that does not, by halving.
       double free = 0, blocked = allowed;
       for (int round = 0; round < 30; ++round) {
         const double middle = 0.5 * (free + blocked);

@@ -114,8 +114,8 @@ class Motion {
   /// Puts a body somewhere else, at rest.
   virtual void move(int body, const Pose2& pose, double z_m);
   /// Gives a body another speed, m/s and rad/s; robots and objects on the floor keep it as long as grip
-  /// allows. A loose object with an upward speed leaves what it stands on. Engines without forces ignore the
-  /// plane part.
+  /// allows. A loose object with an upward speed leaves what it stands on. Engines without forces
+  /// ignore the plane part.
   virtual void set_velocity(int body, Vec2 velocity_m_s, double spin_rad_s, double climb_m_s);
 
  protected:
@@ -123,15 +123,15 @@ class Motion {
   /// loose objects move in the plane. follows_wheels: robots never slip.
   Motion(MotionDesc desc, bool has_heights, bool loose_moves, bool follows_wheels);
 
-  /// Moves the robots of near_ and the loose objects; what they may meet stands where it is at the tick's
-  /// end.
+  /// Moves the robots of near_ and the loose objects; what they may meet stands where it
+  /// is at the tick's end.
   virtual void step_plane(const Neighbours& neighbours) = 0;
   /// True when a loose object moves in the plane.
   virtual bool is_loose_moving() const { return false; }
   /// Called when a body's height range changed.
-  virtual void heights_changed(int body) {}
+  virtual void heights_changed(int /*body*/) {}
   /// Called when a blow from below changed a loose object's velocity in the plane.
-  virtual void velocity_changed(int body) {}
+  virtual void velocity_changed(int /*body*/) {}
   /// True where bodies may stand on slopes.
   bool is_sloping() const { return sloping_; }
   /// What the ground under a robot does to it now; only when is_sloping().
@@ -171,8 +171,8 @@ class Motion {
   }
   /// The tick of a robot that may meet fixed solids, and nothing else, on a level floor (fixed_contacts.cpp).
   void meet_fixed(int robot, const Neighbours& neighbours);
-  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half the way out of
-  /// robots.
+  /// Moves a robot out of whatever it is inside of: all the way out of fixed solids, half
+  /// the way out of robots.
   void push_out(int robot, const Neighbours& neighbours);
   /// What a robot may meet in the tick.
   enum class Near : char { Nothing, Fixed, Bodies, Meets };  // Meets: touches one that moves
@@ -283,8 +283,8 @@ std::unique_ptr<Motion> make_dynamic_motion(MotionDesc desc);
 /// No forces: exact arcs; a robot stops where it would enter something, and pushes nothing. Loose objects
 /// fall and bounce straight up and down.
 std::unique_ptr<Motion> make_kinematic_motion(MotionDesc desc);
-/// Two dimensions: wheels are followed exactly, nothing overlaps, loose objects are pushed; no heights, no
-/// slip.
+/// Two dimensions: wheels are followed exactly, nothing overlaps, loose objects are pushed;
+/// no heights, no slip.
 std::unique_ptr<Motion> make_planar_motion(MotionDesc desc);
 
 }  // namespace sim

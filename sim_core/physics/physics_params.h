@@ -4,8 +4,8 @@
 
 namespace sim {
 
-/// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would stop 10 mm from a
-/// wall.
+/// Box2D lengths per metre: its slop of 0.005 units is then 0.05 mm. At 1 a robot would
+/// stop 10 mm from a wall.
 inline constexpr double kBox2dUnitsPerMetre = 100;  // [measured: docs/dev/inside.md, gap 0.05 mm for a disc]
 /// A robot that is nearer than this to a body that moves takes part in the solver, m.
 inline constexpr double kMeetingM = 0.0002;  // [measured: Box2D sees contacts up to its skin of 0.1 mm]
@@ -19,8 +19,8 @@ inline constexpr double kHeightOverlapM =
 inline constexpr double kTouchM = 0.0001;  // [assumed: the skin that Box2D leaves in the dynamic engine]
 /// Overlap of bodies in contact, m.
 inline constexpr double kContactDepthM = 0.00005;  // [Box2D: b2_linearSlop, 0.005 units]
-/// A touch that ends and begins again within this time, or within so many ticks of its last one, is one
-/// touch, s.
+/// A touch that ends and begins again within this time, or within so many ticks of its last
+/// one, is one touch, s.
 inline constexpr double kTouchGapS = 0.02;  // [assumed: a bounce that nobody would count twice]
 inline constexpr int kTouchGapTicks = 2;    // [assumed: one tick without touch is the solver's]
 /// Solver iterations for speeds and positions.

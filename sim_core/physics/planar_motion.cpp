@@ -3,15 +3,12 @@
 // A tick: robots follow their wheels (half the turn, the way, half the turn), loose objects slide or roll on
 // and are slowed by the floor; then overlaps are taken away and objects that met exchange momentum.
 //   - Who gives way. Fixed solids never. Robots only as far as they themselves drove into something: wheels
-//   do
-//     not slip, so nobody pushes a robot aside; two that drive at each other share the overlap as their
+//     do not slip, so nobody pushes a robot aside; two that drive at each other share the overlap as their
 //     speeds. Loose objects give way to robots and, by their masses, to each other.
 //   - What a robot cannot push. The pushes of the robots that drive against an object are added as vectors;
-//   an
-//     object whose friction on the floor is more than the sum stands as if it were fixed.
+//     an object whose friction on the floor is more than the sum stands as if it were fixed.
 //   - Momentum: frictionless blows along the normal with the larger restitution of the two, as impulses;
-//   robots
-//     and fixed solids count as endlessly heavy.
+//     robots and fixed solids count as endlessly heavy.
 // Not modelled: heights (everything stands on the floor, endlessly high), traction, friction of sides, the
 // load of what stands behind a pushed object, pushes of more than one tick.
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Short-range links between two robots: messages with latency and bandwidth, within a range, with drop-outs.
 //
-//   robot: outbox (message at an instant) --> range, drop-outs, latency, bandwidth --> on_message() at a
-//   later tick
+//   robot: outbox (message at an instant) --> range, drop-outs, latency, bandwidth
+//                                         --> on_message() of the other robot, at a later tick
 //
 // What a message means is the robots' business. A reliable message waits while its way is blocked, and the
 // ones behind it wait with it; another is lost. Two ports that name each other as peer are linked; when their
@@ -19,7 +19,7 @@
 
 #include "sim_core/base/clock.h"
 #include "sim_core/world/medium.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/radio_desc.h"
 
 namespace sim {
 

@@ -38,6 +38,7 @@ void PacketMedium::add(PacketPort& port) {
 void PacketMedium::exchange(const Scene& scene, Clicks now) {
   if (!somebody_sends_.exchange(false, std::memory_order_relaxed)) return;
   bool some_wait = false;
+  // What each port has sent, in order, and what has to wait for its line.
   for (PacketPort* port : ports_) {
     std::list<Packet> waiting;
     while (!port->outbox_.empty()) {

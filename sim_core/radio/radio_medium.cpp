@@ -62,6 +62,7 @@ bool RadioMedium::is_busy(const Scene& scene, int port, Clicks at) const {
 }
 
 void RadioMedium::contend(const Scene& scene, Clicks now) {
+  // A random wait, of the port's own stream.
   const auto wait = [&](std::size_t p, int most) {
     const auto robot = static_cast<std::uint32_t>(ports_[p]->robot);
     const std::uint64_t bits = random_bits({seed_, robot, kStreamRadioWait}, waits_[p]++);
@@ -80,6 +81,7 @@ void RadioMedium::contend(const Scene& scene, Clicks now) {
     if (desc_.carrier_sense) w.at += wait(p, kFirstBackoffUnits);
   };
   for (std::size_t p = 0; p < ports_.size(); ++p) take(p, free_at_[p]);
+  // The earliest request of all, again and again.
   for (;;) {
     std::size_t next = ports_.size();
     for (std::size_t p = 0; p < ports_.size(); ++p) {
@@ -89,6 +91,7 @@ void RadioMedium::contend(const Scene& scene, Clicks now) {
     }
     if (next == ports_.size()) return;
     Waiting& w = waiting_[next];
+    // The channel is in use: it waits once more, or gives up.
     if (desc_.carrier_sense && is_busy(scene, static_cast<int>(next), w.at)) {
       if (++w.tries < kMostTries) {
         w.at += wait(next, kNextBackoffUnits);
@@ -99,6 +102,7 @@ void RadioMedium::contend(const Scene& scene, Clicks now) {
       free_at_[next] = w.at;
       ports_[next]->on_sent(true, w.at);
     } else {
+      // It goes on the air.
       RadioFrame frame;
       frame.sender = static_cast<int>(next);
       frame.number = numbers_[next]++;
@@ -128,11 +132,13 @@ void RadioMedium::hand_over(const Scene& scene, const RadioFrame& frame, int rec
     ++counters_.out_of_range;
     return;
   }
+  // What arrives, with this frame's own fading.
   const double level = level_db(scene, frame, receiver);
   if (level < 0) {
     ++counters_.out_of_range;
     return;
   }
+  // Who sends does not hear; else the stronger frame survives, if it is stronger by enough.
   for (const RadioFrame* other : rivals_) {
     if (other->sender == receiver) {
       ++counters_.while_sending;

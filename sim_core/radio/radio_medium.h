@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // One radio channel of the world: packets of robots that reach others or do not.
 //
-//   robot: outbox (request at an instant) --> wait, listen, send --> at each receiver: range, chance,
-//   collision
-//                                                                    --> on_frame() at the tick after its end
+//   robot: outbox (request at an instant) --> wait, listen, send
+//                                         --> at each receiver: range, chance, collision
+//                                         --> on_frame() at the tick after its end
 //
 // Modelled: path loss (log-distance with fading per frame, or a disc), transmit power, loss by chance,
 // listening before sending with random waits, frames that overlap at a receiver (the stronger one survives
@@ -17,7 +17,7 @@
 
 #include "sim_core/base/clock.h"
 #include "sim_core/world/medium.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/radio_desc.h"
 
 namespace sim {
 
@@ -38,8 +38,8 @@ struct RadioRequest {
   std::vector<std::uint8_t> bytes;
 };
 
-/// One robot's radio, seen from the channel. The robot fills the fields while it runs; the calls come between
-/// ticks.
+/// One robot's radio, seen from the channel. The robot fills the fields while it runs; the calls
+/// come between ticks.
 class RadioPort {
  public:
   static constexpr Clicks kOff = INT64_MAX;

@@ -51,6 +51,7 @@ class ApngEncoder : public FrameEncoder {
 
   void add(const std::uint32_t* pixels, int stride_px) override {
     if (frames_ >= kMostFrames) return file_.fail("got too many frames for an animated PNG, expected fewer");
+    // Only what has changed is in a frame.
     Box box{0, 0, width_, height_};
     if (frames_) box = changed(pixels, stride_px);
     const std::vector<std::uint32_t> before = last_;
@@ -58,6 +59,7 @@ class ApngEncoder : public FrameEncoder {
     for (int y = 0; y < height_; ++y)
       std::copy_n(pixels + static_cast<std::ptrdiff_t>(y) * stride_px, width_,
                   last_.begin() + static_cast<std::ptrdiff_t>(y) * width_);
+    // How it is shown, then its pixels.
     Bytes frame;
     put32(frame, sequence_++);
     for (int v : {box.right - box.left, box.bottom - box.top, box.left, box.top})
@@ -76,6 +78,7 @@ class ApngEncoder : public FrameEncoder {
       data.insert(data.end(), rows.begin(), rows.end());
       put_chunk(out, "fdAT", data);
     }
+    // The file is whole after each frame: the end follows at once, and the next frame takes its place.
     const std::int64_t end = file_.size() + static_cast<std::int64_t>(out.size());
     Bytes last;
     put_chunk(last, "IEND", {});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The --record file: one CSV row per robot and instant, SI units. Whole lines are written at once, so
-// whatever happens the file ends with a whole line. The first I/O error is kept; later calls do
-// nothing.
+// whatever happens the file ends with a whole line. The first I/O error is kept; later calls do nothing.
 #pragma once
 #include <string>
 
@@ -13,8 +12,8 @@ namespace sim {
 
 class CsvRecorder {
  public:
-  /// every_s: time between rows of one robot, s, > 0; rows appear at the first tick at or after each
-  /// multiple.
+  /// every_s: time between rows of one robot, s, > 0; rows appear at the first tick at or
+  /// after each multiple.
   CsvRecorder(std::string path, double every_s = 0.01);
   ~CsvRecorder();
   CsvRecorder(const CsvRecorder&) = delete;

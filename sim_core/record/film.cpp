@@ -80,6 +80,7 @@ void Film::sample(const Scene& scene, const Minds& minds, const std::vector<Pict
 void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::vector<PictureLabel>& labels) {
   cairo_t* cr = canvas_->cr();
   const double width = canvas_->width_px(), height = canvas_->height_px();
+  // The map, from the floor up.
   cairo_set_source_rgb(cr, 1, 1, 1);
   cairo_paint(cr);
   {
@@ -100,6 +101,7 @@ void Film::draw(Clicks at, const Scene& scene, const Minds& minds, const std::ve
   cairo_fill(cr);
   draw_names(cr, *place_, scene, at, 12, width);
 
+  // The texts: time at the right, title at the left, scale and legend below.
   const std::string time = options_.speed == 1
                                ? fmt::format("{:.2f} s", to_seconds(at))
                                : fmt::format("{:.2f} s  x{:g}", to_seconds(at), options_.speed);

@@ -29,8 +29,8 @@ class Film {
   /// Opens the file; error() tells whether it could.
   Film(const std::string& path, const Scene& scene, const FilmOptions& options = {});
   ~Film();
-  /// Call before the first step and after every step. Draws the frames that are due, the first one at the
-  /// first call.
+  /// Call before the first step and after every step. Draws the frames that are due, the first
+  /// one at the first call.
   void sample(const Scene& scene, const Minds& minds, const std::vector<PictureLabel>& labels = {});
   /// Whether sample() at `now` will draw, and so show its labels.
   bool is_due(Clicks now) const { return time_of(frame_) <= now; }

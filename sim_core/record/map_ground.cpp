@@ -31,6 +31,7 @@ void MapPainter::ramps() {
   for (const RampDesc& r : scene_.world().ramps) {
     const Frame2 frame(r.pose);
     const double half_x = 0.5 * r.size_m.x, half_y = 0.5 * r.size_m.y;
+    // The higher, the darker.
     cairo_pattern_t* shade =
         cairo_pattern_create_linear(frame.to_world({-half_x, 0}).x, frame.to_world({-half_x, 0}).y,
                                     frame.to_world({half_x, 0}).x, frame.to_world({half_x, 0}).y);
@@ -50,6 +51,7 @@ void MapPainter::ramps() {
     cairo_set_source(cr_, shade);
     cairo_fill(cr_);
     cairo_pattern_destroy(shade);
+    // Lines of equal height, a centimetre or ten apart, and an arrow uphill.
     if (r.high_m <= r.low_m) continue;
     cairo_set_source_rgba(cr_, 0, 0, 0, 0.3);
     pen(1);

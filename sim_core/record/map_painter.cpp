@@ -160,6 +160,7 @@ void MapPainter::rays() {
       for (const RayTrace& t : trace_proximity(scene_, r, s, at_)) {
         const Vec2 from{t.from_m.x, t.from_m.y}, to{t.to_m.x, t.to_m.y};
         if (t.distance_m <= 0) continue;
+        // Free beyond what it seems to see; from what it met to there in another colour; then the ray itself.
         const Vec2 along = (1 / t.distance_m) * (to - from);  // in plan, for a metre of ray
         const double met = t.hit ? t.distance_m : 0;
         const double seems = t.hit ? std::min(range, t.distance_m / t.colour_factor) : 0;
@@ -184,6 +185,7 @@ void MapPainter::robots(const Minds& minds) {
     const RobotModel* model = scene_.world().model_of(scene_.world().robots[i]);
     const Frame2 frame(scene_.pose(r, at_));
     const double radius = model->body_radius_m;
+    // the body, with a rim in the colour of its way
     disc(frame.at, radius);
     ink(scene_.layout().moving_surface[i].colour);
     cairo_fill_preserve(cr_);

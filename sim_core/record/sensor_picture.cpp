@@ -261,6 +261,7 @@ class Plan {
 /// Heights: way over the floor across, height up.
 void draw_side(cairo_t* cr, Panel panel, const ProximityExplanation& reading, const RobotModel& model) {
   const double range = reading.config.max_range_m();
+  // The panel shows the whole range, and as high as the body or the steepest ray.
   panel.left = -0.012, panel.right = range * 1.05;
   panel.bottom = -0.004;
   panel.top = model.body_height_m + 0.004;
@@ -270,6 +271,7 @@ void draw_side(cairo_t* cr, Panel panel, const ProximityExplanation& reading, co
   cairo_save(cr);
   cairo_rectangle(cr, panel.x, panel.y, panel.width, panel.height);
   cairo_clip(cr);
+  // Floor and body.
   cairo_set_source_rgb(cr, 0.55, 0.5, 0.4);
   cairo_rectangle(cr, panel.x, panel.py(0), panel.width, panel.height);
   cairo_fill(cr);
@@ -277,6 +279,7 @@ void draw_side(cairo_t* cr, Panel panel, const ProximityExplanation& reading, co
   cairo_rectangle(cr, panel.x, panel.py(model.body_height_m), panel.px(0) - panel.x,
                   panel.py(model.body_z0_m) - panel.py(model.body_height_m));
   cairo_fill(cr);
+  // What the rays met, at its distance and height.
   for (const RayExplanation& r : reading.rays) {
     if (!r.trace.hit || r.met.top_m <= r.met.bottom_m) continue;
     const double over = r.trace.distance_m * std::cos(r.rise_rad);
@@ -289,6 +292,7 @@ void draw_side(cairo_t* cr, Panel panel, const ProximityExplanation& reading, co
     cairo_set_line_width(cr, 1);
     cairo_stroke(cr);
   }
+  // The rays: up to there, as far as it seems to be, and free beyond.
   for (const RayExplanation& r : reading.rays) {
     const auto part = [&](double from, double to, const double(&colour)[3]) {
       if (to <= from) return;

@@ -37,12 +37,14 @@ void text(cairo_t* c, double x, double y, const std::string& words, double align
 
 std::string write_share_plot(const std::string& path, const SharePlot& plot) {
   if (plot.points.empty()) return path + ": plot: got no point, expected one or more";
+  // The axes: from 0 to the largest value, and from 0 to 1.
   double right = 0;
   for (const SharePoint& p : plot.points) right = std::max(right, p.x);
   if (right <= 0) right = 1;
   const auto x_of = [&](double x) { return kLeft + (kWidth - kLeft - kRight) * x / right; };
   const auto y_of = [&](double share) { return kHeight - kBottom - (kHeight - kTop - kBottom) * share; };
   const auto draw = [&](cairo_t* c) {
+    // Grid and texts.
     for (int k = 0; k <= 4; ++k) {
       cairo_set_source_rgb(c, 0.85, 0.85, 0.85);
       cairo_set_line_width(c, 1);
@@ -57,6 +59,7 @@ std::string write_share_plot(const std::string& path, const SharePlot& plot) {
       text(c, x_of(x), kHeight - kBottom + 22, fmt::format("{:g}", x), 0.5);
     text(c, (kLeft + kWidth - kRight) / 2, kHeight - 20, plot.across, 0.5);
     text(c, kLeft, kTop - 15, plot.title, 0);
+    // The curve, each point with its 95 % interval.
     cairo_set_source_rgb(c, 0.1, 0.35, 0.7);
     cairo_set_line_width(c, 2);
     for (const SharePoint& p : plot.points) cairo_line_to(c, x_of(p.x), y_of(p.share));

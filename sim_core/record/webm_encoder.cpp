@@ -219,6 +219,7 @@ class WebmEncoder : public FrameEncoder {
     seek_head_at_ = static_cast<std::int64_t>(out.size());
     const Bytes head = seek_head(kVoid, 0);
     out.insert(out.end(), head.begin(), head.end());
+    // What the file is; how long it is comes at the end.
     Bytes info;
     put(info, kTimestampScale, 1'000'000);  // ns: times are in ms
     put(info, kMuxingApp, "twinpuck");
@@ -227,6 +228,7 @@ class WebmEncoder : public FrameEncoder {
     info.insert(info.end(), room.begin(), room.end());
     put(out, kInfo, info);
     duration_at_ = static_cast<std::int64_t>(out.size() - room.size());
+    // Its one track.
     Bytes colour, video, entry, tracks;
     for (Id id : {kMatrix, kRange, kTransfer, kPrimaries}) put(colour, id, 1);  // BT.709, 16 to 235
     put(video, kFlagInterlaced, 2);                                             // it is not

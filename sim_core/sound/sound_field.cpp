@@ -6,6 +6,7 @@
 
 #include "sim_core/sound/sound_params.h"
 #include "sim_core/world/scene.h"
+#include "sim_core/world/world_desc.h"
 
 namespace sim {
 namespace {

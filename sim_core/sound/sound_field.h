@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The air: what arrives at a place from the world's sound sources and from robots' loudspeakers, in Pa.
 //
-//   p(t) = sum over sources of p_1m(t - r/c) / max(r, 2 cm)          r: way from where the source was, c =
-//   343 m/s
+//   p(t) = sum over sources of  p_1m(t - r/c) / max(r, 2 cm)
+//   r: way from where the source was; c = 343 m/s
 //
 // Free field: no echoes, nothing in the way, no air absorption, sources sound the same in all directions.
 // Doppler needs no term of its own: r is measured to where a loudspeaker was when the sound left it.
@@ -10,8 +10,7 @@
 // A pressure is a pure function of place, time and what was published at tick boundaries, however often and
 // whenever it is asked for (up to 60 ms back):
 //   - what a robot begins or ends to play counts from the next tick boundary on (below one tick late); the
-//   samples
-//     themselves keep their instants, so a sound that begins within a tick lacks its first part
+//     samples themselves keep their instants, so a sound that begins within a tick lacks its first part
 //   - robots are where they were one tick before
 // Reading is safe from any thread while nobody publishes.
 #pragma once
@@ -27,6 +26,7 @@
 namespace sim {
 
 class Scene;
+struct WorldDesc;
 
 /// What a loudspeaker plays: samples at even distances of time, linear in between, silence before and after.
 struct SpeakerTrack {
@@ -61,8 +61,8 @@ class SoundField {
 
   /// Other sources from now on; what robots play goes on.
   void refurnish(const WorldDesc& world);
-  /// The world begins again: its sources sound as at the beginning, from `now` on, and nothing else is in the
-  /// air.
+  /// The world begins again: its sources sound as at the beginning, from `now` on, and nothing
+  /// else is in the air.
   void begin_again(Clicks now);
   /// The robot's loudspeaker plays this from `now` on instead of whatever it played.
   void play(int robot, const SpeakerTrack& track, Clicks now);

@@ -3,8 +3,7 @@
 // question to the next; noise and claps are drawn by key and counter.
 //   tone   a sine that begins at 0 when the sound starts
 //   noise  white: normal draws on a 44.1 kHz grid, linear in between; with a band: 32 sines of random
-//   frequency
-//          and phase, spread evenly over the band
+//          frequency and phase, spread evenly over the band
 //   wav    samples of a file, linear in between, repeated or not
 //   clap   a burst of sines of random frequency and phase under an envelope that dies away
 #pragma once
@@ -13,7 +12,7 @@
 
 #include "sim_core/geometry/pose.h"
 #include "sim_core/random/counter_random.h"
-#include "sim_core/world/world_desc.h"
+#include "sim_core/world/sound_desc.h"
 
 namespace sim {
 

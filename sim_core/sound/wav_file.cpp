@@ -28,6 +28,7 @@ void put(std::string& out, std::uint32_t value, int count) {
 std::string parse_wav(std::string_view bytes, WavSound& out) {
   if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
     return "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"";
+  // Chunks: the format, and the first one with samples; all others are passed over.
   std::uint32_t channels = 0, bits = 0, rate = 0;
   std::string_view data;
   bool has_data = false;
@@ -52,6 +53,7 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
     if (said > bytes.size() - begin) break;
     at = begin + said + (said & 1);
   }
+  // Is the format one that we know?
   if (channels == 0 && bits == 0) return "got no \"fmt \" chunk, expected one before the samples";
   if (channels != 1 && channels != 2) return "got " + std::to_string(channels) + " channels, expected 1 or 2";
   if (bits != 8 && bits != 16) return "got " + std::to_string(bits) + " bits a sample, expected 8 or 16";
@@ -61,6 +63,7 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
   const std::size_t frame = channels * bits / 8;
   if (!has_data || data.size() < frame) return "got no samples, expected a \"data\" chunk with at least one";
 
+  // Samples from -1 to 1, the mean of both channels.
   out.rate_hz = rate;
   out.samples.clear();
   out.samples.reserve(data.size() / frame);

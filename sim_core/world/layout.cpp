@@ -172,6 +172,7 @@ Footing robot_footing(const Ground& ground, const RobotModel& model, const Pose2
 Layout build_layout(const WorldDesc& world) {
   Layout out;
   Builder build(out);
+  // What stands fast: arena, walls, and the sides of ramps.
   if (world.arena) add_arena(*world.arena, build);
   for (std::size_t i = 0; i < world.walls.size(); ++i) add_wall(world.walls[i], static_cast<int>(i), build);
 
@@ -180,6 +181,7 @@ Layout build_layout(const WorldDesc& world) {
   out.ground = Ground(ramps, world.floor.tilt_x_rad, world.floor.tilt_y_rad);
   for (std::size_t i = 0; i < ramps.size(); ++i) add_kerbs(world.ramps[i], i, out.ground, build);
 
+  // What moves: robots first, then loose objects among the fixed ones.
   std::map<const RobotModel*, const Solid*> bodies;  // robots of one model share theirs
   for (const RobotDesc& r : world.robots) {
     const RobotModel* model = world.model_of(r);
@@ -213,6 +215,7 @@ Layout build_layout(const WorldDesc& world) {
     }
   }
 
+  // How far all of it reaches.
   Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
   const auto include = [&](const Placed& p) {
     const auto point = [&](Vec2 w, double r) {

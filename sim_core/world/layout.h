@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A world's description turned into solids at their places: what rays, physics, overlap checks and pictures
-// share.
+// A world's description turned into solids at their places: what rays, physics, overlap checks
+// and pictures share.
 #pragma once
 #include <deque>
 #include <string>
@@ -46,8 +46,8 @@ inline constexpr double kFootingShare = 0.8;
 /// Ground under a robot at a pose.
 Footing robot_footing(const Ground& ground, const RobotModel& model, const Pose2& pose);
 
-/// The world must be consistent (models known, sizes positive): load/ has seen to that, or a test built it
-/// so.
+/// The world must be consistent (models known, sizes positive): load/ has seen to that, or
+/// a test built it so.
 Layout build_layout(const WorldDesc& world);
 
 }  // namespace sim

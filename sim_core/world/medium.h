@@ -19,7 +19,7 @@ class Medium {
   virtual void exchange(const Scene& scene, Clicks now) = 0;
   /// The world begins again: nothing is under way, and chance and plan are those of the beginning, from `now`
   /// on. Whose ends belong to no robot keeps what it sends.
-  virtual void begin_again(Clicks now) {}
+  virtual void begin_again(Clicks /*now*/) {}
   /// True when something is under way.
   virtual bool is_busy() const = 0;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Seam A seen from the world: whatever drives a robot. hal_sim implements it with a board and a firmware;
-// tests implement it with three lines. The world hands over a frozen scene and a span of time; it gets wheel
-// angles back.
+// Seam A seen from the world: whatever drives a robot. hal_sim implements it with a board and a
+// firmware; tests implement it with three lines. The world hands over a frozen scene and a span of time;
+// it gets wheel angles back.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -53,17 +53,17 @@ class RobotMind {
   /// Steps and LEDs at the last end.
   virtual MindReport report() const = 0;
 
-  /// Proximity reading of sensor `index` as the robot would get it now (counts), for recorders; no side
-  /// effects.
+  /// Proximity reading of sensor `index` as the robot would get it now (counts), for
+  /// recorders; no side effects.
   virtual int proximity_counts(const Scene& scene, int index) = 0;
 
   /// True when the robot's loudspeaker began or ended something since the last publish_sound().
   virtual bool has_sound_news() const { return false; }
   /// Tells the field so, at the tick boundary `now`. Called one robot after the other, in their order.
-  virtual void publish_sound(SoundField& field, int robot, Clicks now) {}
+  virtual void publish_sound(SoundField& /*field*/, int /*robot*/, Clicks /*now*/) {}
 
-  /// Everything of the inside that must repeat from run to run, folded into one number, for the world's
-  /// digest.
+  /// Everything of the inside that must repeat from run to run, folded into one number, for
+  /// the world's digest.
   virtual std::uint64_t state_hash() const = 0;
 
   /// Keeps idle_until in a slot of the simulation's, which looks at a thousand of them and touches no mind.

@@ -112,6 +112,7 @@ Surface Scene::floor(Vec2 point_m) const {
 }
 
 bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, SceneHit* hit) const {
+  // The nearest body, with the unit vector out of its surface.
   Vec3 best;
   double nearest = limit_m;
   Candidate what{-1, false};
@@ -146,6 +147,7 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
     }
     from = to;
   }
+  // The floor, and ramps on it, may be nearer.
   double floor_m = ray.dir.z < -1e-9 ? -ray.from.z / ray.dir.z : 1e300;
   if (floor_m < 0) floor_m = 1e300;
   Vec3 floor_normal{0, 0, 1};
@@ -157,6 +159,7 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
   }
   const bool on_floor = floor_m >= 0 && floor_m < nearest;
   if (what.index < 0 && !on_floor) return false;
+  // What was met there.
   if (!hit) return true;
   hit->distance_m = on_floor ? floor_m : nearest;
   hit->point_m = {ray.from.x + hit->distance_m * ray.dir.x, ray.from.y + hit->distance_m * ray.dir.y,

@@ -109,8 +109,8 @@ class Scene {
   /// Another colour; proximity sensors see its red part.
   void set_colour(const Candidate& what, const Colour& colour);
   void set_lamp(int lamp, bool on, double intensity_w_m2, Vec3 position_m);
-  /// Factor on the noise of a robot's proximity sensors, whatever single sensors said. The optics must be
-  /// made anew.
+  /// Factor on the noise of a robot's proximity sensors, whatever single sensors said. The
+  /// optics must be made anew.
   void set_proximity_noise(int robot, double scale);
   /// Half width of the factor on a robot's wheel travel.
   void set_wheel_noise(int robot, double half_width) {

@@ -4,6 +4,7 @@
 
 #include "sim_core/base/check.h"
 #include "sim_core/random/counter_random.h"
+#include "sim_core/world/world_desc.h"
 
 namespace sim {
 

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "sim_core/world/world_desc.h"
-
 namespace sim {
+
+struct WorldDesc;
 
 struct ResolvedVariation {
   std::uint64_t seed = 0;                    ///< the robot's own; all its noise is keyed by it

@@ -74,7 +74,7 @@ TEST(Battery, tells_the_cycle_at_which_it_falls_below_a_voltage) {
   EXPECT_EQ(battery.below(3.6, 0), board::kNever);  // is already
 }
 
-// --- what draws ------------------------------------------------------------------------------------------
+// --- what draws
 
 TEST(Power, starts_with_the_electronics_and_the_voltage_that_was_asked_for) {
   board::Setup setup;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The camera on the board, its world a function of direction: frames in time, light to counts, automatics,
-// noise.
+// The camera on the board, its world a function of direction: frames in time, light to
+// counts, automatics, noise.
 #include "hal_sim/board/camera.h"
 
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ class CameraBoard : public ::testing::Test {
     write(0xb1, static_cast<int>(value >> 8 & 255));
     write(0xb2, static_cast<int>(value & 255));
   }
-  /// Bytes of a whole picture, taken where the library's fast driver takes them; `at` becomes the cycle of
-  /// its end.
+  /// Bytes of a whole picture, taken where the library's fast driver takes them; `at` becomes
+  /// the cycle of its end.
   std::vector<std::uint8_t> shoot(Cycle& at, int rows = 40, int columns = 40, int bpp = 2, int skip = 1) {
     at = vsync_ = camera().await_frame(at);
     Camera::Cut cut;
@@ -162,12 +162,12 @@ TEST_F(CameraBoard, light_becomes_counts_through_exposure_gain_and_curve) {
   by_hand(998);
   scene_.light = [](double u, double, sim::Clicks) { return u < 0 ? grey(1) : grey(100); };
   Cycle at = 0;
-  // grey at a quarter of the clock: a byte lasts 16 cycles, the driver takes one every 8, so the same pixel
-  // twice
+  // grey at a quarter of the clock: a byte lasts 16 cycles, the driver takes one every 8, so
+  // the same pixel twice
   std::vector<std::uint8_t> image = shoot(at, 1, 40, 1, 1);
   EXPECT_EQ(image[0], 122);
-  // gain 0x20 doubles twice where 0x10 doubles once: 2 x, 0.64586, 165.3: between 160 (188) and 192 (212):
-  // 192.0
+  // gain 0x20 doubles twice where 0x10 doubles once: 2 x, 0.64586, 165.3: between 160 (188)
+  // and 192 (212): 192.0
   write(0x15, 0x20);
   image = shoot(at, 1, 40, 1, 1);
   EXPECT_NEAR(image[0], 192, 1);

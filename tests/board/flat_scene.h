@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A stand-in for sim_core's Scene: a test sets what every sensor sees, and may look at who asked for what and
-// when.
+// A stand-in for sim_core's Scene: a test sets what every sensor sees, and may look at who
+// asked for what and when.
 #pragma once
 #include <functional>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Stands in for sim_core's air: a test says what is heard where and when, and sees what a loudspeaker
-// publishes.
+// Stands in for sim_core's air: a test says what is heard where and when, and sees what
+// a loudspeaker publishes.
 #include "sim_core/sound/sound_field.h"
 #include "tests/board/flat_scene.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The radio turret's registers over the I2C bus, as the library's driver uses them; the channel is played by
-// hand.
+// The radio turret's registers over the I2C bus, as the library's driver uses them; the
+// channel is played by hand.
 #include "hal_sim/board/radio_turret.h"
 
 #include <gtest/gtest.h>

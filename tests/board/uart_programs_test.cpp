@@ -185,7 +185,7 @@ TEST_F(Pty, programs_come_and_go) {
   }
 }
 
-// --- TCP -------------------------------------------------------------------------------------------------
+// --- TCP
 
 struct Tcp : ::testing::Test {
   void SetUp() override {
@@ -241,7 +241,7 @@ TEST_F(Tcp, a_program_that_reads_slowly_loses_nothing) {
   ::close(fd);
 }
 
-// --- packets ---------------------------------------------------------------------------------------------
+// --- packets
 
 class PacketEnd : public UartEnd {
  public:

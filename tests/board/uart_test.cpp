@@ -130,7 +130,7 @@ TEST(Uart, a_reset_cuts_off_what_has_not_left) {
   EXPECT_FALSE(w.uart.enabled());
 }
 
-// --- ends ------------------------------------------------------------------------------------------------
+// --- ends
 
 TEST(UartEnd, pty_carries_bytes_both_ways_under_a_stable_name) {
   // a bare chroot may come without /dev/pts; then there is nothing to test

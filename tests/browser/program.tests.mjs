@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Programs: written, driven, watched.
 import assert from "node:assert/strict";
-import { ask, until } from "./harness.mjs";
+import { ask, blind, until } from "./harness.mjs";
 import { kWorld, program, start, x, time } from "./worlds.mjs";
 
 export const tests = {
   async a_saved_program_runs_within_a_second_and_a_broken_one_does_not(browser, live) {
     // slow robots with room on both sides: a busy machine may take its time
     const [v, page] = await start(browser, live, kWorld.replace("[-0.4, 0]", "[0.2, 0]"), { drive: program(50) });
+    await blind(page);
     await page.click("#play");
     await page.click("#tab-program");
     await until(page, "(app) => app.program.text().includes('e_set_speed_left')");

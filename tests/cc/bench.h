@@ -29,8 +29,8 @@ using Change = std::function<void(cc::BuildOptions&)>;
 cc::BuildResult build(const Folder& folder, const std::string& main_c, const std::string& level = "-O1",
                       const Change& change = {});
 
-/// What an image prints over UART 1, which is on, until its main() returns or resets, for some seconds at
-/// most.
+/// What an image prints over UART 1, which is on, until its main() returns or resets, for
+/// some seconds at most.
 std::string output_of(const std::filesystem::path& image);
 /// Of a program that is built first, and must be.
 std::string printed_by(const std::string& main_c, const std::string& level = "-O1");

@@ -85,8 +85,8 @@ TEST(driver_variants, files_that_include_headers_of_two_forms_share_one_driver) 
   EXPECT_NE(built.conflicts[0].find("motors: got headers of several drivers"), std::string::npos);
 }
 
-// main.c has the library's header by its path, which labels the function; the program brings its own all the
-// same
+// main.c has the library's header by its path, which labels the function; the program brings
+// its own all the same
 TEST(driver_variants, a_function_of_the_programs_own_is_called_whatever_header_declares_it) {
   Folder folder;
   folder.file("prog/main.c", kBasicHeader + kDrive);

@@ -44,7 +44,7 @@ class Flight {
   const std::vector<std::uint32_t>& leds() const { return leds_; }
   std::vector<std::int16_t> words(const std::string& name, std::size_t count) const {
     std::vector<std::int16_t> all(count);
-    const auto bytes = twin_->mind(0).runner()->read_variable(name, 2 * count);
+    const auto bytes = twin_->mind(0).runner()->data().read_variable(name, 2 * count);
     std::copy(bytes.begin(), bytes.end(), reinterpret_cast<char*>(all.data()));
     return all;
   }

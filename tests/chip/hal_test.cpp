@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "dspic30/memory/irqs.h"
+#include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/drivers/drivers.h"
 #include "tests/chip/hal_flight.h"
 #include "tests/chip/onlooker.h"
@@ -106,12 +107,15 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
   ASSERT_TRUE(sim.is_there() && dspic.is_there());
   host::Runner& runner = *sim.twin().mind(0).runner();
   const auto frames = static_cast<double>(runner.closed_drivers()->scan().interrupts(runner.cycles()));
-  const auto served = static_cast<double>(dspic.twin().mind(0).runner()->served(::dspic::irq::Adc));
+  const auto served =
+      static_cast<double>(dynamic_cast<chip::ChipRunner&>(*dspic.twin().mind(0).runner())
+                              .device()
+                              .served_interrupts(::dspic::irq::Adc + ::dspic::kFirstIrqVector));
   EXPECT_GT(served, 299'000);
   EXPECT_NEAR(frames, served, 2.5);
 }
 
-// --- programs of this test -------------------------------------------------------------------------------
+// --- programs of this test
 
 const char* const kHead = R"(
 #include <p30F6014A.h>
@@ -124,8 +128,8 @@ void run_left_motor(void);
 void run_right_motor(void);
 )";
 
-// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and phases as chance
-// has it
+// Nothing interrupts, so each call takes what it takes: 600 of them, with lists, speeds and
+// phases as chance has it
 const std::string kCalls = std::string(kHead) + R"(
 #define CALLS 600
 unsigned int took[CALLS], gave[CALLS], asked[CALLS];
@@ -321,7 +325,7 @@ TEST(HalDigest, is_the_same_whoever_looks) {
         twin->simulation().step();
         if (looks == 1) {
           std::int16_t word = 0;
-          twin->mind(0).runner()->read_memory(0x80C, &word, 2);
+          twin->mind(0).runner()->data().read_memory(0x80C, &word, 2);
           twin->mind(0).runner()->diagnoses();
         }
       }

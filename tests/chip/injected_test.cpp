@@ -369,8 +369,8 @@ TEST(Injected, lost_ticks_are_counted_and_told_as_on_the_chip) {
         if (d.cause == "missed interrupt" && d.place == vector) all += static_cast<double>(d.count);
       return all;
     };
-    // where an event falls just before or behind what holds the handler off, one in some hundreds is
-    // another's
+    // where an event falls just before or behind what holds the handler off, one in some
+    // hundreds is another's
     for (const char* vector : {"T2", "ADC"})
       EXPECT_NEAR(count(sim, vector), count(dspic, vector), 1 + 0.005 * count(dspic, vector)) << vector;
     const auto sorted = [](std::string text) {

@@ -190,7 +190,7 @@ TEST(MemoryCheck, the_run_goes_on_and_a_place_is_told_once) {
   run(*twin);
   EXPECT_EQ(twin->traps().size(), 1u);
   EXPECT_GT(twin->mind(0).runner()->cycles(), 600'000);
-  const auto bytes = twin->mind(0).runner()->read_variable("out", 2);
+  const auto bytes = twin->mind(0).runner()->data().read_variable("out", 2);
   ASSERT_EQ(bytes.size(), 2u);
   EXPECT_NE(bytes[0] | bytes[1], 0);
 }

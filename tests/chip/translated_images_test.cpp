@@ -46,7 +46,7 @@ Seen run(const std::string& controller, bool translated) {
       if (!translates) setenv("TWINPUCK_INTERPRET", "1", 1);
       twin();
       unsetenv("TWINPUCK_INTERPRET");
-      if (translates) runner().translate_all();
+      if (translates) runner().processor().translate_all();
       run_for(kSeconds);
       Seen seen;
       seen.world = digest();

@@ -146,7 +146,7 @@ int main(void) {
     const auto line = std::make_shared<hal_test::MemoryEnd>();
     twin->mind(0).board().uart(1).connect(line);
     auto& runner = dynamic_cast<chip::ChipRunner&>(*twin->mind(0).runner());
-    if (!knows) runner.know_nothing();
+    if (!knows) runner.processor().know(nullptr);
     while (sim::to_seconds(twin->simulation().now()) < 3) twin->simulation().step();
     text[knows] = line->text();
     hash[knows] = runner.hash();

@@ -235,8 +235,8 @@ TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
   EXPECT_EQ(twinpuck("cycles '" + elf + "' --budget absent=5").exit_code, 2);
 }
 
-// one sentence, whoever is asked: `weight` is in main() and step(), `both` has a copy there and code of its
-// own
+// one sentence, whoever is asked: `weight` is in main() and step(), `both` has a copy there
+// and code of its own
 TEST_F(ChipProgram, a_function_that_is_part_of_others_is_told_how_it_is_measured) {
   file("main.c",
        "volatile int n, m;\nint weight(int x) { return 3 * x + m; }\n"

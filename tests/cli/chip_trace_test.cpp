@@ -136,8 +136,8 @@ TEST_P(RegisterTraces, conversions_and_characters_have_their_times) {
   for (std::size_t i = 10; i < 200; ++i)
     EXPECT_NEAR(ns(samples[i]) - ns(samples[i - 1]), (samples[i].second == "0" ? 10 : 70) * kCycle, kRounded)
         << i;
-  // a result is written once in a sequence; the microphone's noise makes it differ from the one before as a
-  // rule
+  // a result is written once in a sequence; the microphone's noise makes it differ from the
+  // one before as a rule
   const auto& result = d.signals.at("puck/registers/ADCBUF0");
   ASSERT_GT(result.size(), 500u);
   for (std::size_t i = 3; i < result.size(); ++i) {
@@ -215,8 +215,8 @@ TEST_P(RegisterTraces, a_trap_leaves_a_complete_file) {
                      "trap");
   EXPECT_EQ(s.exit_code, 3) << s.text;
   const Dump d = parse(read(path("r.vcd")));
-  // all 30 interrupts, then the processor resets, the registers fall back, and the program begins anew: each
-  // 8.15 ms
+  // all 30 interrupts, then the processor resets, the registers fall back, and the program
+  // begins anew: each 8.15 ms
   const auto flags = rises(d.signals.at("puck/registers/IFS0_T1IF"));
   EXPECT_EQ(flags.size(), 186u);  // 6 x 30, and 6 of the seventh
   const auto& control = d.signals.at("puck/registers/T1CON");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// A strict reader of time lines (Trace Event Format, the JSON array): what Perfetto and chrome://tracing ask
-// of every event, and that the slices of a track lie within one another or apart. Viewers drop or bend what
-// does not.
+// A strict reader of time lines (Trace Event Format, the JSON array): what Perfetto and chrome://tracing
+// ask of every event, and that the slices of a track lie within one another or apart. Viewers drop or
+// bend what does not.
 #pragma once
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// twinpuck view from the terminal: it ends at a signal with its recording whole, and run --replay does it
-// again.
+// twinpuck view from the terminal: it ends at a signal with its recording whole, and run
+// --replay does it again.
 #include "tests/cli/command.h"
 
 namespace {

@@ -76,8 +76,8 @@ class Simulator {
   void send_bytes(const std::string& bytes);
   /// HELLO's answer. Returns HELLO.
   Record welcome(const World& world);
-  /// A packet that ends in STEP, without it; an empty answer to a packet that does not is a failure of the
-  /// test.
+  /// A packet that ends in STEP, without it; an empty answer to a packet that does not is a
+  /// failure of the test.
   std::vector<Record> until_step();
   /// DONE, with samples before it.
   void done(std::int64_t time_ns, Packet& samples);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The ADC scan and the basic proximity driver: instants by hand, and equality with plain ticked state
-// machines.
+// The ADC scan and the basic proximity driver: instants by hand, and equality with plain
+// ticked state machines.
 #include "hal_sim/drivers/adc_scan.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick over random
-// programs.
+// AgendaTimer: hand-computed motor rates and quirks, and equality with the ticked yardstick
+// over random programs.
 #include "hal_sim/drivers/agenda_timer.h"
 
 #include <gtest/gtest.h>
@@ -150,8 +150,8 @@ TEST(AgendaMotors, wheels_turn_smoothly_and_never_run_ahead) {
     const double position = motor.position(at);
     EXPECT_GE(position, last);
     EXPECT_LE(position, static_cast<double>(motor.steps()));
-    // constant speed after two steps, the first of which takes its time: one step per 10 ticks, one step
-    // behind
+    // constant speed after two steps, the first of which takes its time: one step per 10
+    // ticks, one step behind
     if (at > 30 * kTick) {
       EXPECT_NEAR(position, static_cast<double>(at) / (10.0 * kTick) - 1.0, 1e-9);
     }
@@ -237,7 +237,7 @@ TEST(Agendas, negative_cycles_are_huge) {
   EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
 }
 
-// --- ticked == closed ------------------------------------------------------------------------------------
+// --- ticked == closed
 
 const void* const kFunctions[] = {&user_a, &user_b, &user_c};
 

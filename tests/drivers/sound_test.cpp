@@ -9,6 +9,7 @@
 #include "hal_sim/board/sound_bank.h"
 #include "hal_sim/board/sound_params.h"
 #include "hal_sim/drivers/sound_driver.h"
+#include "sim_core/world/world_desc.h"
 #include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
 #include "tests/drivers/scan_times.h"
@@ -135,7 +136,7 @@ TEST_F(Microphones, single_conversions_hear_now) {
   EXPECT_EQ(robot.convert(4, now), 2048);
 }
 
-// --- codec ---------------------------------------------------------------------------------------------
+// --- codec
 
 struct Speaker : Microphones {
   board::Codec& codec = robot.codec();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The yardstick for AgendaTimer: Timer 2, its interrupt and the motor agendas written out tick by tick, as
-// the processor runs them. Slow and plain on purpose. Times in cycles; a handler's own time is the sum of its
-// callbacks' durations.
+// the processor runs them. Slow and plain on purpose. Times in cycles; a handler's own time is the sum of
+// its callbacks' durations.
 #pragma once
 #include <cstdint>
 #include <cstdlib>
@@ -87,8 +87,8 @@ class Agendas {
     set_cycle(is_left ? kLeft : kRight, speed == 0 ? 0 : 10000 / std::abs(speed));
   }
 
-  /// Lets time pass up to `until`; returns the time at which the program goes on (later if a handler ran
-  /// over).
+  /// Lets time pass up to `until`; returns the time at which the program goes on (later if
+  /// a handler ran over).
   Cycle run(Cycle until) {
     for (;;) {
       if (!running_ || next_tick_ > until) return until;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A chip on a bench: registers by name, pins as lists of levels, and everything that leaves the chip written
-// down.
+// A chip on a bench: registers by name, pins as lists of levels, and everything that leaves
+// the chip written down.
 #pragma once
 #include <gtest/gtest.h>
 

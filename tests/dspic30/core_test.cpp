@@ -46,7 +46,7 @@ TEST(Core, bits_where_no_register_is_are_told_and_ignored) {
   b.chip->state_hash(b.cpu->now());
 }
 
-// --- stalls: [chip C6] -------------------------------------------------------------
+// --- stalls: [chip C6]
 
 TEST(Stall, direct_write_before_indirect_source) {
   EXPECT_EQ(cycles_of("inc2 w4, w1\n mov [w3], w5"), 2);
@@ -85,7 +85,7 @@ TEST(Stall, stack_pointer_written_before_return) {
   EXPECT_EQ(cycles_of("rcall sub\n bra to\nsub: sub w15, #0, w15\n return"), 2 + 1 + 1 + 3 + 2);
 }
 
-// --- loops ----------------------------------------------------------------------------------------------
+// --- loops
 
 TEST(Loop, do_nests_twice) {
   CoreBench b(R"(
@@ -145,7 +145,7 @@ __T1Interrupt:
   EXPECT_EQ(b.w(4) >> 12 & 1, 1u);  // and set on the stack
 }
 
-// --- program memory as data -----------------------------------------------------------------------------
+// --- program memory as data
 
 const std::string kWindow = R"(
     .section .const, psv
@@ -187,7 +187,7 @@ TEST(Psv, writing_there_is_an_address_error) {
   EXPECT_EQ(b.w(7), 7u);
 }
 
-// --- pointers -------------------------------------------------------------------------------------------
+// --- pointers
 
 TEST(Modulo, a_buffer_of_six_words_goes_round) {
   CoreBench b(R"(
@@ -268,7 +268,7 @@ TEST(BitReversed, pointer_steps_from_the_highest_bit) {
   }
 }
 
-// --- interrupts -----------------------------------------------------------------------------------------
+// --- interrupts
 
 // T1 is switched on by the write in cycle t, counts from t + 1, and matches PR1 + 1 cycles later
 TEST(Interrupt, entry_takes_three_cycles_after_the_flag_is_seen) {
@@ -346,7 +346,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_EQ(b.w(3), 1u);
 }
 
-// --- resets -----------------------------------------------------------------------------------------------
+// --- resets
 
 TEST(Reset, illegal_opcodes_and_unwritten_pointers) {
   for (const char* text : {".pword 0x018001", "mov [w3], w4", "clr.b w3\n mov w4, [w3]"}) {
@@ -399,7 +399,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_LT(b.cpu->now(), 1030);
 }
 
-// --- the assembler ---------------------------------------------------------------------------------------
+// --- the assembler
 
 TEST(Assembler, labels_stand_before_blocks_as_before_instructions) {
   CoreBench b(R"(
@@ -462,7 +462,7 @@ __reset: bset U1STA, #URXISEL1
   EXPECT_EQ(image.program.at(begin + 4), 0xB14FF3u);
 }
 
-// --- self-programming -----------------------------------------------------------------------------------
+// --- self-programming
 
 TEST(Flash, erases_writes_and_runs_what_was_written) {
   CoreBench b(kFlashMacro + R"(__reset: rcall routine      ; gives 1

@@ -8,7 +8,7 @@ using bench::CoreBench;
 using bench::Cycle;
 using bench::Draw;
 
-// --- loops that make no sense ----------------------------------------------------------------------------
+// --- loops that make no sense
 
 std::string number(Draw& draw) {
   const unsigned kind = draw(4);
@@ -144,7 +144,7 @@ TEST(Counting, any_loop_goes_the_same_way_jumped_over_or_not) {
   EXPECT_GT(jumped, kLoops / 2);
 }
 
-// --- delays as people and compilers write them; how much of the time at least is waited -------------------
+// --- delays as people and compilers write them; how much of the time at least is waited
 
 struct Delay {
   const char* name;

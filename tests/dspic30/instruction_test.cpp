@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Runs instruction_cases.txt: each row of the instruction table, in assembler text, against what was computed
-// by hand.
+// Runs instruction_cases.txt: each row of the instruction table, in assembler text, against what
+// was computed by hand.
 #include <cstdlib>
 #include <fstream>
 #include <set>

@@ -106,7 +106,7 @@ TEST(Image, what_is_none_is_named) {
   EXPECT_NE(error_of("\x36\x12").find("; take the .hex that was made beside it"), std::string::npos);
 }
 
-// --- ELF ------------------------------------------------------------------------------------------------
+// --- ELF
 
 struct Section {
   std::string name;

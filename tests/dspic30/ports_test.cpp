@@ -160,7 +160,7 @@ TEST(ExternalInterrupt, pin_driven_by_the_chip_itself_works_too) {
   EXPECT_EQ(b.flag_rises(irq::Int1, 100), 103);
 }
 
-// --- change notification ---------------------------------------------------------------------------------
+// --- change notification
 
 TEST(ChangeNotification, enabled_pin_that_changes_sets_the_flag) {
   Bench b;

@@ -162,8 +162,8 @@ std::vector<std::uint32_t> with_functions(Draw& draw, unsigned body) {
 
 enum class Programs { Any, PointersChange, ReadConstants, CallFunctions };
 
-// number of places where translated code began. PointersChange: now and then other registers are modulo and
-// bit-reversed pointers
+// number of places where translated code began. PointersChange: now and then other registers are modulo
+// and bit-reversed pointers
 int compare(std::uint32_t seed, Programs kind = Programs::Any) {
   Draw draw{seed};
   const std::string frame = kind == Programs::ReadConstants ? with_constants(kFrame) : kFrame;

@@ -136,7 +136,7 @@ TEST_F(I2c, pins_can_be_driven_by_hand_only_while_it_is_off) {
   EXPECT_EQ(b.read("PORTG", now + 5) & 0xC, 0u);
 }
 
-// --- DCI ---------------------------------------------------------------------------------------------------
+// --- DCI
 
 /// The library's settings while it plays: bit clock 8 cycles, 16 words of 16 bits, slot 0 only, four buffers.
 struct Dci : ::testing::Test {
@@ -241,7 +241,7 @@ TEST_F(Dci, no_bit_clock_without_bcg) {
   EXPECT_FALSE(b.flag(irq::Dci, 1000000));
 }
 
-// --- SPI ---------------------------------------------------------------------------------------------------
+// --- SPI
 
 // PPRE = 3 (1:1), SPRE = 6 (2:1): 2 cycles a bit, 16 for a byte
 TEST(Spi, byte_takes_eight_clocks) {
@@ -255,8 +255,8 @@ TEST(Spi, byte_takes_eight_clocks) {
   EXPECT_EQ(b.read("SPI1STAT", 122) & 3, 0u);
 }
 
-// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits, unread ones
-// overflow
+// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits,
+// unread ones overflow
 TEST(Spi, words_queue_and_overflow) {
   Bench b;
   b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);

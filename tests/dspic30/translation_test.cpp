@@ -20,8 +20,8 @@ using bench::Cycle;
 using bench::Draw;
 using bench::kFlashMacro;
 
-// one more cycle for a MOV, two for what computes; words of a page that is not the first, bytes of both
-// halves
+// one more cycle for a MOV, two for what computes; words of a page that is not the first,
+// bytes of both halves
 TEST(Translation, constants_through_the_window_are_read_in_a_stretch) {
   for (const bool translated : {false, true}) {
     CoreBench b(R"(__reset: bset CORCON, #PSV
@@ -62,7 +62,7 @@ table: .pword 0xAB0102
   }
 }
 
-// --- functions that are called -----------------------------------------------------------------------------
+// --- functions that are called
 
 /// Keeps what was translated together, by the address where it begins.
 struct Onlooker final : dspic::Translator {
@@ -150,11 +150,11 @@ __StackError: bra __StackError)",
   }
 }
 
-// --- functions of the host --------------------------------------------------------------------------------
+// --- functions of the host
 
-/// Function 0 looks: W0 becomes the time in 64s, in 20 cycles, and stays so. Function 1 changes something: W0
-/// and W1 are added up at 0x0900, and each seventh time the outlook is another. Function 2 waits until a
-/// thousand's multiple.
+/// Function 0 looks: W0 becomes the time in 64s, in 20 cycles, and stays so. Function 1 changes something:
+/// W0 and W1 are added up at 0x0900, and each seventh time the outlook is another. Function 2 waits until
+/// a thousand's multiple.
 struct Host final : dspic::HostCalls {
   std::vector<Cycle> calls;
   dspic::HostResult call(dspic::Cpu& cpu, unsigned index, Cycle at, bool again) override {
@@ -346,7 +346,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_EQ(onlooker.stretches[benches[1].symbol("loop")].size(), 9u);
 }
 
-// --- routines that are known by heart ----------------------------------------------------------------------
+// --- routines that are known by heart
 
 // W2 where W1 is odd, else W1; but where W1 is a multiple of 16 it is not known
 dspic::KnownAnswer choice_of(std::uint64_t w0_to_w3) {

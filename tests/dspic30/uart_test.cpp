@@ -311,8 +311,8 @@ TEST_F(Uart, small_rate_error_is_tolerated) {
   EXPECT_EQ(b.notes.count(dspic::Cause::UartFrameError), 0);
 }
 
-// BRG 95 gives 9600 baud exactly; 100: 9124 baud, 5 % low; 23 gives 38400; 15: 57600; 10: 83782, 9 % off
-// 76800
+// BRG 95 gives 9600 baud exactly; 100: 9124 baud, 5 % low; 23 gives 38400; 15: 57600; 10:
+// 83782, 9 % off 76800
 TEST_F(Uart, rate_more_than_two_percent_off_is_named) {
   const std::pair<unsigned, int> cases[] = {{95, 0}, {100, 1}, {23, 0}, {7, 0},
                                             {3, 0},  {1, 0},   {0, 0},  {10, 1}};

@@ -108,7 +108,7 @@ struct Bench : CoreBench {
   std::unique_ptr<Library> library;
 };
 
-// --- programs --------------------------------------------------------------------------------------------
+// --- programs
 
 // timers at levels 6, 4 and 2 that nest, a transmitter, waits of several kinds between
 const char* const kAlone[] = {
@@ -329,7 +329,7 @@ __reset: mov #0x1000, w15
 callback: setm 0x900
     return)"};
 
-// --- cuts ------------------------------------------------------------------------------------------------
+// --- cuts
 
 constexpr Cycle kSecond = 14745600;
 

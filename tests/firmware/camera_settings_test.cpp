@@ -183,8 +183,8 @@ TEST_F(CameraSettings, po3030k_window_of_config_cam) {
       k3030,
       "  e_poxxxx_config_cam(160, 80, 320, 320, 8, 8, GREY_SCALE_MODE); e_poxxxx_write_cam_registers();",
       "po3030k");
-  // 160 + 210 - 4 - 1 = 365 = 0x16D, 80 + 7 - 4 = 83; stop at 210 + 640 + 1 = 851, 488; VSYNC 83, 487, column
-  // 367
+  // 160 + 210 - 4 - 1 = 365 = 0x16D, 80 + 7 - 4 = 83; stop at 210 + 640 + 1 = 851, 488; VSYNC
+  // 83, 487, column 367
   expect({{0x08, 1}, {0x09, 0x6d}, {0x0a, 0}, {0x0b, 83}, {0x0c, 3}, {0x0d, 0x53}, {0x0e, 1}, {0x0f, 0xe8}});
   expect({{0xa5, 0}, {0xa6, 83}, {0xa7, 1}, {0xa8, 0xe7}, {0xa9, 1}, {0xaa, 0x6f}});
   expect({{0x1d, 0x00}, {0x20, 0x33}, {0x4e, 0x0c}});
@@ -300,8 +300,8 @@ int main(void) {
   const auto bytes = r.variables<std::uint8_t>("picture", 800);
   EXPECT_LT(std::count(bytes.begin(), bytes.end(), 0), 20);
   EXPECT_EQ(read(0x1d), 0x50);
-  // 160 + 7 - 4 = 163 for lines, VSYNC one earlier, columns without the fast driver's pixel: 240 + 210 - 1 =
-  // 449
+  // 160 + 7 - 4 = 163 for lines, VSYNC one earlier, columns without the fast driver's pixel:
+  // 240 + 210 - 1 = 449
   expect({{0x08, 1}, {0x09, 0xc1}, {0x0b, 163}, {0xa6, 162}});
   expect_no_traps();
 }

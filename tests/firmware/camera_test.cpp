@@ -119,9 +119,9 @@ TEST_F(CameraApi, all_three_sensors_see_it_upright_and_as_wide_as_it_is) {
     EXPECT_EQ(robot(i).variable("orientation"), 1);
     ASSERT_GE(robot(i).variable("pictures"), 2);
     const auto bytes = picture(robot(i));
-    // PO8030D pictures begin at the array's first line: the horizon is in row 30 instead of 20. The top of
-    // the cylinder, 20 mm high, is 8 mm below the lens 0.175 m away: 4.1 rows below the horizon; its
-    // foot 14.3
+    // PO8030D pictures begin at the array's first line: the horizon is in row 30 instead of 20. The
+    // top of the cylinder, 20 mm high, is 8 mm below the lens 0.175 m away: 4.1 rows below the
+    // horizon; its foot 14.3
     const int horizon = i == 2 ? 30 : 20;
     const auto [first, last] = red_columns(bytes, horizon + 8);
     EXPECT_NEAR(first, 9, 1);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-// e_I2C_master_module and e_I2C_protocol on whole robots: results, times, what the bus hears, time-outs.
-// A bit is 164 cycles = 11.12 us; write transaction 1+9+9+9+1 bits, read 1+9+9+1+9+8+1+1 = 39 bits = 0.434
-// ms.
+// e_I2C_master_module and e_I2C_protocol on whole robots: results, times, what the bus hears, time-outs. A
+// bit is 164 cycles = 11.12 us; write transaction 1+9+9+9+1 bits, read 1+9+9+1+9+8+1+1 = 39 bits = 0.434 ms.
 #include "tests/support/firmware_test.h"
 
 using namespace firmware_test;

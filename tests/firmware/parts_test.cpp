@@ -162,8 +162,8 @@ TEST_F(GroundTest, the_image_of_the_floor_is_seen_where_each_sensor_is) {
   expect_no_traps();
 }
 
-// 10 % of 856 is 86: over 200 readings the mean stays within 4 standard errors (24), the deviation within 20
-// %
+// 10 % of 856 is 86: over 200 readings the mean stays within 4 standard errors (24), the
+// deviation within 20 %
 TEST_F(GroundTest, noise_has_the_size_asked_for_and_repeats) {
   std::uint64_t digests[2];
   for (auto& digest_of_run : digests) {

@@ -52,8 +52,8 @@ int main(void) {
                      .battery(3.42);
   robot.settings().battery_wh = 0.1;
   ASSERT_TRUE(run_until([&] { return robot.led(0); }, 60));
-  // at rest 3.446 V, and 3.426 V when the terminals reach 3.4 V: shares 0.04956 and 0.04733 of 94.03 As; 0.13
-  // A
+  // at rest 3.446 V, and 3.426 V when the terminals reach 3.4 V: shares 0.04956 and 0.04733
+  // of 94.03 As; 0.13 A
   const double charge_as = 0.1 / 3.8285 * 3600;
   const auto share = [](double rest_v) { return 0.05 * (rest_v - 3.0) / 0.45; };
   EXPECT_NEAR(now_s(), (share(3.42 + 0.026) - share(3.4 + 0.026)) * charge_as / 0.13, 0.1);

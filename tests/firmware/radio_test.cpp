@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The functions of ComModule.h between whole robots: from the library's call over I2C and the air to the
-// other's buffer.
+// The functions of ComModule.h between whole robots: from the library's call over I2C and the air to
+// the other's buffer.
 #include <map>
 
 #include "hal_sim/board/radio_turret.h"
@@ -216,10 +216,10 @@ int main(void) {
     int packets = 0;
     for (int i = 0; i < 100; ++i) {
       std::int16_t value = 0;
-      auto bytes = twin->mind(i).runner()->read_variable("packets", 2);
+      auto bytes = twin->mind(i).runner()->data().read_variable("packets", 2);
       std::memcpy(&value, bytes.data(), 2);
       packets += value;
-      bytes = twin->mind(i).runner()->read_variable("bad", 2);
+      bytes = twin->mind(i).runner()->data().read_variable("bad", 2);
       std::memcpy(&value, bytes.data(), 2);
       EXPECT_EQ(value, 0) << "robot " << i;
     }

@@ -173,7 +173,7 @@ int main(void) {
   EXPECT_NEAR(r.variable<std::uint32_t>("cycles"), 3 * 315, 150);  // three blocking conversions and the calls
 }
 
-// --- transform -----------------------------------------------------------------------------------------
+// --- transform
 
 // as runfftlistener does: 33 kHz, a full buffer, scan off, mean off, transform. 100 samples, the rest zeros:
 // bins of 32768 / 256 = 128 Hz, so 1 kHz lies at 7.8: bin 8
@@ -226,8 +226,8 @@ TEST_F(SoundTest, a_tone_of_1_khz_at_30_cm_peaks_in_its_bin_on_all_microphones) 
   EXPECT_GT(power[0], power[1]);
   EXPECT_GT(power[1], power[2]);
   EXPECT_NEAR(std::sqrt(static_cast<double>(power[0]) / power[2]), 0.320 / 0.281, 0.03);
-  // published: 21361 cycles for the transform, 1905 to reorder; our transforms in C take 9 % longer than the
-  // vendor's assembler
+  // published: 21361 cycles for the transform, 1905 to reorder; our transforms in C take 9 % longer than
+  // the vendor's assembler
   EXPECT_NEAR(static_cast<std::uint16_t>(r.variable("ticks")), 1.09 * (21361 + 1905), 250);
 }
 
@@ -270,9 +270,9 @@ TEST_P(Bearing, delays_between_microphones_match_the_geometry) {
 
 INSTANTIATE_TEST_SUITE_P(Of, Bearing, ::testing::Values(0, 25, 100, 200, 290));
 
-// a cosine of 8 periods and amplitude 16000, all in one bin: 16000 / 2 = 8000 in bins 8 and 248, 0 elsewhere;
-// rounding once a stage leaves at most 2. And a constant: all in bin 0. And an impulse of 25600: 100 in every
-// bin.
+// a cosine of 8 periods and amplitude 16000, all in one bin: 16000 / 2 = 8000 in bins 8 and 248, 0
+// elsewhere; rounding once a stage leaves at most 2. And a constant: all in bin 0. And an impulse of
+// 25600: 100 in every bin.
 TEST_F(SoundTest, transforms_of_known_signals) {
   Robot& r = add_robot_with_source(R"(
 #include <fft/e_fft.h>
@@ -356,10 +356,10 @@ int main(void) {
   EXPECT_EQ(r.variable("half"), 1);
 }
 
-// --- loudspeaker ---------------------------------------------------------------------------------------
+// --- loudspeaker
 
-// haa: 2112 samples; the flag falls with the interrupt at which the last four go out, 527 groups after the
-// first
+// haa: 2112 samples; the flag falls with the interrupt at which the last four go out, 527
+// groups after the first
 const char* const kPlayer = R"(
 #include <codec/e_sound.h>
 #include <motor_led/e_init_port.h>

@@ -16,8 +16,8 @@ namespace {
 using firmware_test::Robot;
 using State = flash::Upload::State;
 
-// says its name and steps both motors, 500 steps/s; 12 rows of other words lie about in flash, as a larger
-// program's
+// says its name and steps both motors, 500 steps/s; 12 rows of other words lie about in flash,
+// as a larger program's
 std::string program(char name) {
   std::string text = R"(
     config __FOSC, 0xFFE6
@@ -154,8 +154,8 @@ TEST_F(UploadTest, a_program_is_written_read_back_and_drives) {
   expect_no_traps();
 }
 
-// the old program is whole or gone: a line that dies in the middle leaves a robot that waits for the next
-// upload
+// the old program is whole or gone: a line that dies in the middle leaves a robot that waits
+// for the next upload
 TEST_F(UploadTest, a_line_that_dies_leaves_no_half_program) {
   Robot& robot = add_robot(hex(bootloader_));
   Line first(*this, robot, 0, 1);
@@ -329,8 +329,8 @@ struct OfPeople {
   }
 };
 
-/// What `twinpuck build` writes for the robot: a C program that says its name, with the library's bank of
-/// sounds.
+/// What `twinpuck build` writes for the robot: a C program that says its name, with the
+/// library's bank of sounds.
 std::string linked_hex(char name) {
   const std::filesystem::path folder =
       std::filesystem::path(TWINPUCK_BUILD_DIR) / "tests/flash-linked" / std::string(1, name);

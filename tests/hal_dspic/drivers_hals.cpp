@@ -17,7 +17,7 @@ class BothHals : public firmware_test::FirmwareTest, public ::testing::WithParam
 INSTANTIATE_TEST_SUITE_P(Drivers, BothHals, ::testing::Values("sim", "dspic"),
                          [](const auto& p) { return std::string(p.param); });
 
-// --- agendas and motors ------------------------------------------------------------------------------------
+// --- agendas and motors
 
 // 1475 cycles a tick: 9996.7 a second, so 99 or 100 calls of a cycle of 100 ticks in a second
 TEST_P(BothHals, agendas_tick_every_1475_cycles) {
@@ -381,10 +381,9 @@ int main(void) {
 }
 
 // --- what has no test elsewhere that runs with both HALs (tests/firmware/both_hals.txt)
-// -----------------------
 
-// on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7; noise of some
-// counts
+// on a level floor x and y are in the middle of 12 bits, z 768 counts above it; AN5 to AN7;
+// noise of some counts
 TEST_P(BothHals, basic_converter_reads_single_channels) {
   Robot& robot = add_robot_with_source(R"(
 #include <motor_led/e_init_port.h>

@@ -47,8 +47,7 @@ struct Call {
 // waiting loops, and what an operator of floats makes of a period
 constexpr Call kCalls[] = {
     // four pauses of 10,000 rounds and a transaction; at -O1 a round of XC16's is 4 cycles, but its program
-    // does not
-    // come back: the flag of the transaction is not volatile
+    // does not come back: the flag of the transaction is not volatile
     {"e_init_port()", 447267, 4 * 40030 + 7001, 0.1},
     {"wait(1000)", 13019, 6006, 0.1},
     {"e_set_speed_left(500)", 547, 532, 0.1},

@@ -253,7 +253,7 @@ INSTANTIATE_TEST_SUITE_P(Drivers, Right,
                                            std::pair{"bus", &kBus}),
                          [](const auto& p) { return std::string(p.param.first); });
 
-// --- faults that no register shows: the figure that they spoil --------------------------------------------
+// --- faults that no register shows: the figure that they spoil
 
 // five conversions of 15 x 5 cycles an interrupt; a wrong SMPI interrupts after another number of them
 TEST_F(MutationTest, wrong_smpi_shows_in_the_rate_of_frames) {

@@ -270,7 +270,7 @@ int main(void)
   expect_no_traps();
 }
 
-// --- configuration words -----------------------------------------------------------------------------------
+// --- configuration words
 
 std::string configured(const std::string& words, const std::string& rest) {
   return "#include \"p30F6014A.h\"\n" + words + "\n" + rest;

@@ -79,7 +79,7 @@ int main(void) {
   EXPECT_TRUE(twin().simulation().sound().is_silent());
 }
 
-// --- programs that write the DCI themselves ----------------------------------------------------------------
+// --- programs that write the DCI themselves
 
 // Set-up as the codec wants it: reset, 8-word frames with control words, then 16-word frames. VOLUME and RATE
 // are registers 7 and the multiplier; FRAME is DCICON2 while playing.

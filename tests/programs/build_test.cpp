@@ -97,7 +97,6 @@ class BuildTest : public testing::Test {
 };
 
 // --- what a folder or file is
-// ---------------------------------------------------------------------------------
 
 TEST_F(BuildTest, folders_are_told_apart) {
   const struct {
@@ -152,7 +151,6 @@ TEST_F(BuildTest, controllers_of_this_project_stay_firmware) {
 }
 
 // --- C and C++
-// ------------------------------------------------------------------------------------------------
 
 TEST_F(BuildTest, projects_compile_and_run) {
   const std::string robot = "#include <stdio.h>\n#include <webots/robot.h>\n";
@@ -389,7 +387,6 @@ TEST_F(BuildTest, several_runs_at_once_build_one_program) {
 }
 
 // --- what cannot be
-// ---------------------------------------------------------------------------------------------
 
 TEST_F(BuildTest, broken_code_is_named_with_its_line) {
   const std::string at =
@@ -469,7 +466,6 @@ TEST_F(BuildTest, a_makefile_without_end_does_not_hold_a_run) {
 }
 
 // --- Python, Java, ready-made
-// -------------------------------------------------------------------------------------
 
 TEST_F(BuildTest, python_runs_as_runtime_ini_says) {
   const std::string at = folder(

@@ -15,7 +15,7 @@ using programs_test::Robot;
 
 class Devices : public ProgramTest {};
 
-// --- the list ---------------------------------------------------------------------------------------------
+// --- the list
 
 // kinds as webots/nodes.h numbers them: the program compares, so that no number stands here
 TEST_F(Devices, all_devices_of_the_page_are_there_with_their_kinds) {
@@ -84,7 +84,7 @@ TEST_F(Devices, what_a_robot_does_not_carry_has_no_tag) {
   for (const char* name : {"gs0", "fs1", "gps", "display", "camera"}) EXPECT_EQ(value(r, name), 0) << name;
 }
 
-// --- time -------------------------------------------------------------------------------------------------
+// --- time
 
 // 10 ms are 5.12 ticks of 1/512 s
 TEST_F(Devices, time_is_an_exact_multiple_of_the_step) {
@@ -153,7 +153,7 @@ TEST_F(Devices, time_of_day_is_each_robots_own_and_goes_with_the_world) {
   EXPECT_EQ(told(a, "now").at(1) - told(a, "now").at(0), 3);
 }
 
-// --- when samples are taken -------------------------------------------------------------------------------
+// --- when samples are taken
 
 TEST_F(Devices, values_are_nan_until_the_first_period_is_over) {
   Robot& r = add_c(
@@ -187,14 +187,14 @@ TEST_F(Devices, values_stay_until_the_next_period_and_end_with_disable) {
       32);
   run_for(1.2);
   EXPECT_EQ(value(r, "period"), 96);
-  // NaN differs from everything at steps 1 and 2; from the third on each third step brings another value: 2 +
-  // 10
+  // NaN differs from everything at steps 1 and 2; from the third on each third step brings
+  // another value: 2 + 10
   EXPECT_EQ(value(r, "changes"), 12);
   EXPECT_EQ(told(r, "after"), (std::vector<double>{12, 0}));
 }
 
-// a wheel at 1000 steps a second is sampled at ends of steps of 10 ms, which lie in the midst of ticks: 10
-// steps each
+// a wheel at 1000 steps a second is sampled at ends of steps of 10 ms, which lie in the midst of
+// ticks: 10 steps each
 TEST_F(Devices, samples_are_those_of_the_exact_instant) {
   Robot& r =
       add_c("WbDeviceTag left, enc; double last; int least = 1000, most;",
@@ -213,7 +213,7 @@ TEST_F(Devices, samples_are_those_of_the_exact_instant) {
   EXPECT_LE(ends.at(1), 10);
 }
 
-// --- the rest ---------------------------------------------------------------------------------------------
+// --- the rest
 
 TEST_F(Devices, selector_battery_and_names) {
   world.title = "devices";
@@ -299,7 +299,7 @@ TEST_F(Devices, a_display_is_drawn_on_and_saved_as_a_picture) {
   EXPECT_EQ(value(r, "png"), 1);
 }
 
-// --- the interface of 2005 --------------------------------------------------------------------------------
+// --- the interface of 2005
 
 const char* const kOldHeaders =
     "#include <stdio.h>\n#include <string.h>\n#include <device/robot.h>\n#include "
@@ -432,7 +432,7 @@ TEST_F(Devices, programs_of_2005_send_and_receive) {
   EXPECT_NEAR(told(b, "text_hello")[1], 4, 0.01);
 }
 
-// --- other languages --------------------------------------------------------------------------------------
+// --- other languages
 
 TEST_F(Devices, python_says_what_c_says) {
   wall(0.07, -0.3, 0.07, 0.3);

@@ -15,7 +15,7 @@ using programs_test::Robot;
 
 class Driving : public ProgramTest {};
 
-// --- wheels -----------------------------------------------------------------------------------------------
+// --- wheels
 
 struct Velocity {
   double rad_s;
@@ -119,7 +119,7 @@ TEST_F(Driving, leds_are_bits_and_every_colour_is_on) {
   EXPECT_EQ(told(r, "get"), (std::vector<double>{1, 0}));
 }
 
-// --- the same robot ---------------------------------------------------------------------------------------
+// --- the same robot
 
 /// Straight, a turn on the spot, a curve, each for a second, from 1 s on.
 const char* const kTour[] = {"500, 500", "-300, 300", "800, 200", "-400, -100"};
@@ -187,7 +187,7 @@ TEST_F(Driving, an_epuck_stops_before_a_wall_as_with_its_own_library) {
   EXPECT_EQ(program.collisions(), 0);
 }
 
-// --- camera registers -------------------------------------------------------------------------------------
+// --- camera registers
 
 class Registers : public Driving, public ::testing::WithParamInterface<std::pair<const char*, int>> {
  protected:

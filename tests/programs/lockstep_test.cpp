@@ -150,7 +150,7 @@ TEST_F(Lockstep, a_world_may_have_a_supervisor_and_no_robot) {
   EXPECT_EQ(said.at(0), "supervisor0: box 0.2");
 }
 
-// --- beginnings -------------------------------------------------------------------------------------------
+// --- beginnings
 
 const char* const kTracer = "WbDeviceTag gps, ps;";
 const char* const kTracerOn =
@@ -218,7 +218,7 @@ TEST_F(Lockstep, a_robot_may_supervise_when_the_world_says_so) {
   EXPECT_EQ(may_not.x_m(), 1);
 }
 
-// --- ends -------------------------------------------------------------------------------------------------
+// --- ends
 
 TEST_F(Lockstep, a_supervisor_ends_the_run_with_its_status) {
   for (const int status : {0, 1, 7}) {
@@ -313,7 +313,7 @@ TEST_F(Lockstep, a_supervisors_run_may_be_ended_by_another_and_both_are_told) {
   EXPECT_EQ(text_of(folder / "told.txt"), "told");
 }
 
-// --- text -------------------------------------------------------------------------------------------------
+// --- text
 
 TEST_F(Lockstep, lines_come_in_order_at_the_time_that_they_are_printed) {
   Robot& r = add_c("", "printf(\"at first\\n\"); fprintf(stderr, \"an error\\n\");",

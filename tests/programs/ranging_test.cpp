@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Distances that an e-puck's lidar, range finder and distance sensors see, against numbers worked out by
-// hand.
+// Distances that an e-puck's lidar, range finder and distance sensors see, against numbers
+// worked out by hand.
 #include "programs/puck/ranging.h"
 
 #include <cmath>

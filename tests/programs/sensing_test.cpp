@@ -15,7 +15,7 @@ using programs_test::Robot;
 
 class Sensing : public ProgramTest {};
 
-// --- proximity and light ----------------------------------------------------------------------------------
+// --- proximity and light
 
 TEST_F(Sensing, ps_are_the_counts_of_the_board_dark_less_lit) {
   wall(0.065, -0.3, 0.065, 0.3);
@@ -130,7 +130,7 @@ TEST_F(Sensing, ground_sensors_tell_white_from_black) {
   for (const double v : told(with, "gs")) EXPECT_NEAR(v, 856, 100);  // white [docs/extending.md]
 }
 
-// --- motion and truth -------------------------------------------------------------------------------------
+// --- motion and truth
 
 const char* const kMotion = "WbDeviceTag acc, gps, north, imu; const double *v;";
 const char* const kMotionOn =
@@ -187,8 +187,8 @@ INSTANTIATE_TEST_SUITE_P(
         Truth{"nue_13", sim::Axes::Nue, "1.3", {0.2, 0, -0.1}, {0.5, 0, -std::sqrt(0.75)}, {0, 1, 0}}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// wheels at 300 steps/s against each other: 2 * 300 * 0.0001288 m / 0.053 m = 1.458 rad/s about the upward
-// axis
+// wheels at 300 steps/s against each other: 2 * 300 * 0.0001288 m / 0.053 m = 1.458 rad/s
+// about the upward axis
 struct Gyro {
   const char* revision;
   sim::Axes axes;
@@ -223,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(Revisions, Gyros,
                          ::testing::Values(Gyro{"1.1", sim::Axes::Enu}, Gyro{"1.3", sim::Axes::Enu},
                                            Gyro{"1.1", sim::Axes::Nue}, Gyro{"1.3", sim::Axes::Nue}));
 
-// --- camera and sound -------------------------------------------------------------------------------------
+// --- camera and sound
 
 class Cameras : public Sensing, public ::testing::WithParamInterface<const char*> {};
 
@@ -371,7 +371,7 @@ TEST_F(Sensing, a_speaker_plays_a_stored_sound_and_another_robot_hears_it) {
   })) << "a sound that is not stored is told";
 }
 
-// --- packets ----------------------------------------------------------------------------------------------
+// --- packets
 
 const char* const kReceive =
     "while (wb_receiver_get_queue_length(r) > 0) { const double *d = wb_receiver_get_emitter_direction(r); "

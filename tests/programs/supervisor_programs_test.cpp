@@ -11,7 +11,7 @@ using namespace programs_test;
 
 class SupervisorPrograms : public SupervisorTest {};
 
-// --- the digest -------------------------------------------------------------------------------------------
+// --- the digest
 
 std::uint64_t digest_with(const std::string& deed, int threads) {
   struct Run : SupervisorPrograms {
@@ -55,7 +55,7 @@ TEST_F(SupervisorPrograms, digests_see_what_supervisors_do_and_repeat) {
   }
 }
 
-// --- beginnings and ends ----------------------------------------------------------------------------------
+// --- beginnings and ends
 
 // words come from the world file, files from the program's folder, to which the run does not belong; two
 // files of one program share a variable that neither initialises, as programs of 2005 do
@@ -200,7 +200,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Crash{"status", "exit(7);", "exit status 7"}),
     [](const auto& info) { return std::string(info.param.name); });
 
-// --- the interface of 2005 --------------------------------------------------------------------------------
+// --- the interface of 2005
 
 TEST_F(SupervisorPrograms, the_interface_of_2005) {
   world.webots.axes = sim::Axes::Nue;
@@ -259,8 +259,8 @@ TEST_F(SupervisorPrograms, the_interface_of_2005) {
   EXPECT_EQ(team().labels().at(0).text, "0 - 0");
   EXPECT_TRUE(was_said("goal 1"));
   EXPECT_NEAR(now_s(), 0.256, 0.003);
-  // it fell for 0.128 s from where its middle was 0.1 m high: 0.08 m - 9.81 / 2 * 0.128^2 < 0, so it lies or
-  // bounced
+  // it fell for 0.128 s from where its middle was 0.1 m high: 0.08 m - 9.81 / 2 * 0.128^2 < 0,
+  // so it lies or bounced
   EXPECT_LT(twin().simulation().state(1).z_m, 0.001);
 }
 
@@ -287,7 +287,7 @@ s.simulationQuit(0)
   EXPECT_NEAR(robot(0).x_m(), 0.4, 1e-9);
 }
 
-// --- the command line -------------------------------------------------------------------------------------
+// --- the command line
 
 TEST(SupervisorsOfTheCommandLine, take_the_place_of_the_worlds) {
   sim::WorldDesc one, two, none;
@@ -317,7 +317,7 @@ TEST(SupervisorsOfTheCommandLine, take_the_place_of_the_worlds) {
   EXPECT_NE(problems[0].find("expected NAME=PROGRAM"), std::string::npos) << problems[0];
 }
 
-// --- without a program: what Simulation offers to whoever attends it --------------------------------------
+// --- without a program: what Simulation offers to whoever attends it
 
 TEST_F(SupervisorPrograms, lamps_and_noise_count_from_the_next_sample_on) {
   sim::LampDesc lamp;
@@ -348,8 +348,8 @@ TEST_F(SupervisorPrograms, lamps_and_noise_count_from_the_next_sample_on) {
   EXPECT_DOUBLE_EQ(noise(), 2 * 0.704);
 }
 
-// 0.5 m/s for 20 ms against friction of 0.5 g: 10 mm - 1 mm, give or take a tick; thrown up at 1 m/s: 20 mm -
-// 2 mm
+// 0.5 m/s for 20 ms against friction of 0.5 g: 10 mm - 1 mm, give or take a tick; thrown up at
+// 1 m/s: 20 mm - 2 mm
 TEST_F(SupervisorPrograms, engines_take_the_velocities_that_they_know) {
   const auto way_after = [](sim::Engine engine, double climb_m_s) {
     struct Run : SupervisorPrograms {

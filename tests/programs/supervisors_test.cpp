@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What supervisors see and change: variables of firmware, robots, lamps, things, radio, sensors that they
-// make up.
+// What supervisors see and change: variables of firmware, robots, lamps, things, radio,
+// sensors that they make up.
 #include "tests/programs/supervisor_fixture.h"
 
 namespace {
@@ -9,7 +9,7 @@ using namespace programs_test;
 
 class Supervisors : public SupervisorTest {};
 
-// --- firmware's variables ---------------------------------------------------------------------------------
+// --- firmware's variables
 
 const char* const kVariables = R"(
 #include <stdint.h>
@@ -90,7 +90,7 @@ TEST_F(Supervisors, what_is_no_variable_is_explained) {
     })");
   expect_pass();
   for (const char* words : {"got 'cuont', expected a variable", "index 2, expected 0 to 1", "it is no array",
-                            "which has 6 bytes, expected a number", "no member 'colour' in 'state'",
+                            "expected a number; name a member", "no member 'colour' in 'state'",
                             "no member 'x'", "expected a number in [ ]", "in 'other.c'"})
     EXPECT_TRUE(was_said(words)) << words;
 }
@@ -133,7 +133,7 @@ TEST_F(Supervisors, a_program_of_the_pc_has_no_variables_to_see) {
   EXPECT_TRUE(was_said("a program of the PC, whose variables nobody sees"));
 }
 
-// --- robots -----------------------------------------------------------------------------------------------
+// --- robots
 
 TEST_F(Supervisors, what_a_robot_does_is_in_its_fields_and_its_program_begins_anew) {
   add_robot_with_source(R"(
@@ -223,7 +223,7 @@ TEST_F(Supervisors, lamps_are_switched_and_moved) {
   EXPECT_EQ(twin().world().lamps[0].position_m.x, 0.5);
 }
 
-// --- things -----------------------------------------------------------------------------------------------
+// --- things
 
 TEST_F(Supervisors, nodes_and_fields_in_our_axes) {
   add_ball();
@@ -333,7 +333,7 @@ TEST_F(Supervisors, a_revert_begins_with_the_supervisor_again) {
   }
 }
 
-// --- radio and virtual sensors ----------------------------------------------------------------------------
+// --- radio and virtual sensors
 
 TEST_F(Supervisors, messages_go_both_ways) {
   add_c("WbDeviceTag e, r; char answer[8];",

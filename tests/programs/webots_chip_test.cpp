@@ -133,8 +133,8 @@ TEST_F(WebotsOnChip, the_lab_s_example_sees_a_wall_ahead_with_its_one_sensor) {
   EXPECT_LT(r.heading_deg(), start - 60);  // it spins clockwise
 }
 
-// in a world that says nothing 20 units are 20 * 0.00628 = 0.126 rad/s, 20 steps/s, as for the program of the
-// PC
+// in a world that says nothing 20 units are 20 * 0.00628 = 0.126 rad/s, 20 steps/s, as for
+// the program of the PC
 TEST_F(WebotsOnChip, a_world_s_settings_go_before_those_of_the_interface) {
   Robot& r = add_robot("e-puck");
   run_for(4.3);
@@ -333,7 +333,6 @@ int main(void) {
 }
 
 // --- building
-// -------------------------------------------------------------------------------------------------
 
 class WebotsForChip : public testing::Test {
  protected:

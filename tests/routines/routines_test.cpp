@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every routine that is known by heart against itself on the core: results and cycles, on random and on
-// awkward operands.
+// Every routine that is known by heart against itself on the core: results and cycles, on random and
+// on awkward operands.
 #include <cstdlib>
 #include <fstream>
 #include <sstream>

@@ -18,8 +18,8 @@ std::string ball(double restitution, const std::string& more, int hz = 512, cons
          std::to_string(restitution) + "\n" + more;
 }
 
-/// Tops of the bounces above `ground_m`, as a viewer sees them: the highest z between two ticks near the
-/// ground.
+/// Tops of the bounces above `ground_m`, as a viewer sees them: the highest z between two
+/// ticks near the ground.
 std::vector<double> tops(sim::Simulation& s, int body, double ground_m, double seconds) {
   std::vector<double> heights;
   double highest = 0, last_climb = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a picture of 40 by 40 pixels costs: the maze with ten robots in it, each looks in turn, on one core.
-// camera_bench [PICTURES]
+// Usage: camera_bench [PICTURES]
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>

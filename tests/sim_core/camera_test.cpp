@@ -43,9 +43,9 @@ class Eye {
 
 const char* const kOneRobot = "[[robot]]\nname = \"eye\"\n";
 
-// 0.2 m from the lens (at 0.030), radius 25 mm: half angle asin(25/200) = 7.181 deg, tan 0.12599; 0.12599 *
-// 716.5 / 8 = 11.28 columns to each side, so columns 20 - 11.28 = 8.72 to 31.28: centres 9 to 30 of 0.5-based
-// ones
+// 0.2 m from the lens (at 0.030), radius 25 mm: half angle asin(25/200) = 7.181 deg, tan 0.12599;
+// 0.12599 * 716.5 / 8 = 11.28 columns to each side, so columns 20 - 11.28 = 8.72 to 31.28: centres 9 to
+// 30 of 0.5-based ones
 TEST(Camera, red_cylinder_covers_its_angle) {
   Eye eye(
       std::string(
@@ -84,8 +84,8 @@ TEST(Camera, top_of_a_low_plate_lies_where_perspective_puts_it) {
               "twinpuck = 1\n[[box]]\nposition = [0.78, 0]\nsize = [1.0, 2.0, 0.001]\ncolour = [0, 0, 0]\n") +
           kOneRobot);
   const std::vector<Light> image = eye.look();
-  // front edge at 0.28 - 0.03 = 0.25, 1 mm high: side 0.112 to 0.108, 10.03 to 9.67; back edge at 1.25:
-  // 0.0216, 1.93
+  // front edge at 0.28 - 0.03 = 0.25, 1 mm high: side 0.112 to 0.108, 10.03 to 9.67; back edge
+  // at 1.25: 0.0216, 1.93
   for (int row = 20; row < 40; ++row)
     EXPECT_EQ(image[static_cast<std::size_t>(row * 40 + 20)].r < 0.1, row >= 22 && row <= 29) << row;
 }
@@ -139,7 +139,7 @@ TEST(Camera, lit_leds_of_other_robots_glow) {
   EXPECT_NEAR(look(), 3.0f, 1e-5);  // kLedGlow times red, on a black body
 }
 
-// --- the yardstick: one ray per pixel, every solid ---------------------------------------------------------
+// --- the yardstick: one ray per pixel, every solid
 
 Light plain_pixel(const sim::Scene& scene, int robot, double right, double up) {
   const sim::Frame2 body(scene.pose(robot, scene.now()));

@@ -22,7 +22,8 @@ std::uint64_t digest_of(const sim::WorldDesc& world, int threads, double seconds
   while (s->now() < sim::from_seconds(seconds)) {
     s->step();
     if (!look) continue;
-    for (int r = 0; r < s->robots(); ++r) s->mind(r).proximity_counts(s->scene(), r % 8);
+    for (int r = 0; r < s->robots(); ++r)
+      s->minds()[static_cast<std::size_t>(r)]->proximity_counts(s->scene(), r % 8);
   }
   return s->digest();
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Films: that what is read back is what was drawn, when frames are taken, and what is in a file that was
-// never finished.
+// Films: that what is read back is what was drawn, when frames are taken, and what is in a file that
+// was never finished.
 #include <sys/resource.h>
 #include <sys/stat.h>
 

@@ -60,8 +60,8 @@ TEST(Heatmap, each_tick_counts_for_the_cell_under_the_middle) {
 }
 
 TEST(Heatmap, a_robot_that_drives_leaves_equal_times_in_equal_cells) {
-  // 2 rad/s on both wheels of 20.5 mm: 41 mm/s, so each full cell of 2 cm takes 0.488 s, 62.4 ticks of 1/128
-  // s
+  // 2 rad/s on both wheels of 20.5 mm: 41 mm/s, so each full cell of 2 cm takes 0.488 s,
+  // 62.4 ticks of 1/128 s
   auto s = cruising(world_of("twinpuck = 1\n[world]\nphysics_hz = 128\n[[robot]]\nposition = [0.01, 0.01]\n"),
                     2, 2);
   sim::Heatmap heat(1, 0.02);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Physics bars: ways on free floor, walls, pushing, friction, heights, falling. Expectations are computed by
-// hand.
+// Physics bars: ways on free floor, walls, pushing, friction, heights, falling. Expectations
+// are computed by hand.
 #include "tests/sim_core/fixture.h"
 
 using namespace sim_test;
@@ -134,8 +134,8 @@ TEST(Motion, a_light_box_is_pushed_and_a_heavy_one_is_not) {
     run_for(*s, 5);
     return s->pose(1).x_m;
   };
-  // traction 1.0 * 0.15 kg; box friction 0.5 * m: moves below 0.3 kg. Robot front arrives at 0.07 after 0.033
-  // m.
+  // traction 1.0 * 0.15 kg; box friction 0.5 * m: moves below 0.3 kg. Robot front arrives at
+  // 0.07 after 0.033 m.
   EXPECT_NEAR(run("0.1"), 0.1 + 5 * kHalfTurn * 0.0205 - 0.033, 0.003);
   EXPECT_NEAR(run("0.6"), 0.1, 0.001);
 }

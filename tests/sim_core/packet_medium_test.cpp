@@ -36,8 +36,8 @@ struct End : PacketPort {
   std::vector<ReceivedPacket> got;
 };
 
-/// Robots in a row: 0 at the origin looking east, 1 a metre east looking north, 2 two metres west looking
-/// east.
+/// Robots in a row: 0 at the origin looking east, 1 a metre east looking north, 2 two
+/// metres west looking east.
 class PacketMediumTest : public ::testing::Test {
  protected:
   PacketMediumTest() {
@@ -136,8 +136,8 @@ TEST_F(PacketMediumTest, a_robot_in_between_stops_infra_red) {
   EXPECT_TRUE(c.got.empty());
 }
 
-// 8000 bit/s: 10 bytes take 10 ms; the second packet waits for the first, and both ways the queue empties
-// only then
+// 8000 bit/s: 10 bytes take 10 ms; the second packet waits for the first, and both ways the
+// queue empties only then
 TEST_F(PacketMediumTest, a_baud_rate_delays_packets_one_after_the_other) {
   a.baud_rate_bit_s = 8000;
   a.at = from_seconds(0.001);

@@ -193,7 +193,7 @@ TEST(Planar, sensors_are_those_of_the_other_engines) {
                                std::to_string(wall_z_m) + "\n[[robot]]\n"),
                       0, 0);
     run_for(*s, 0.1);
-    return s->mind(0).proximity_counts(s->scene(), 0) +
+    return s->minds()[0]->proximity_counts(s->scene(), 0) +
            sim::sense_proximity(s->scene(), 0, 0, s->now()).value;
   };
   EXPECT_GT(reading("planar", 0), 100);

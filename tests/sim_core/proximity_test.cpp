@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: [FRM] A3, B1,
-// B2.
+// Tables, ray placement, weights, colour rule, pose history. Source of the numbers: [FRM] A3, B1, B2.
 #include "sim_core/light/profiles.h"
 #include "sim_core/light/response_curve.h"
 #include "tests/sim_core/fixture.h"
@@ -292,8 +291,8 @@ TEST(Proximity, beyond_reach_is_only_what_no_ray_can_meet) {
   EXPECT_GT(beyond, points * 8 / 10) << "beside a long wall, too";
 }
 
-// rays that go out together are culled together and have shorter formulas; one by one they end at the same
-// places
+// rays that go out together are culled together and have shorter formulas; one by one they
+// end at the same places
 TEST(Proximity, a_fan_ends_where_its_rays_do) {
   const sim::Solid box = sim::Solid::box(0.3, 0.02, 0, 0.1), prism = sim::Solid::prism(box.outline, 0, 0.1),
                    post = sim::Solid::cylinder(0.04, 0, 0.1), ball = sim::Solid::ball(0.05);
@@ -359,8 +358,8 @@ TEST(Proximity, what_is_far_is_left_out_for_as_long_as_it_cannot_come) {
   EXPECT_FALSE(near.may_see(0, at(5))) << "nobody moves";
 }
 
-// a box has shorter formulas than other prisms; the same corners as a plain prism are what they must agree
-// with
+// a box has shorter formulas than other prisms; the same corners as a plain prism are what
+// they must agree with
 TEST(Proximity, a_box_is_the_prism_of_its_corners) {
   const sim::Solid box = sim::Solid::box(0.3, 0.1, 0.02, 0.1);
   const sim::Solid prism = sim::Solid::prism(box.outline, 0.02, 0.1);

@@ -172,8 +172,8 @@ TEST(Radio, who_listens_first_waits_for_the_other) {
   d.carrier_sense = true;
   d.capture_db = 1000;
   Channel c(d, {{0, 0}, {0.1, 0}, {0.05, 0.05}});
-  // 1 asks in the middle of 0's frame: after at most 16 waits of 0.32 ms and 0.192 ms it is on the air 5.3 ms
-  // at most
+  // 1 asks in the middle of 0's frame: after at most 16 waits of 0.32 ms and 0.192 ms it is on
+  // the air 5.3 ms at most
   c.port(0).ask(0, {1}, 300);
   c.run_ticks(4);  // 7.8 ms: 0 sends until 9.6 ms or later
   c.port(1).ask(4 * kTick, {2}, 20);

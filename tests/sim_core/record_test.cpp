@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Recordings and pictures: their form, that they agree with the simulation, and what happens when a disk is
-// full.
+// Recordings and pictures: their form, that they agree with the simulation, and what happens
+// when a disk is full.
 #include <sys/stat.h>
 
 #include <fstream>

@@ -87,8 +87,8 @@ TEST(Sound, white_noise_has_its_level_and_no_memory) {
   EXPECT_NEAR(product / 20000, 0, 0.25 * 0.03);  // 50 us apart: more than two steps of the grid
 }
 
-// a noise of 900 to 1100 Hz, looked at through a window of 0.1 s (10 Hz wide): nearly all power lies in the
-// band
+// a noise of 900 to 1100 Hz, looked at through a window of 0.1 s (10 Hz wide): nearly all
+// power lies in the band
 TEST(Sound, noise_with_a_band_stays_in_it) {
   sim::SoundDesc s = tone(0, 1);
   s.kind = sim::SoundKind::Noise;
@@ -177,7 +177,7 @@ TEST(Sound, a_file_is_played_once_or_again_and_again) {
   EXPECT_EQ(once.pressure_pa(0.401), 0);
 }
 
-// --- WAV -----------------------------------------------------------------------------------------------
+// --- WAV
 
 std::string wav(int bits, int channels, const std::string& data, int format = 1, int rate = 8000) {
   const auto little = [](int value, int count) {
@@ -247,7 +247,7 @@ TEST(Wav, a_recording_is_whole_after_every_append) {
   EXPECT_FALSE(nowhere.append({1}));
 }
 
-// --- world files ---------------------------------------------------------------------------------------
+// --- world files
 
 std::string report_of(const std::string& text) {
   return sim::parse_world("twinpuck = 1\n" + text, "w.toml", {puck()}).report("w.toml");
@@ -301,7 +301,7 @@ TEST(SoundInWorlds, mistakes_are_named) {
             "w.toml:5:8: sound.file: cannot be read: No such file or directory");
 }
 
-// --- loudspeakers --------------------------------------------------------------------------------------
+// --- loudspeakers
 
 /// Plays a track from a given instant on, and samples its ears in every tick.
 class Singer : public Cruise {

@@ -91,7 +91,7 @@ Cost Robot::cost_of(const std::string& function, Caller caller) const {
   return cost;
 }
 void Robot::copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const {
-  const auto found = mind().runner()->read_variable(name, bytes);
+  const auto found = mind().runner()->data().read_variable(name, bytes);
   std::copy_n(found.begin(), std::min(bytes, found.size()), static_cast<char*>(to));
   if (found.size() == bytes) return;
   ADD_FAILURE_AT(caller.file, caller.line)

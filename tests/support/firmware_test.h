@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The fixture for firmware tests, hardware-in-the-loop style: a world in a few lines, a robot with a
-// controller, run for so long or until something happens, expect what the robot did. docs/testing.md is the
-// guide.
+// The fixture for firmware tests, hardware-in-the-loop style: a world in a few lines, a robot with
+// a controller, run for so long or until something happens, expect what the robot did.
+// docs/testing.md is the guide.
 //
 //   TEST_F(FirmwareTest, blink_lights_the_ring) {
 //     Robot& robot = add_robot("blink");

@@ -19,8 +19,7 @@ struct Glimpse {
 
 class LightVehicle : public FirmwareTest, public ::testing::WithParamInterface<int> {
  protected:
-  /// Start number 0 to 7: so far from the lamp, all around it, the nose 6 to 30 degrees off to either
-  /// side.
+  /// Start number 0 to 7: so far from the lamp, all around it, the nose 6 to 30 degrees off to either side.
   Robot& start(const std::string& firmware, int number, double away_m) {
     constexpr double kOff[8] = {-30, -22, -14, -6, 6, 14, 22, 30};
     load_world("worlds/braitenberg.toml");

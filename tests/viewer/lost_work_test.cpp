@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What people typed is never lost: files that others write meanwhile, line ends, encodings, links,
-// recordings.
+// What people typed is never lost: files that others write meanwhile, line ends,
+// encodings, links, recordings.
 #include <sys/stat.h>
 
 #include <thread>

@@ -102,8 +102,8 @@ TEST(Requests, are_in_docs_and_in_the_page_as_they_are) {
   const std::string page = text_of("/docs/connecting.md");
   EXPECT_EQ(dev::with_doc_part(page, "requests", viewer::protocol_tables()), page)
       << "run build/twinpuck-dev page docs/connecting.md";
-  EXPECT_EQ(text_of("/viewer/page/src/protocol_types.ts"), viewer::protocol_types())
-      << "run build/twinpuck-dev page viewer/page/src/protocol_types.ts";
+  EXPECT_EQ(text_of("/viewer/page/src/link/protocol_types.ts"), viewer::protocol_types())
+      << "run build/twinpuck-dev page viewer/page/src/link/protocol_types.ts";
 }
 
 struct Wrong {

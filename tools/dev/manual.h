@@ -11,8 +11,8 @@ namespace dev {
 std::string manual_of_command(const CLI::App& app);
 /// twinpuck-VERB.1.
 std::string manual_of_verb(const CLI::App& verb);
-/// For bash: verbs, options, values that are known, names of worlds, controllers, supervisors and robots.
-/// `frame`: completion.bash.in.
+/// For bash: verbs, options, values that are known, names of worlds, controllers, supervisors and
+/// robots. `frame`: completion.bash.in.
 std::string bash_completion(const CLI::App& app, std::string frame);
 
 }  // namespace dev

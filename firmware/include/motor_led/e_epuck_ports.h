@@ -16,7 +16,7 @@
 
 #include "../p30F6014A.h"
 
-/* --- clock; floating-point constants, as in the original ------------------------------------------------ */
+/* --- clock; floating-point constants, as in the original */
 #define FOSC 7.3728e6            /* crystal, Hz */
 #define PLL 8.0                  /* multiplier */
 #define FCY ((FOSC*PLL)/(4.0))   /* instruction cycles per second */
@@ -29,11 +29,11 @@
 #define TRUE 1
 #define FALSE 0
 
-/* --- direction of a pin, for the *_DIR names ------------------------------------------------------------ */
+/* --- direction of a pin, for the *_DIR names */
 #define OUTPUT_PIN 0
 #define INPUT_PIN 1
 
-/* --- ring LEDs, 1 = on. Note the order of bits: LED3 is A12, LED4 is A10 -------------------------------- */
+/* --- ring LEDs, 1 = on. Note the order of bits: LED3 is A12, LED4 is A10 */
 #define LED0 _LATA6
 #define LED1 _LATA7
 #define LED2 _LATA9
@@ -51,13 +51,13 @@
 #define LED6_DIR _TRISA14
 #define LED7_DIR _TRISA15
 
-/* --- front (red) and body (green) LED, 1 = on ----------------------------------------------------------- */
+/* --- front (red) and body (green) LED, 1 = on */
 #define FRONT_LED _LATC1
 #define FRONT_LED_DIR _TRISC1
 #define BODY_LED _LATC2
 #define BODY_LED_DIR _TRISC2
 
-/* --- IR emitters, 1 = lit: sensors 0 and 4, 1 and 5, 2 and 6, 3 and 7 ----------------------------------- */
+/* --- IR emitters, 1 = lit: sensors 0 and 4, 1 and 5, 2 and 6, 3 and 7 */
 #define PULSE_IR0 _LATF7
 #define PULSE_IR1 _LATF8
 #define PULSE_IR2 _LATG0
@@ -67,7 +67,7 @@
 #define PULSE_IR2_DIR _TRISG0
 #define PULSE_IR3_DIR _TRISG1
 
-/* --- analogue channels, argument of e_read_ad() --------------------------------------------------------- */
+/* --- analogue channels, argument of e_read_ad() */
 #define IR0 8
 #define IR1 9
 #define IR2 10
@@ -83,11 +83,11 @@
 #define ACCY 6
 #define ACCZ 7
 
-/* --- codec and amplifier, 1 = on ------------------------------------------------------------------------ */
+/* --- codec and amplifier, 1 = on */
 #define AUDIO_ON _LATF0
 #define AUDIO_ON_DIR _TRISF0
 
-/* --- coils of the stepper motors, 1 = current flows; motor 1 is the left one ---------------------------- */
+/* --- coils of the stepper motors, 1 = current flows; motor 1 is the left one */
 #define MOTOR1_PHA _LATD0
 #define MOTOR1_PHB _LATD1
 #define MOTOR1_PHC _LATD2
@@ -105,17 +105,17 @@
 #define MOTOR2_PHC_DIR _TRISD6
 #define MOTOR2_PHD_DIR _TRISD7
 
-/* --- I2C bus: data, clock. Shared by camera, accelerometer of revision 1.3, and turrets ----------------- */
+/* --- I2C bus: data, clock. Shared by camera, accelerometer of revision 1.3, and turrets */
 #define SIO_D _LATG3
 #define SIO_D_DIR _TRISG3
 #define SIO_C _LATG2
 #define SIO_C_DIR _TRISG2
 
-/* --- battery comparator: 1 = above 3.4 V, 0 = below ----------------------------------------------------- */
+/* --- battery comparator: 1 = above 3.4 V, 0 = below */
 #define BATT_LOW _RF1
 #define BATT_LOW_DIR _TRISF1
 
-/* --- rotary selector, 16 positions in binary, bit 0 first ----------------------------------------------- */
+/* --- rotary selector, 16 positions in binary, bit 0 first */
 #define SELECTOR0 _RG6
 #define SELECTOR1 _RG7
 #define SELECTOR2 _RG8
@@ -125,7 +125,7 @@
 #define SELECTOR2_DIR _TRISG8
 #define SELECTOR3_DIR _TRISG9
 
-/* --- receiver of the IR remote control: idle 1, burst 0 ------------------------------------------------- */
+/* --- receiver of the IR remote control: idle 1, burst 0 */
 #define REMOTE _RF6
 #define REMOTE_DIR _TRISF6
 
@@ -167,7 +167,7 @@
 #define INTERRUPT_ON() {__asm__ volatile ("disi #2");}
 #define RESET() {__asm__ volatile ("reset");} /* restarts the program; RCONbits.POR stays as it is */
 
-/* --- a timer's interrupt off; an expression, the semicolon is yours ------------------------------------- */
+/* --- a timer's interrupt off; an expression, the semicolon is yours */
 #define STOP_TMR1 IEC0bits.T1IE = 0
 #define STOP_TMR2 IEC0bits.T2IE = 0
 #define STOP_TMR3 IEC0bits.T3IE = 0

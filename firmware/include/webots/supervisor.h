@@ -32,7 +32,7 @@ typedef enum {
 	WB_MF_STRING, WB_MF_NODE
 } WbFieldType;
 
-/* --- the simulation --- */
+/* --- the simulation */
 /** The run ends with this status: 0 passed, else failed. Returns; leave by wb_robot_cleanup(). */
 void wb_supervisor_simulation_quit(int status);
 /** Every robot and object back to its start. */
@@ -53,7 +53,7 @@ bool wb_supervisor_world_save(const char *filename);
 void wb_supervisor_load_world(const char *filename);
 bool wb_supervisor_save_world(const char *filename);
 
-/* --- pictures and labels --- */
+/* --- pictures and labels */
 /** x, y from the upper left corner, 0 to 1; size 0 to 1; colour 0xRRGGBB; transparency 0 to 1; the font is ours. */
 void wb_supervisor_set_label(int id, const char *text, double x, double y, double size, int color,
                              double transparency, const char *font);
@@ -88,7 +88,7 @@ bool wb_supervisor_virtual_reality_headset_is_used(void);
 const double *wb_supervisor_virtual_reality_headset_get_position(void);
 const double *wb_supervisor_virtual_reality_headset_get_orientation(void);
 
-/* --- nodes --- */
+/* --- nodes */
 WbNodeRef wb_supervisor_node_get_root(void);
 /** The robot that runs this program. */
 WbNodeRef wb_supervisor_node_get_self(void);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Devantech CMPS03: a compass at I2C address 0xC0 (that of the ground sensors: a robot carries one of the
-// two).
+// Devantech CMPS03: a compass at I2C address 0xC0 (that of the ground sensors: a robot
+// carries one of the two).
 //
 //   register 0 version   1 bearing 0 to 255   2 3 bearing 0 to 3599, high byte first   others 0
 //
-// Modelled: bearings clockwise from north (+y of the world) in tenths of a degree, a new one every 40 ms,
-// noise, a fixed error. Two bytes of one word that are read across the change of a bearing do not fit, as on
-// the sensor. Not modelled: calibration, the field of motors and iron. Source: the maker's manual, facts
-// restated.
+// Modelled: bearings clockwise from north (+y of the world) in tenths of a degree, a new one every 40
+// ms, noise, a fixed error. Two bytes of one word that are read across the change of a bearing do not
+// fit, as on the sensor. Not modelled: calibration, the field of motors and iron. Source: the maker's
+// manual, facts restated.
 #include <cmath>
 
 #include "hal_sim/board/board.h"

@@ -3,8 +3,8 @@
 //
 //   register 0 red   1 green   2 blue, 0 to 255        register 3 gain, 1 to 16, may be written
 //
-// Modelled: the floor's colour where the sensor is, noise. Not modelled: height, ambient light. Source:
-// invented.
+// Modelled: the floor's colour where the sensor is, noise. Not modelled: height, ambient
+// light. Source: invented.
 #include <algorithm>
 #include <cmath>
 

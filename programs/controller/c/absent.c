@@ -8,7 +8,7 @@
 
 #include "programs/controller/c/library.h"
 
-/* --- devices of kinds that the simulator does not have ---------------------------------------------------- */
+/* --- devices of kinds that the simulator does not have */
 
 #define DO(KIND, function, ...) \
   void function(WbDeviceTag tag, ##__VA_ARGS__) { (void)device_of(tag, KIND, #function); }
@@ -103,7 +103,7 @@ int wb_radio_event_get_data_size(const WbRadioEvent event) { return (void)event,
 char* wb_radio_event_get_emitter(const WbRadioEvent event) { return (void)event, NULL; }
 double wb_radio_event_get_rssi(const WbRadioEvent event) { return (void)event, 0; }
 
-/* --- windows ---------------------------------------------------------------------------------------------- */
+/* --- windows */
 
 void* wb_remote_control_custom_function(void* argument) { return (void)argument, NULL; }
 void* wb_robot_window_custom_function(void* argument) { return (void)argument, NULL; }
@@ -118,7 +118,7 @@ void wbu_default_robot_window_configure(void) {}
 void wbu_default_robot_window_update(void) {}
 void wbu_default_robot_window_set_images_max_size(int max_width, int max_height) { (void)max_width, (void)max_height; }
 
-/* --- the system ------------------------------------------------------------------------------------------- */
+/* --- the system */
 
 const char* wbu_system_getenv(const char* variable) { return getenv(variable); }
 const char* wbu_system_short_path(const char* path) { return path; }

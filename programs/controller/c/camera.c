@@ -43,7 +43,7 @@ static struct camera* camera(WbDeviceTag tag, const char* function) {
   return d ? state_of(d) : 0;
 }
 
-/* --- the picture ------------------------------------------------------------------------------------------ */
+/* --- the picture */
 
 void take_picture(const struct link_record* record) {
   struct device* d = any_device(record->ints[0]);
@@ -119,7 +119,7 @@ int wb_camera_save_image(WbDeviceTag tag, const char* filename, int quality) {
   return image_write(&state_of(d)->picture, filename, quality, false, "wb_camera_save_image") ? 0 : -1;
 }
 
-/* --- recognition ------------------------------------------------------------------------------------------ */
+/* --- recognition */
 
 bool wb_camera_has_recognition(WbDeviceTag tag) {
   return device_info(device(tag, "wb_camera_has_recognition"), CAMERA_RECOGNISES, 0) != 0;

@@ -14,7 +14,7 @@ int device_tags;
 static struct device** listed; /* in the order in which they were told; hidden ones are not among them */
 static int listed_count, listed_room;
 
-/* --- who they are ----------------------------------------------------------------------------------------- */
+/* --- who they are */
 
 static void forget_values(struct device* device) {
   int i;
@@ -130,7 +130,7 @@ const char* wb_device_get_model(WbDeviceTag tag) { return any_device(tag) ? any_
 WbNodeType wb_device_get_node_type(WbDeviceTag tag) { return any_device(tag) ? any_device(tag)->kind : WB_NODE_NO_NODE; }
 WbNodeType wb_device_get_type(WbDeviceTag tag) { return wb_device_get_node_type(tag); }
 
-/* --- what they sample ------------------------------------------------------------------------------------- */
+/* --- what they sample */
 
 void device_enable(struct device* device, int period) {
   struct link_packet* out;

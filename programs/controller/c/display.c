@@ -45,7 +45,7 @@ int wb_display_get_height(WbDeviceTag tag) {
   return d ? d->canvas.picture.height : -1;
 }
 
-/* --- how -------------------------------------------------------------------------------------------------- */
+/* --- how */
 
 void wb_display_set_color(WbDeviceTag tag, long color) {
   struct display* d = display(tag, "wb_display_set_color");
@@ -70,7 +70,7 @@ void wb_display_set_font(WbDeviceTag tag, const char* font, int size, bool antia
   if (d) d->scale = size < 2 * SIZE_OF_ONE ? 1 : size > MOST_SIDE ? MOST_SIDE / SIZE_OF_ONE : size / SIZE_OF_ONE;
 }
 
-/* --- shapes ----------------------------------------------------------------------------------------------- */
+/* --- shapes */
 
 #define SHAPE(name, draw, ...)                          \
   void wb_display_##name(WbDeviceTag tag, __VA_ARGS__) { \
@@ -91,7 +91,7 @@ void wb_display_draw_text(WbDeviceTag tag, const char* text, int x, int y) {
   if (d && text) draw_text(&d->canvas, text, x, y, d->scale);
 }
 
-/* --- pictures --------------------------------------------------------------------------------------------- */
+/* --- pictures */
 
 /* black and transparent; null, after a warning: no such size */
 static WbImageRef make(int width, int height, const char* function) {

@@ -11,7 +11,7 @@
 
 #define FAR 8192 /* pixels beyond the picture, from where lines are cut */
 
-/* --- marks ------------------------------------------------------------------------------------------------ */
+/* --- marks */
 
 /* columns of a row, which are in the picture */
 static void mark_seen(struct canvas* c, int y, int from, int to) {
@@ -102,7 +102,7 @@ static void mark_line(struct canvas* c, double fx, double fy, double tx, double 
   }
 }
 
-/* --- shapes ----------------------------------------------------------------------------------------------- */
+/* --- shapes */
 
 void draw_pixel(struct canvas* c, int x, int y) {
   mark(c, x, y);

@@ -9,7 +9,7 @@
 
 #include "programs/controller/c/world.h"
 
-/* --- which ------------------------------------------------------------------------------------------------ */
+/* --- which */
 
 static void take_count(WbFieldRef field, int count) {
   field->count = count;
@@ -134,7 +134,7 @@ int wb_supervisor_field_get_count(WbFieldRef field) {
 void wb_supervisor_field_enable_sf_tracking(WbFieldRef field, int sampling_period) { (void)field, (void)sampling_period; }
 void wb_supervisor_field_disable_sf_tracking(WbFieldRef field) { (void)field; }
 
-/* --- values ----------------------------------------------------------------------------------------------- */
+/* --- values */
 
 /* the field, of the wanted type; null, after a warning, else */
 static WbFieldRef checked(WbFieldRef field, WbFieldType type, const char* function) {
@@ -256,7 +256,7 @@ SETTERS(const double values[4], rotation, ROTATION, values, 4, 0)
 SETTERS(const double values[3], color, COLOR, values, 3, 0)
 SETTERS(const char* value, string, STRING, 0, 0, value)
 
-/* --- members ---------------------------------------------------------------------------------------------- */
+/* --- members */
 
 static void remove_member(WbFieldRef field, int index) {
   struct link_packet* out = world_command(LINK_REMOVE);

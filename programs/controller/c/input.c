@@ -6,7 +6,7 @@
 
 #include "programs/controller/c/library.h"
 
-/* --- keyboard --------------------------------------------------------------------------------------------- */
+/* --- keyboard */
 
 #define MOST_KEYS 8
 
@@ -43,7 +43,7 @@ void wb_robot_keyboard_enable(int ms) { enable(ms); }
 void wb_robot_keyboard_disable(void) { enable(0); }
 long wb_robot_keyboard_get_key(void) { return next_key(0); }
 
-/* --- mouse: it is nowhere --------------------------------------------------------------------------------- */
+/* --- mouse: it is nowhere */
 
 static int mouse_period;
 static bool mouse_3d;
@@ -62,7 +62,7 @@ WbMouseState* wb_mouse_get_state_pointer(void) {
 }
 WbMouseState wb_mouse_get_state(void) { return *wb_mouse_get_state_pointer(); }
 
-/* --- joystick: none is connected -------------------------------------------------------------------------- */
+/* --- joystick: none is connected */
 
 static int joystick_period;
 

@@ -88,7 +88,7 @@ WbNodeRef node_known(WbNodeRef node, const char* function) {
   return node;
 }
 
-/* --- which ------------------------------------------------------------------------------------------------ */
+/* --- which */
 
 WbNodeRef wb_supervisor_node_get_root(void) {
   if (!may_ask_world("wb_supervisor_node_get_root")) return 0;
@@ -146,7 +146,7 @@ const char* wb_supervisor_node_get_base_type_name(WbNodeRef node) {
 }
 bool wb_supervisor_node_is_proto(WbNodeRef node) { return (void)node_known(node, "wb_supervisor_node_is_proto"), false; }
 
-/* --- where ------------------------------------------------------------------------------------------------ */
+/* --- where */
 
 static bool ask_node(WbNodeRef node, int what, struct link_record* answer, const char* function) {
   struct link_packet* out;
@@ -237,7 +237,7 @@ WbContactPoint* wb_supervisor_node_get_contact_points(WbNodeRef node, bool inclu
   return count ? node->contacts : 0;
 }
 
-/* --- changes ---------------------------------------------------------------------------------------------- */
+/* --- changes */
 
 static void change(WbNodeRef node, int what, const double* values, size_t count, const char* text, const char* function) {
   struct link_packet* out;
@@ -325,7 +325,7 @@ const char* wb_supervisor_node_export_string(WbNodeRef node) {
   return "";
 }
 
-/* --- what needs a window, and what needs no telling ------------------------------------------------------- */
+/* --- what needs a window, and what needs no telling */
 
 void wb_supervisor_node_move_viewpoint(WbNodeRef node) { (void)node; }
 void wb_supervisor_node_set_visibility(WbNodeRef node, WbNodeRef from, bool visible) {

@@ -37,7 +37,7 @@ OLD_SENSOR(camera)
 OLD_SENSOR(microphone)
 OLD_SENSOR(receiver)
 
-/* --- gps: its matrix needs the heading, which the simulator tells behind position and speed --------------- */
+/* --- gps: its matrix needs the heading, which the simulator tells behind position and speed */
 
 OLD_VALUES(gps, WB_NODE_GPS)
 void gps_enable(DeviceTag tag, int ms) { wb_gps_enable(tag, ms); }
@@ -69,7 +69,7 @@ void gps_euler(const float* of, float* angles) {
     angles[2] = atan2f(of[1], of[0]);
 }
 
-/* --- the others ------------------------------------------------------------------------------------------- */
+/* --- the others */
 
 void led_set(DeviceTag tag, long value) { wb_led_set(tag, value); }
 

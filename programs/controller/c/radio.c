@@ -19,7 +19,7 @@ static void say_channel(WbDeviceTag tag, int channel) {
   command_end();
 }
 
-/* --- emitter ---------------------------------------------------------------------------------------------- */
+/* --- emitter */
 
 struct emitter {
   int channel, most_bytes, queued; /* bytes since the last step */
@@ -102,7 +102,7 @@ int wb_emitter_get_buffer_size(WbDeviceTag tag) {
   return e ? e->most_bytes : -1;
 }
 
-/* --- receiver --------------------------------------------------------------------------------------------- */
+/* --- receiver */
 
 struct received {
   struct received* next;

@@ -108,8 +108,7 @@ bool take_ranges(struct device* d, const double* values, size_t count) {
     return device_info(kind(tag, "wb_" #kind "_get_max_range"), RANGES_FAR, 0);                         \
   }
 
-/* --- range finders ----------------------------------------------------------------------------------------
- */
+/* --- range finders */
 
 RANGES(range_finder, WB_NODE_RANGE_FINDER)
 
@@ -144,7 +143,7 @@ int wb_range_finder_save_image(WbDeviceTag tag, const char* filename, int qualit
   return good ? 0 : -1;
 }
 
-/* --- lidars ------------------------------------------------------------------------------------ */
+/* --- lidars */
 
 RANGES(lidar, WB_NODE_LIDAR)
 

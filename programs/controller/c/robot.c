@@ -22,7 +22,7 @@ double wb_robot_get_basic_time_step(void) {
   return session.basic_step_ms;
 }
 
-/* --- names ------------------------------------------------------------------------------------------------ */
+/* --- names */
 
 static const char* text(char* const* what) {
   session_ready();
@@ -78,7 +78,7 @@ WbUserInputEvent wb_robot_wait_for_user_input_event(WbUserInputEvent event_type,
   return WB_EVENT_NO_EVENT;
 }
 
-/* --- LEDs ------------------------------------------------------------------------------------------------- */
+/* --- LEDs */
 
 void wb_led_set(WbDeviceTag tag, long value) {
   struct device* d = device_of(tag, WB_NODE_LED, "wb_led_set");
@@ -95,7 +95,7 @@ int wb_led_get(WbDeviceTag tag) {
   return d ? d->count : 0;
 }
 
-/* --- battery ---------------------------------------------------------------------------------------------- */
+/* --- battery */
 
 static struct device* battery(void) {
   struct device* d = hidden_device("battery");
@@ -112,7 +112,7 @@ double wb_robot_battery_sensor_get_value(void) {
   return device_value(battery(), "wb_robot_battery_sensor_get_value");
 }
 
-/* --- the console ------------------------------------------------------------------------------------------ */
+/* --- the console */
 
 void wb_robot_console_printf(const char* format, ...) {
   va_list arguments;
@@ -128,7 +128,7 @@ void wb_console_print(const char* what, int stream) {
   fflush(to);
 }
 
-/* --- threads: the library itself is for one at a time ----------------------------------------------------- */
+/* --- threads: the library itself is for one at a time */
 
 struct task {
   void (*run)(void*);
@@ -166,7 +166,7 @@ void wb_robot_mutex_delete(WbMutexRef mutex) {
   free(mutex);
 }
 
-/* --- names of versions 5 to 8 ----------------------------------------------------------------------------- */
+/* --- names of versions 5 to 8 */
 
 void wb_robot_live(void (*reset)(void)) {
   session_ready();

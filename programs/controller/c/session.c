@@ -27,7 +27,7 @@ static char* session_program; /* its name, where it is not the process's */
 static int link_socket = -1;
 static _Alignas(8) unsigned char packet[LINK_MOST_BYTES];
 
-/* --- words ------------------------------------------------------------------------------------------------ */
+/* --- words */
 
 void warn(int* told, const char* format, ...) {
   char text[512];
@@ -75,7 +75,7 @@ const char* absolute_path(const char* file) {
   return path;
 }
 
-/* --- packets ---------------------------------------------------------------------------------------------- */
+/* --- packets */
 
 static void closed(void) {
   if (link_socket >= 0) close(link_socket);
@@ -168,7 +168,7 @@ int ask(struct link_record* answer) {
   return 0;
 }
 
-/* --- the beginning ---------------------------------------------------------------------------------------- */
+/* --- the beginning */
 
 static int connect_to(const char* path) {
   struct sockaddr_un address = {.sun_family = AF_UNIX};
@@ -301,7 +301,7 @@ int wb_robot_init(void) {
   return 1;
 }
 
-/* --- steps ------------------------------------------------------------------------------------------------ */
+/* --- steps */
 
 static int ended(void) {
   if (!session.told_end) {

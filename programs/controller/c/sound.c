@@ -8,7 +8,7 @@
 
 #include "programs/controller/c/library.h"
 
-/* --- microphone ------------------------------------------------------------------------------------------- */
+/* --- microphone */
 
 struct recording {
   size_t size;
@@ -47,7 +47,7 @@ int wb_microphone_get_sample_size(WbDeviceTag tag) {
   return d && d->own ? (int)((const struct recording*)d->own)->size : 0;
 }
 
-/* --- speaker ---------------------------------------------------------------------------------------------- */
+/* --- speaker */
 
 #define NAME_BYTES 128 /* of a sound */
 

@@ -151,7 +151,7 @@ WbDeviceTag wb_motor_get_brake(WbDeviceTag tag) {
   return 0;
 }
 
-/* --- both wheels ------------------------------------------------------------------------------------------ */
+/* --- both wheels */
 
 static int encoder_period;
 static double encoder_zero[2]; /* steps */

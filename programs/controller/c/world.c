@@ -55,7 +55,7 @@ void wb_supervisor_export_image(const char* filename, int quality) {
   do_world(DO_PICTURE, &value, 1, absolute_path(filename), "wb_supervisor_export_image");
 }
 
-/* --- a run has one world ---------------------------------------------------------------------------------- */
+/* --- a run has one world */
 
 static bool no_world(const char* function) {
   if (may_ask_world(function)) WARN("%s(): a run has one world, which is neither changed for another nor written", function);
@@ -66,7 +66,7 @@ bool wb_supervisor_world_save(const char* filename) { return (void)filename, no_
 void wb_supervisor_load_world(const char* filename) { (void)filename, (void)no_world("wb_supervisor_load_world"); }
 bool wb_supervisor_save_world(const char* filename) { return (void)filename, no_world("wb_supervisor_save_world"); }
 
-/* --- no movies, no animations, no headset ----------------------------------------------------------------- */
+/* --- no movies, no animations, no headset */
 
 static void no_movie(const char* function) {
   if (may_ask_world(function))

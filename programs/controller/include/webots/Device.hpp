@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What is common to the devices of a robot; see webots/device.h. Classes are thin: each function is the one
-// of C with the same name. Each device has one object, made when somebody asks for it and kept until the
-// program ends.
+// What is common to the devices of a robot; see webots/device.h. Classes are thin: each function is the
+// one of C with the same name. Each device has one object, made when somebody asks for it and kept
+// until the program ends.
 #ifndef WB_DEVICE_HPP
 #define WB_DEVICE_HPP
 

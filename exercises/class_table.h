@@ -4,7 +4,7 @@
 #pragma once
 #include <string>
 
-#include "lab/class.h"
+#include "exercises/class.h"
 
 namespace lab {
 
@@ -20,8 +20,8 @@ std::string class_csv(const Class& all);
 std::string class_runs_csv(const Class& all);
 /// One page that needs nothing else.
 std::string class_html(const Class& all, const std::string& title);
-/// A test suite a student, a test case an exercise. What is missing is skipped; what does not build is an
-/// error.
+/// A test suite a student, a test case an exercise. What is missing is skipped; what does
+/// not build is an error.
 std::string class_junit(const Class& all);
 
 /// Exercises that a student passed, and those that had a verdict: pass or FAIL, or no program.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/class_table.h"
+#include "exercises/class_table.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/table.h"
+#include "exercises/table.h"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/run.h"
+#include "exercises/run.h"
 
 #include <fmt/format.h>
 #include <sys/wait.h>

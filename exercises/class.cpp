@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/class.h"
+#include "exercises/class.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "lab/contained_jobs.h"
+#include "exercises/contained_jobs.h"
 #include "outputs/complain.h"
 
 namespace lab {

@@ -66,8 +66,8 @@ struct Step {
   enum class Kind { Runs, Sensor, Answer } kind = Kind::Runs;
   std::string says;                 ///< what a run that keeps the bounds has done
   std::vector<std::string> worlds;  ///< files in worlds/, without ending
-  /// For every robot; empty: as the world says. "lab/NAME": the solution of an exercise in which a student
-  /// writes NAME.
+  /// For every robot; empty: as the world says. "lab/NAME": the solution of an exercise in which a
+  /// student writes NAME.
   std::string firmware;
   std::string supervisor;  ///< in the place of the world's; empty: the world's
   double seconds = 60, full_seconds = 60;

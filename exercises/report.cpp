@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/report.h"
+#include "exercises/report.h"
 
 #include <fmt/format.h>
 

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Students' programs in the place of ours: which of the lab's names a folder holds, and what they are built
-// to.
+// Students' programs in the place of ours: which of the lab's names a folder holds, and
+// what they are built to.
 #pragma once
 #include <map>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "exercises/table.h"
 #include "hal_sim/twin/firmware_store.h"
-#include "lab/table.h"
 
 namespace lab {
 
 /// What runs for each `firmware` of the table (a controller of the lab).
 struct Programs {
-  /// Images; of a program for Webots' interfaces the folder, since each world says what such a program takes
-  /// for granted.
+  /// Images; of a program for Webots' interfaces the folder, since each world says what such a
+  /// program takes for granted.
   std::map<std::string, std::string> images;
   std::map<std::string, std::string> missing, broken;  ///< why there is none
 };

@@ -2,14 +2,14 @@
 // A class: a folder of folders, one a student. Each program is built and each exercise tried in a process of
 // its own, for a limited time, so whatever is handed in comes to a row.
 //
-//   DIR/anna/obstacle/*.c  --find--> build, a process each --> try, a process each --> Class, student x
-//   exercise
+//   DIR/anna/obstacle/*.c --find--> build, a process each --> try, a process each --> Class:
+//                                                                                     student x exercise
 #pragma once
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "lab/run.h"
+#include "exercises/run.h"
 
 namespace lab {
 
@@ -37,8 +37,8 @@ bool is_class(const std::string& folder, const std::set<std::string>& known,
 void try_class(const std::string& folder, const twin::Options& options, bool by_id, double limit_s,
                Class& all, const std::function<void(const Student&)>& row);
 
-/// "twinpuck lab --replay I1:corners:3 --mine DIR --picture I1.png --report I1.html"; empty: no run tells
-/// why.
+/// "twinpuck lab --replay I1:corners:3 --mine DIR --picture I1.png --report I1.html";
+/// empty: no run tells why.
 std::string replay_command(const Cell& cell, const std::string& mine, const std::string& options);
 
 /// A word as a shell takes it.

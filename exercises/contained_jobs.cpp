@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/contained_jobs.h"
+#include "exercises/contained_jobs.h"
 
 #include <fcntl.h>
 #include <poll.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/mine.h"
+#include "exercises/mine.h"
 
 #include <algorithm>
 #include <filesystem>

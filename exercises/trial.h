@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "exercises/table.h"
 #include "hal_sim/runs/run.h"
-#include "lab/table.h"
 
 namespace twin {
 class Twin;

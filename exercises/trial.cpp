@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "lab/trial.h"
+#include "exercises/trial.h"
 
 #include <algorithm>
 #include <cmath>
@@ -97,7 +97,7 @@ class Watch {
       escape_s = now_s;
     if (now_s - window_s_ < kSlipWindowS) return;
     window_s_ = now_s;
-    const auto report = simulation_.mind(robot_).report();
+    const auto report = simulation_.minds()[static_cast<std::size_t>(robot_)]->report();
     const auto steps = report.left_steps + report.right_steps;
     const double turned_m = std::fabs(0.5 * step_m_ * static_cast<double>(steps - last_steps_));
     const double made_m = simulation_.distance_m(robot_) - last_distance_m_;

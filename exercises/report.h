@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lab/trial.h"
+#include "exercises/trial.h"
 #include "sim_core/record/share_plot.h"
 
 namespace lab {
@@ -28,8 +28,8 @@ bool has_run(const StepResult& result);
 double share_of(const StepResult& result, double noise_scale);
 bool is_passed(const StepResult& result);
 
-/// What the step asks of its trials: "needs 9 of 10: escape at most 60 s, wall touch at most 0.5 s". Empty:
-/// nothing.
+/// What the step asks of its trials: "needs 9 of 10: escape at most 60 s, wall touch at most 0.5
+/// s". Empty: nothing.
 std::string asked_by(const Step& step, std::size_t trials);
 
 /// A trial that tells why the step has failed: the first that kept its bounds not, or that should not have;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "lab/mine.h"
-#include "lab/report.h"
-#include "lab/table.h"
+#include "exercises/mine.h"
+#include "exercises/report.h"
+#include "exercises/table.h"
 
 namespace lab {
 
