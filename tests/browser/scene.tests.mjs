@@ -153,6 +153,7 @@ export const tests = {
     await page.keyboard.up("Shift");
     assert.match(await page.textContent("#pane-plots .markers-text"), /^A [\d.]+\s*s {2}B [\d.]+\s*s {2}B−A \d+\.\d+\s*m?s, [\d.]+\s*Hz$/);
     // the console marks the line that had been said by then
+    await page.mouse.move(600, 5);
     await ask(page, "(app) => { app.showDock('console'); app.store.cursor.pointAt(0.5); }");
     assert.match(await page.textContent("#console-lines .cursor"), /hello/);
     // by keys

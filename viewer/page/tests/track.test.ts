@@ -39,6 +39,10 @@ test("backwards, too", () => {
   for (const [, y] of way) assert.ok(Math.abs(y) < 1e-9);
 });
 
+test("a slow robot among a thousand, whose frames come every half second, leaves no gap", () => {
+  assert.deepEqual(wayBetween(at(0, 0, 0, 0), at(0.02, 0, 1, 0.5), []), [[0.02, 0]]);
+});
+
 test("without an odometer an arc at full speed is known, and a slow way is not", () => {
   assert.ok(wayBetween(at(0, 0, 0, 0), at(0.26, 0, 0, 2), []));
   assert.equal(wayBetween(at(0, 0, 0, 0), at(0.05, 0, 0, 2), []), undefined);

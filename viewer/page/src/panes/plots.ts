@@ -15,7 +15,7 @@ const kMostSamples = 6000;
 const kGap = 0.15; // s, between two frames: nobody knows what a value did in between
 const kNone = "no unit";
 const kClick = 3; // px: what moves no farther is one
-const kAxisWide = 58;
+const kAxisWide = 68;
 
 /** The pieces of time, by the numbers of the samples around them, in which nothing was seen. */
 export function gapsOf(times: readonly number[]): number[] {

@@ -8,6 +8,7 @@ const kSamples = 4; // a pixel, of antialiasing
 const kEvery = 3; // frames, between two that are measured
 const kEveryIfQuick = 30;
 const kQuick = 25; // ms
+const kFilmEvery = 1000 / 30 - 4; // ms: a film's frames
 const kKeptTimes = 100;
 const kKept = "drawing"; // of localStorage: how much was left out
 
@@ -17,7 +18,8 @@ export class Canvas {
   readonly quality: Quality;
   dirty = true;
   drawing = true;
-  /** A film holds what is left out, and the size. */
+  private drawnAt = 0; // ms
+  /** A film holds the size, and needs no more pictures than it shows. */
   private held = false;
   private paint: () => boolean = () => false;
   private change: (quality: Quality) => void = () => {};
@@ -62,14 +64,17 @@ export class Canvas {
     change(this.quality);
     const loop = () => {
       requestAnimationFrame(loop);
-      if (this.dirty && this.drawing) this.draw();
+      const isSoon = this.held && performance.now() < this.drawnAt + kFilmEvery;
+      if (this.dirty && this.drawing && !isSoon) this.draw();
     };
     loop();
   }
   setSize(w: number, h: number) {
     const { renderer, smooth, quality } = this;
-    renderer.setPixelRatio(quality.ratio);
-    renderer.setSize(w, h);
+    if (!this.held) {
+      renderer.setPixelRatio(quality.ratio);
+      renderer.setSize(w, h);
+    }
     const size = renderer.getDrawingBufferSize(new THREE.Vector2());
     if (quality.antialiasing) smooth.setSize(size.x, size.y);
     else smooth.dispose();
@@ -89,12 +94,13 @@ export class Canvas {
     const begun = performance.now();
     if (!this.paint()) return;
     this.dirty = false;
+    this.drawnAt = begun;
     if (!measures) return;
     this.finish();
     this.unmeasured = 0;
     const now = performance.now();
     if (this.took.push(now - begun) > kKeptTimes) this.took.shift();
-    if (!this.held && this.quality.took(now - begun, now)) this.requality();
+    if (this.quality.took(now - begun, now)) this.requality();
   }
   /** Waits until all of it is drawn. No other way says so on every browser: fences come seconds late. */
   finish() {
@@ -112,8 +118,9 @@ export class Canvas {
     this.quality.setMeasures(on, performance.now());
     this.requality();
   }
-  /** The size and what is left out stay until false. */
+  /** The size stays until false. */
   hold(on: boolean) {
     this.held = on;
+    this.change(this.quality);
   }
 }

@@ -21,6 +21,7 @@ const kFastest = 0.3; // m/s: what is faster was carried; an e-puck drives 0.13,
 const kUsual = 0.13; // m/s, of an e-puck's wheels at 1000 steps/s
 const kSlack = 0.005; // m, of the place itself
 const kShort = 0.03; // m: less than a robot's radius, so that the chord goes through nothing
+const kAbout = 0.07; // m, that a robot without an odometer may have gone on its way there
 const kPiece = 0.01; // m, of a curve
 const kMostPieces = 64;
 const kRight = 0.04; // of the travelled way, that a curve may be longer or shorter
@@ -122,7 +123,7 @@ export function wayBetween(a: Seen, b: Seen, borders: readonly Border[]): Vec[] 
       ? b.travelled - a.travelled
       : undefined;
   const straight = [[b.x, b.y]];
-  if ((known ?? kUsual * dt) <= kShort && chord <= kShort) return straight;
+  if (chord <= kShort && (known === undefined ? kUsual * dt <= kAbout : known <= kShort)) return straight;
   if (chord < 1e-4) return undefined; // it has turned round and come back, or stood
   const toB = Math.atan2(b.y - a.y, b.x - a.x),
     back = Math.cos(a.heading - toB) < 0 ? Math.PI : 0,
