@@ -127,7 +127,7 @@ attenuation = [0, 0, 1]
     await page.click("#restart");
     await until(page, "(app) => app.frame.time === 0");
     await page.selectOption("#add-part", "lis-turret");
-    await until(page, "(app) => app.world.robots[0].parts.join() === 'lis-turret' && app.scene.turrets.count === 1");
+    await until(page, "(app) => app.world.robots[0].parts.join() === 'lis-turret' && app.scene.robots.turrets?.count === 1");
     await page.waitForFunction(() => /LEDs 00000/.test(document.querySelector("#parts").textContent));
     assert.deepEqual(page.errors, []);
   },
@@ -143,9 +143,9 @@ int main(void) {
 }
 ` });
     await page.click("#play");
-    await until(page, "(app) => app.scene.sounding.count === 1 && app.values.get('puck.speaker') > 1");
+    await until(page, "(app) => app.scene.robots.sounding?.count === 1 && app.values.get('puck.speaker') > 1");
     // the sound's last sample, at 7200 a second
     await until(page, "(app) => app.frame.time > 3");
-    await until(page, "(app) => app.scene.sounding.count === 0 && app.values.get('puck.speaker') === 0");
+    await until(page, "(app) => app.scene.robots.sounding?.count === 0 && app.values.get('puck.speaker') === 0");
   },
 };
