@@ -52,11 +52,11 @@ HEAD = """\
 #define __dsPIC30F6014A__ 1
 #endif
 
-/* --- interrupt handlers: void _ISR _T1Interrupt(void) --------------------------------------------------- */
+/* --- interrupt handlers: void _ISR _T1Interrupt(void) */
 #define _ISR __attribute__((__interrupt__))
 #define _ISRFAST __attribute__((__interrupt__, __shadow__))
 
-/* --- placement of variables: no effect on a PC, where memory has one space ------------------------------ */
+/* --- placement of variables: no effect on a PC, where memory has one space */
 #define _PERSISTENT __attribute__((persistent))
 #define _NEAR __attribute__((near))
 #define _XBSS(alignment) __attribute__((space(xmemory), aligned(alignment)))
@@ -65,14 +65,14 @@ HEAD = """\
 #define _YDATA(alignment) __attribute__((space(ymemory), aligned(alignment)))
 #define _EEDATA(alignment) __attribute__((space(eedata), aligned(alignment)))
 
-/* --- single instructions -------------------------------------------------------------------------------- */
+/* --- single instructions */
 #define Nop() { __asm__ volatile("nop"); }
 #define ClrWdt() { __asm__ volatile("clrwdt"); }
 #define Sleep() { __asm__ volatile("pwrsav #0"); }
 #define Idle() { __asm__ volatile("pwrsav #1"); }
 #define Reset() { __asm__ volatile("reset"); }
 
-/* --- built-in functions of XC16 that reach registers (the others: xc16_builtins.h) --------------- */
+/* --- built-in functions of XC16 that reach registers (the others: xc16_builtins.h) */
 #define __builtin_get_isr_state() ((unsigned)SRbits.IPL)
 #define __builtin_set_isr_state(state) (SRbits.IPL = (state))
 #define __builtin_disable_interrupts() (SRbits.IPL = 7)
@@ -87,7 +87,7 @@ HEAD = """\
 #define __builtin_readsfr(address) (*(volatile unsigned *)(address))
 #define __builtin_writesfr(address, value) (*(volatile unsigned *)(address) = (value))
 
-/* --- priority of the running program, 0 to 7: interrupts at or below it wait ---------------------------- */
+/* --- priority of the running program, 0 to 7: interrupts at or below it wait */
 #define SET_CPU_IPL(ipl) { SRbits.IPL = (ipl); }
 #define SET_AND_SAVE_CPU_IPL(save_to, ipl) { save_to = SRbits.IPL; SRbits.IPL = (ipl); }
 #define RESTORE_CPU_IPL(saved_to) { SRbits.IPL = (saved_to); }
@@ -187,7 +187,7 @@ def generate():
     owners = collections.Counter()
     for _, _, fields in registers:
         owners.update(name for name, _, _ in fields + alternative(fields))
-    out.append("\n/* --- the registers, by address " + "-" * 74 + " */")
+    out.append("\n/* --- the registers, by address */")
     macros = []
     for address, name, fields in registers:
         kind = "char" if BYTES.match(name) else "int"
@@ -212,7 +212,7 @@ def generate():
         for field, _, _ in fields + second:
             if owners[field] == 1:
                 macros.append("#define _%s %sbits.%s" % (field, name, field))
-    out.append("\n/* --- short names of fields that occur in one register only " + "-" * 45 + " */")
+    out.append("\n/* --- short names of fields that occur in one register only */")
     out += macros
     out.append("\n#endif\n#endif")
     return "\n".join(out) + "\n"

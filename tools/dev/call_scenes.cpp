@@ -38,7 +38,7 @@ struct Scene {
   const char* code;
 };
 
-// --- the program -----------------------------------------------------------------------------------------
+// --- the program
 
 // lists are written newest first
 const Scene kScenes[] = {
@@ -229,7 +229,7 @@ std::string source() {
   return text + "  done = 1;\n  for (;;);\n}\n";
 }
 
-// --- the watch -------------------------------------------------------------------------------------------
+// --- the watch
 
 class Watch final : public chip::StepWatch {
  public:
