@@ -106,12 +106,13 @@ TEST_F(LabClass, what_takes_too_long_is_ended_and_told) {
   const Said s = here("lab I3 --mine class --seeds 100000 --limit 4");
   EXPECT_EQ(s.exit_code, 1) << s.text;
   EXPECT_TRUE(has(s.text, "anna I3 FAIL: took longer than 4 s of this PC (--limit)")) << s.text;
-  // eight million statements: half a minute
-  std::string bomb = "volatile int n;\n#define A0 n++;\n";
-  for (int k = 1; k <= 23; ++k)
-    bomb +=
-        "#define A" + std::to_string(k) + " A" + std::to_string(k - 1) + " A" + std::to_string(k - 1) + "\n";
-  write("class/ben/u_obstacle/main.c", bomb + "int main(void) { A23 return 0; }\n");
+  // a million headers: minutes
+  write("class/ben/u_obstacle/h0.h", "extern volatile int n;\n");
+  for (int k = 1; k <= 20; ++k) {
+    const std::string half = "#include \"h" + std::to_string(k - 1) + ".h\"\n";
+    write("class/ben/u_obstacle/h" + std::to_string(k) + ".h", half + half);
+  }
+  write("class/ben/u_obstacle/main.c", "#include \"h20.h\"\nint main(void) { return 0; }\n");
   const Said build = here("lab I3 --mine class --seeds 1 --limit 12");
   EXPECT_EQ(build.exit_code, 1) << build.text;
   EXPECT_EQ(row(build.text, "anna"), "anna pass 1 of 1") << build.text;

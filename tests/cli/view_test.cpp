@@ -25,7 +25,7 @@ TEST_F(View, a_signal_ends_it_and_its_recording_replays) {
   EXPECT_EQ(view.exit_code, 0) << view.text;
   const Said replay = twinpuck("run --replay " + path("inputs.jsonl") + " --summary " + path("s.json"));
   EXPECT_EQ(replay.exit_code, 0) << replay.text;
-  EXPECT_NE(read(path("s.json")).find("\"simulated_s\": 1.99"), std::string::npos) << read(path("s.json"));
+  EXPECT_NE(read(path("s.json")).find("\"simulated_s\": 1.92"), std::string::npos) << read(path("s.json"));
 }
 
 TEST_F(View, a_replay_that_diverges_is_an_invalid_run) {
