@@ -53,7 +53,7 @@ SectionSpec world_section() {
               {"engine", ValueType::Choice, "", 0, 0, "dynamic|kinematic|planar", "\"dynamic\"",
                "dynamic: traction, slip, pushing, falling; kinematic: no forces, robots stop at contacts; "
                "planar: two dimensions, wheels never slip, movable objects are pushed, no heights "
-               "(engines.md)",
+               "(worlds.md)",
                into<W>([](W& w, const Value& v) {
                  w.engine = v.text == "dynamic"     ? Engine::Dynamic
                             : v.text == "kinematic" ? Engine::Kinematic
