@@ -109,10 +109,23 @@ void Run::apply(const Json& request, const sim::WorldDesc* world) {
 
 void Run::input(const Json& request, const sim::WorldDesc* world) {
   apply(request, world);
+  keep(request);
+  if (recorder_) recorder_->note(now(), request);
+}
+
+/// As done, at this tick.
+void Run::keep(const Json& request) {
+  constexpr std::size_t kOfOne = 1000;  // bytes, beside a world's text
+  script_bytes_ +=
+      kOfOne + (request.contains("text") ? request.at("text").get_ref<const std::string&>().size() : 0);
+  if (!is_kept()) {  // what is still to come of a recording stays
+    script_.erase(script_.begin(), script_.begin() + static_cast<std::ptrdiff_t>(next_));
+    next_ = 0;
+    return;
+  }
   Json noted = request;
   noted["at"] = now();
   script_.insert(script_.begin() + static_cast<std::ptrdiff_t>(next_++), noted);
-  if (recorder_) recorder_->note(now(), request);
 }
 
 void Run::input_later(const Json& request) {

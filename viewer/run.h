@@ -64,8 +64,10 @@ class Run {
   /// The same at the next tick; what was done later than now, in a time that the debugger went back
   /// from, has not been.
   void input_later(const Json& request);
-  /// What was done until now.
+  /// What was done until now. Of more than 200 MB, as of hours of dragging in a long world, nothing is kept:
+  /// is_kept() is false then, and the run cannot be repeated.
   std::vector<Json> done() const;
+  bool is_kept() const { return script_bytes_ <= kMostScriptBytes; }
 
   /// Serial lines and consoles that nobody else listens to.
   struct Line {
@@ -80,11 +82,14 @@ class Run {
   Json take_trace(std::size_t most);
 
  private:
+  static constexpr std::size_t kMostScriptBytes = 200u << 20;
   void listen();
+  void keep(const Json& request);
   void apply(const Json& request, const sim::WorldDesc* world = nullptr);
 
   std::vector<Json> script_;
-  std::size_t next_ = 0;  // of the script, to be done
+  std::size_t next_ = 0;          // of the script, to be done
+  std::size_t script_bytes_ = 0;  // of what was done, nearly
   bool is_replay_;
   twin::Twin* twin_ = nullptr;
   std::unique_ptr<twin::Twin> own_twin_;

@@ -278,6 +278,8 @@ void Session::debug_robot(int robot) {
   if (!run_->is_alone())
     throw std::runtime_error(
         "robot: this world has programs of the PC, which cannot be repeated; debug it without them");
+  if (!run_->is_kept())
+    throw std::runtime_error("robot: too much was done to this run to repeat it (200 MB); restart it");
   const std::string name = twin.world().robots[static_cast<std::size_t>(robot)].name;
   auto* const runner = dynamic_cast<chip::ChipRunner*>(twin.mind(robot).runner());
   if (!runner) throw std::runtime_error("robot: got '" + name + "', which runs no firmware");
