@@ -51,12 +51,6 @@ std::string literal(const Json& value) {
   return out + "]";
 }
 
-std::pair<long long, long long> stamp_of(const std::string& path) {
-  struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) return {-1, -1};
-  return {info.st_mtim.tv_sec * 1000000000ll + info.st_mtim.tv_nsec, info.st_size};
-}
-
 /// The numbers of a list as it is written; empty: it is none.
 std::vector<double> numbers_in(const std::string& list) {
   std::vector<double> out;
@@ -287,14 +281,19 @@ bool Document::redo() {
   return true;
 }
 
+/// The file was read, or written, and is this.
+void Document::disk_holds(std::string bytes) {
+  bytes_ = std::move(bytes);
+  saved_text_ = plain_text(bytes_).text;
+  disk_ = base_of(bytes_);
+  stamp_ = stamp_of(file_);
+}
+
 void Document::save(bool overwrite) {
   const std::string fresh = bytes_like(bytes_, text_.text());
   replace_known(file_, fresh, base_of(bytes_), overwrite || is_new_);
   is_new_ = false;
-  bytes_ = fresh;
-  saved_text_ = text_.text();
-  disk_ = base_of(bytes_);
-  stamp_ = stamp_of(file_);
+  disk_holds(fresh);
 }
 
 void Document::save_as(const std::string& folder, const std::string& name, bool overwrite) {
@@ -314,20 +313,14 @@ void Document::save_as(const std::string& folder, const std::string& name, bool 
   if (const std::string wrong = replace_file(file, fresh); !wrong.empty()) refuse(wrong);
   file_ = file;
   is_new_ = false;
-  bytes_ = fresh;
-  saved_text_ = text_.text();
-  disk_ = base_of(bytes_);
-  stamp_ = stamp_of(file_);
+  disk_holds(fresh);
   load();
 }
 
 void Document::reload() {
   auto bytes = bytes_at(file_, sim::kLongestWorld);
   if (!bytes) refuse(file_ + ": cannot be read");
-  bytes_ = std::move(*bytes);
-  saved_text_ = plain_text(bytes_).text;
-  disk_ = base_of(bytes_);
-  stamp_ = stamp_of(file_);
+  disk_holds(std::move(*bytes));
   sim::WorldText next = text_;
   next.replace(saved_text_);
   put(std::move(next), 0);

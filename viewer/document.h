@@ -9,6 +9,7 @@
 
 #include "sim_core/load/world_loader.h"
 #include "sim_core/load/world_text.h"
+#include "viewer/text_file.h"
 
 namespace viewer {
 
@@ -53,13 +54,14 @@ class Document {
   void put(sim::WorldText next, int group);
   std::vector<int> edit_one(sim::WorldText& next, const nlohmann::json& request) const;
   std::vector<int> paste(sim::WorldText& next, const nlohmann::json& request) const;
+  void disk_holds(std::string bytes);
   void remember(int group);
   void load();
 
   std::string file_, bytes_, saved_text_;  // what the file held when it was read or written, and its text
   std::string disk_;                       // base of what it holds
   bool is_new_ = false;                    // it was not there when it was opened
-  std::pair<long long, long long> stamp_;  // its time, ns, and size, then
+  Stamp stamp_;                            // its time, ns, and size, then
   sim::WorldText text_;
   sim::LoadedWorld loaded_;
   std::vector<sim::WorldText> undo_, redo_;

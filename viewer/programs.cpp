@@ -99,8 +99,8 @@ void Programs::take_opening(const std::vector<std::string>& problems, const std:
         for (std::size_t at = 0; at < lines.size();) {
           const std::size_t end = std::min(lines.find('\n', at), lines.size());
           const std::string line = lines.substr(at, end - at);
-          if (own_name(program.sources, finding_of(line, "").file) != finding_of(line, "").file)
-            into.push_back(line);
+          const std::string file = finding_of(line, "").file;
+          if (own_name(program.sources, file) != file) into.push_back(line);
           at = end + 1;
         }
     };

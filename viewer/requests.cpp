@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "hal_sim/inputs/inputs.h"
 #include "sim_core/base/did_you_mean.h"
 #include "viewer/frame.h"
 #include "viewer/names.h"
@@ -165,7 +166,11 @@ std::vector<Request> make_requests() {
        "",
        "bytes to a serial line, at its baud rate"},
       {"selector", Right::Touch, {robot(), whole("position", 0, 15, "")}, "", ""},
-      {"battery", Right::Touch, {robot(), number("volts", 3, 4.2, "V", "")}, "", "charged to this"},
+      {"battery",
+       Right::Touch,
+       {robot(), number("volts", inputs::kLeastBatteryV, inputs::kMostBatteryV, "V", "")},
+       "",
+       "charged to this"},
       {"key",
        Right::Touch,
        {robot(), whole("key", 0, 63, "of RC5"), number("hold", 0, 60, "s", "0.1 without", false),

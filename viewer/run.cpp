@@ -65,7 +65,6 @@ void Run::begin(std::function<void(const std::string&)> say, std::function<bool(
 
 void Run::record(const std::string& file, const inputs::Opening& opening) {
   recorder_ = std::make_unique<inputs::Recorder>(file, opening, *twin_);
-  for (const Json& input : done()) recorder_->note(at_of(input), input);
 }
 
 const std::string& Run::recording_error() const {
@@ -140,8 +139,13 @@ void Run::input_later(const Json& request) {
   script_.insert(at, noted);
 }
 
-std::vector<Json> Run::done() const {
+std::vector<Json> Run::script() const {
+  if (is_replay_) return script_;
   return {script_.begin(), script_.begin() + static_cast<std::ptrdiff_t>(next_)};
+}
+
+void Run::forget_said() {
+  for (const auto& line : lines_) line->text.clear();
 }
 
 void Run::trace(int robot, const std::vector<std::string>& signals) {

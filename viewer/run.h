@@ -45,7 +45,7 @@ class Run {
   bool has_ended() const { return team_ && team_->has_ended(); }
   const programs::Outcome& outcome() const { return team_->outcome(); }
 
-  /// Writes all that was done and is done from now on, and what it was done to.
+  /// Writes what is done from now on, time 0, and what it is done to.
   void record(const std::string& file, const inputs::Opening& opening);
   /// "PATH: --record-inputs: cannot be written: ..."; empty: all is well, or nothing is recorded.
   const std::string& recording_error() const;
@@ -64,9 +64,9 @@ class Run {
   /// The same at the next tick; what was done later than now, in a time that the debugger went back
   /// from, has not been.
   void input_later(const Json& request);
-  /// What was done until now. Of more than 200 MB, as of hours of dragging in a long world, nothing is kept:
-  /// is_kept() is false then, and the run cannot be repeated.
-  std::vector<Json> done() const;
+  /// What repeats the run: what was done until now, and of a recording what is to come. Of more than 200 MB, as
+  /// of hours of dragging in a long world, nothing is kept: is_kept() is false then.
+  std::vector<Json> script() const;
   bool is_kept() const { return script_bytes_ <= kMostScriptBytes; }
 
   /// Serial lines and consoles that nobody else listens to.
@@ -75,6 +75,9 @@ class Run {
     std::string text;
   };
   std::vector<std::unique_ptr<Line>>& lines() { return lines_; }
+
+  /// What they have said and nobody has heard is no news: the run was repeated.
+  void forget_said();
 
   void trace(int robot, const std::vector<std::string>& signals);
   void trace_no_more() { trace_.reset(); }

@@ -187,7 +187,7 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
 void Session::take_up_run() {
   live_text_ = document_.text();
   movable_ = movable_ids(run_->twin().world(), live_text_);
-  traps_told_ = 0;
+  traps_told_ = run_->twin().traps().size();
   pace_.begin(now());
   pages_.take_up(run_->twin());
 }
@@ -296,7 +296,7 @@ void Session::debug_robot(int robot) {
           {twin.world().robots[static_cast<std::size_t>(i)].name, twin.image_path(i)});
   setup.robot = name;
   // A run like this one does again all that was done; pages see the debugger's twin.
-  auto repeated = std::make_unique<Run>(run_->done(), replay_ != nullptr);
+  auto repeated = std::make_unique<Run>(run_->script(), replay_ != nullptr);
   Run* const run = repeated.get();
   setup.opened = [this, run](twin::Twin& opened) {
     run->attach(opened);
@@ -308,9 +308,7 @@ void Session::debug_robot(int robot) {
   };
   setup.step = [run](twin::Twin&) { run->step(); };
   setup.ticked = [this] { debugger_ticked(); };
-  setup.repeated = [run] {
-    for (auto& line : run->lines()) line->text.clear();
-  };
+  setup.repeated = [run] { run->forget_said(); };
   // Only now the old run goes.
   pace_.play(false, now());
   close_run();
@@ -327,16 +325,15 @@ void Session::debug_robot(int robot) {
     begin_anew();
     throw std::runtime_error(problems.empty() ? "the world cannot be opened again" : problems[0]);
   }
-  for (auto& line : run_->lines()) line->text.clear();
+  run_->forget_said();
   take_up_run();
-  traps_told_ = run_->twin().traps().size();
   tell_state();
 }
 
 /// The run goes on as a usual one, from where it stands.
 void Session::debug_no_more() {
   const sim::Clicks stands = now();
-  std::vector<Json> done = run_->done();
+  std::vector<Json> done = run_->script();
   const bool is_past_replay = is_replayed_;
   std::vector<Programs::Built> held = std::move(held_);
   close_run();
@@ -345,9 +342,8 @@ void Session::debug_no_more() {
     run_->begin([](const std::string&) {}, [this] { return mail_.is_ending(); });
     if (!record_file_.empty()) run_->record(record_file_, opening_);
     while (now() < stands && !mail_.is_ending()) run_->advance(stands);
-    for (auto& line : run_->lines()) line->text.clear();
+    run_->forget_said();
     take_up_run();
-    traps_told_ = run_->twin().traps().size();
     is_replayed_ = is_past_replay;
     for (Programs::Built& built : held) load_built(built);
   }

@@ -24,7 +24,7 @@ std::vector<Shape> make_shapes() {
         {"runs", "boolean", "there is a run"},
         {"recording", "{ file: string; error: string } | undefined", "with `--record-inputs`"},
         {"digest", "string | undefined", "of the run, when it was asked for"},
-        {"clicks", "number | undefined", "of the world's clock, 7,372,800 a second, likewise"}}},
+        {"clicks", "number | undefined", "of the world's clock, 14,745,600 a second, likewise"}}},
       {"World",
        "what the file says",
        {{"title", "string", ""},

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/sources.h"
 
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <stdexcept>
@@ -66,13 +64,11 @@ std::string Sources::write(const std::string& name, const std::string& text, con
   return base_of(fresh);
 }
 
-std::map<std::string, std::pair<long long, long long>> Sources::stamps() const {
-  std::map<std::string, std::pair<long long, long long>> out;
-  for (const std::string& name : files()) {
-    struct stat info {};
-    if (::stat((fs::path(folder_) / name).c_str(), &info) == 0)
-      out[name] = {info.st_mtim.tv_sec * 1000000000ll + info.st_mtim.tv_nsec, info.st_size};
-  }
+std::map<std::string, Stamp> Sources::stamps() const {
+  std::map<std::string, Stamp> out;
+  for (const std::string& name : files())
+    if (const Stamp stamp = stamp_of((fs::path(folder_) / name).string()); stamp.first >= 0)
+      out[name] = stamp;
   return out;
 }
 

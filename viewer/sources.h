@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "viewer/text_file.h"
+
 namespace viewer {
 
 /// A source as it was read.
@@ -36,11 +38,11 @@ class Sources {
 
  private:
   std::string path_of(const std::string& name) const;
-  std::map<std::string, std::pair<long long, long long>> stamps() const;
+  std::map<std::string, Stamp> stamps() const;
 
   std::string folder_;
-  std::map<std::string, std::pair<long long, long long>> stamps_;  // time, ns, and size
-  std::set<std::string> seen_;                                     // files that there are or were
+  std::map<std::string, Stamp> stamps_;  // time, ns, and size
+  std::set<std::string> seen_;           // files that there are or were
 };
 
 }  // namespace viewer

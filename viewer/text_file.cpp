@@ -144,6 +144,12 @@ std::optional<std::string> bytes_at(const std::string& path, std::size_t longest
   return bytes;
 }
 
+Stamp stamp_of(const std::string& path) {
+  struct stat info {};
+  if (::stat(path.c_str(), &info) != 0) return {-1, -1};
+  return {info.st_mtim.tv_sec * 1000000000ll + info.st_mtim.tv_nsec, info.st_size};
+}
+
 bool is_writable(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0) return true;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 
 namespace viewer {
 
@@ -38,6 +39,9 @@ std::string bytes_like(const std::string& old, const std::string& text);
 std::string base_of(const std::string& bytes);
 /// What lies at `path`; nothing: it is gone or cannot be read. At most `longest` bytes.
 std::optional<std::string> bytes_at(const std::string& path, std::size_t longest);
+/// Time of the last change, ns, and size, bytes; both -1: it is not there.
+using Stamp = std::pair<long long, long long>;
+Stamp stamp_of(const std::string& path);
 /// Has it a permission to be written? True of a file that is not there.
 bool is_writable(const std::string& path);
 

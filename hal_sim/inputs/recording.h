@@ -71,8 +71,6 @@ class Replay {
   void finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std::string>& problems);
   /// Does all that are due now.
   void apply_due(Inputs& inputs, sim::Clicks now);
-  /// From the first input on.
-  void rewind() { at_ = 0; }
   /// All of it, in the order of their ticks.
   const std::vector<Json>& inputs() const { return inputs_; }
   /// Where the recording ends, and with which digest; negative: it was cut off.
