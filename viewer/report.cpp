@@ -205,6 +205,7 @@ std::string Report::finish(const std::string& summary) {
                              movable_ids(loaded.world ? *loaded.world : loaded.draft, sim::WorldText(text)))},
         {"programs", programs},
         {"diagnoses", diagnoses_json(twin_)},
+        {"traps", Json::array()},  // events, in their time
         {"names", names_of_robots()},
         {"schema", Json::object()}}},
       {"sources", sources},

@@ -56,6 +56,8 @@ struct Shape {
   std::vector<Member> members;
 };
 const std::vector<Shape>& shapes();
+/// Of the shape Trap, and of the event that tells one.
+std::vector<Member> trap_members();
 
 /// Tables for docs, in Markdown.
 std::string protocol_tables();

@@ -124,6 +124,7 @@ void Session::close_run() {
 bool Session::reopen(std::vector<std::string>& problems) {
   close_run();  // first: programs lie in memory where they lay in the run before
   ended_ = is_replayed_ = false;
+  traps_told_.clear();
   if (!open_run(replay_ ? replay_->inputs() : std::vector<Json>(), problems)) {
     tell_problems(problems);
     return false;
@@ -187,7 +188,6 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
 void Session::take_up_run() {
   live_text_ = document_.text();
   movable_ = movable_ids(run_->twin().world(), live_text_);
-  traps_told_ = run_->twin().traps().size();
   pace_.begin(now());
   pages_.take_up(run_->twin());
 }
@@ -254,9 +254,18 @@ bool Session::step_interrupt(int robot) {
 
 /// What happened in the ticks that everybody should know.
 void Session::after_ticks() {
-  const auto traps = run_->twin().traps();
-  for (std::size_t i = traps_told_; i < traps.size(); ++i) pages_.tell_all(trap_event(traps[i]));
-  traps_told_ = std::max(traps_told_, traps.size());
+  const twin::Twin& twin = run_->twin();
+  std::vector<host::TrapReport> news;
+  traps_told_.resize(static_cast<std::size_t>(twin.robots()));
+  for (int r = 0; r < twin.robots(); ++r) {
+    const host::Runner* const program = twin.mind(r).runner();
+    if (!program) continue;
+    std::size_t& told = traps_told_[static_cast<std::size_t>(r)];
+    for (; told < program->traps().size(); ++told) news.push_back(program->traps()[told]);
+  }
+  std::stable_sort(news.begin(), news.end(),
+                   [](const auto& a, const auto& b) { return a.time_s < b.time_s; });
+  for (const host::TrapReport& trap : news) pages_.tell_all(trap_event(trap));
   if (run_->has_ended() && !ended_) {
     ended_ = true;
     stand_still();
@@ -448,9 +457,12 @@ void Session::load_built(Programs::Built& built) {
   if (built.problems.empty() && program && run_) {
     try {
       if (!built.robots.empty()) input({{"do", "program"}, {"robots", built.robots}, {"image", built.path}});
-      for (const int robot : built.robots)
+      for (const int robot : built.robots) {
+        if (static_cast<std::size_t>(robot) < traps_told_.size())
+          traps_told_[static_cast<std::size_t>(robot)] = 0;
         if (std::find(program->robots.begin(), program->robots.end(), robot) == program->robots.end())
           programs_.shift_robot(robot, *program);
+      }
     } catch (const std::exception& e) {
       built.problems.push_back(e.what());
       program->problems = built.problems;
@@ -487,6 +499,16 @@ void Session::tell_world() {
 Json Session::world_json_now() const {
   return world_json(document_.loaded(), document_.text(), document_.base(), run_ ? &run_->twin() : nullptr,
                     movable_);
+}
+
+/// Those that were told; one that comes later is an event.
+Json Session::traps_json() const {
+  Json out = Json::array();
+  for (std::size_t r = 0; r < traps_told_.size(); ++r)
+    if (const host::Runner* const program = run_->twin().mind(static_cast<int>(r)).runner())
+      for (std::size_t i = 0; i < std::min(traps_told_[r], program->traps().size()); ++i)
+        out.push_back(trap_event(program->traps()[i]));
+  return out;
 }
 
 void Session::tell_programs() {

@@ -129,6 +129,7 @@ class Session {
   // --- what is told
   Json state_json() const;
   Json world_json_now() const;
+  Json traps_json() const;
   void tell_state() { pages_.tell_all({{"event", "state"}, {"state", state_json()}}); }
   void tell_world();
   void tell_programs();
@@ -153,11 +154,11 @@ class Session {
   std::unique_ptr<Run> run_;              // null: the world cannot run
   std::vector<Programs::Built> held_;     // programs that were built while a robot was debugged
 
-  std::vector<int> movable_;           // ids of the movable objects that live
-  sim::WorldText live_text_;           // what the world that lives was made of
-  std::vector<std::string> problems_;  // why there is no run
-  std::string recording_told_;         // what was said to be wrong with the recording
-  std::size_t traps_told_ = 0;
+  std::vector<int> movable_;             // ids of the movable objects that live
+  sim::WorldText live_text_;             // what the world that lives was made of
+  std::vector<std::string> problems_;    // why there is no run
+  std::string recording_told_;           // what was said to be wrong with the recording
+  std::vector<std::size_t> traps_told_;  // of each robot's program
   Json diagnoses_told_ = Json::array();
   bool ended_ = false, is_replayed_ = false;
   bool was_open_ = false;  // once, so that the options that name robots were right

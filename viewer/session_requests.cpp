@@ -75,6 +75,7 @@ void Session::handle(const Mailbox::Message& message) {
                                  {"programs", programs_.json(run_ ? &run_->twin() : nullptr)},
                                  {"problems", problems_},
                                  {"diagnoses", diagnoses_told_},
+                                 {"traps", traps_json()},
                                  {"names", names_of_robots()},
                                  {"schema", schema_json()}});
     return;

@@ -4,6 +4,13 @@
 
 namespace viewer {
 
+std::vector<Member> trap_members() {
+  return {{"robot", "string", ""}, {"kind", "string", ""},
+          {"text", "string", ""},  {"place", "string", "function, file and line"},
+          {"file", "string", ""},  {"line", "number", ""},
+          {"time_s", "number", ""}};
+}
+
 namespace {
 
 std::vector<Shape> make_shapes() {
@@ -123,6 +130,7 @@ std::vector<Shape> make_shapes() {
         {"place", "string", ""},
         {"text", "string", ""},
         {"hint", "string", ""}}},
+      {"Trap", "a program was stopped, or its processor reset", trap_members()},
       {"Place", "", {{"function", "string", ""}, {"file", "string", ""}, {"line", "number", ""}}},
       {"PartLook", "", {{"kind", "string", ""}, {"shows", "string", ""}}},
       {"Camera", "", {{"at", "number[]", ""}, {"edges", "number[]", ""}, {"pictures", "number", "so far"}}},

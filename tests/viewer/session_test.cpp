@@ -561,6 +561,36 @@ TEST_F(Session, a_trap_is_told_with_its_place) {
   EXPECT_EQ(page.frame([](const Frame& f) { return f.time_s > 0.05; }).state.at(0) & viewer::kStopped, 0u);
 }
 
+// every robot's, in whichever order; who comes later is told what was
+TEST_F(Session, traps_of_several_robots_are_told_once_each) {
+  write("late/main.c",
+        "int zero;\nvolatile long i;\nint main(void) {\n  for (i = 0; i < 40000; i++);\n  return 1 / "
+        "zero;\n}\n");
+  write("never/main.c",
+        "#include <p30F6014A.h>\n_FOSC(CSW_FSCM_OFF & EC_PLL8);\nint main(void) { while (1); }\n");
+  write("world.toml",
+        "twinpuck = 1\n[arena]\nsize = [2, 1]\n"
+        "[[robot]]\nname = \"a\"\nfirmware = \"late\"\nposition = [-0.5, 0]\n"
+        "[[robot]]\nname = \"b\"\nfirmware = \"never\"\nposition = [0.5, 0]\n");
+  Page page(open("world.toml"));
+  EXPECT_EQ(page.event("hello").at("traps"), Json::array());
+  steps(page, 10);
+  const Json first = page.event("trap"), second = page.event("trap");
+  EXPECT_EQ(first.at("robot"), "b");
+  EXPECT_NE(first.at("text").dump().find("FOSC"), std::string::npos) << first;
+  EXPECT_EQ(second.at("robot"), "a");
+  EXPECT_EQ(second.at("line"), 5);
+  Page other(view());
+  const Json traps = other.event("hello").at("traps");
+  ASSERT_EQ(traps.size(), 2u) << traps;
+  EXPECT_EQ(traps.at(0).at("robot"), "a");
+  EXPECT_EQ(traps.at(1), first);
+  // a new run begins without, and tells them again
+  page.good({{"do", "restart"}});
+  steps(page, 10);
+  EXPECT_EQ(page.event("trap").at("robot"), "b");
+}
+
 TEST_F(Session, an_endless_wait_is_explained) {
   const std::string start =
       "#include <motor_led/e_init_port.h>\n#include <motor_led/advance_one_timer/e_agenda.h>\n"

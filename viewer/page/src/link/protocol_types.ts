@@ -112,6 +112,15 @@ export interface Diagnosis {
   text: string;
   hint: string;
 }
+export interface Trap {
+  robot: string;
+  kind: string;
+  text: string;
+  place: string;
+  file: string;
+  line: number;
+  time_s: number;
+}
 export interface Place {
   function: string;
   file: string;
@@ -192,7 +201,7 @@ export interface Requests {
 }
 
 export interface Events {
-  hello: { event: "hello"; version: number; you: number; revision: number; state: State; world: World; programs: Program[]; problems: string[]; diagnoses: Diagnosis[]; names: string[]; schema: Schema };
+  hello: { event: "hello"; version: number; you: number; revision: number; state: State; world: World; programs: Program[]; problems: string[]; diagnoses: Diagnosis[]; traps: Trap[]; names: string[]; schema: Schema };
   world: { event: "world"; revision: number; world: World };
   state: { event: "state"; state: State };
   programs: { event: "programs"; programs: Program[] };

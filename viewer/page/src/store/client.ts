@@ -28,6 +28,7 @@ export class Client {
       this.takeWorld(e);
       this.takePrograms(e.programs);
       this.takeState(e.state);
+      store.traps = e.traps ?? [];
       this.takeDiagnoses(e.diagnoses);
       if (store.world.robots.length === 1) store.select(store.world.robots[0].id);
       if (!store.recorded) document.body.dataset.ready = "yes";

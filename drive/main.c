@@ -1,0 +1,4 @@
+int zero;
+int main(void) {
+  return 1 / zero;
+}
