@@ -111,7 +111,7 @@ Document::Document(std::string file, std::string bytes)
   load();
 }
 
-void Document::load() { loaded_ = twin::parse_world(text_.text(), file_); }
+void Document::load() { loaded_ = twin::parse_world(text_.text(), file_, &known_); }
 
 std::string Document::base() const { return base_of(text_.text()); }
 

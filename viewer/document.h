@@ -64,6 +64,7 @@ class Document {
   Stamp stamp_;                            // its time, ns, and size, then
   sim::WorldText text_;
   sim::LoadedWorld loaded_;
+  sim::KnownWorld known_;
   std::vector<sim::WorldText> undo_, redo_;
   struct Before {
     sim::WorldText text;

@@ -224,9 +224,10 @@ std::vector<Event> make_events() {
        "once, first"},
       {"world",
        {{"revision", "number", "frames of this world have it, too"}, {"world", "World", ""}},
-       "after each edit: what stands where, `elements` of the file, `problems` with the `id` of what they "
-       "are "
-       "about"},
+       "what stands where, `elements` of the file, `problems` with the `id` of what they are about"},
+      {"world_changed",
+       {{"revision", "number", "likewise"}, {"changes", "WorldChanges", "to the world as it was"}},
+       "after an edit of pieces"},
       {"state", {{"state", "State", ""}}, "whenever it has changed, but for the time"},
       {"programs", {{"programs", "Program[]", ""}}, "which robots run what, files, findings of compilers"},
       {"problems", {{"problems", "string[]", "empty: it runs"}}, "a run could not begin, or can again"},

@@ -41,7 +41,11 @@ Session::Session(inputs::Opening opening, std::string record, Outlet outlet)
 
 Session::~Session() { stop(); }
 
-bool Session::open(std::vector<std::string>& problems) { return reopen(problems); }
+bool Session::open(std::vector<std::string>& problems) {
+  const bool runs = reopen(problems);
+  remember_told();
+  return runs;
+}
 
 void Session::start() {
   thread_ = std::thread([this] { live(); });
@@ -491,9 +495,19 @@ void Session::watch_recording() {
 
 void Session::tell_world() {
   ++revision_;
-  pages_.tell_all({{"event", "world"}, {"revision", revision_}, {"world", world_json_now()}});
+  const sim::LoadedWorld& loaded = document_.loaded();
+  if (const auto changes = world_changes(told_, loaded, document_.text(), document_.base(),
+                                         run_ ? &run_->twin() : nullptr, movable_))
+    pages_.tell_all({{"event", "world_changed"}, {"revision", revision_}, {"changes", *changes}});
+  else
+    pages_.tell_all({{"event", "world"}, {"revision", revision_}, {"world", world_json_now()}});
+  remember_told();
   tell_programs();
   pages_.show_anew();
+}
+
+void Session::remember_told() {
+  told_ = {document_.text(), movable_, run_ != nullptr, document_.loaded().world.has_value()};
 }
 
 Json Session::world_json_now() const {

@@ -24,6 +24,7 @@
 #include "viewer/pages.h"
 #include "viewer/programs.h"
 #include "viewer/run.h"
+#include "viewer/world_json.h"
 
 namespace viewer {
 
@@ -132,6 +133,7 @@ class Session {
   Json traps_json() const;
   void tell_state() { pages_.tell_all({{"event", "state"}, {"state", state_json()}}); }
   void tell_world();
+  void remember_told();
   void tell_programs();
   void tell_problems(std::vector<std::string> problems);
   void send_serial();
@@ -163,6 +165,7 @@ class Session {
   bool ended_ = false, is_replayed_ = false;
   bool was_open_ = false;  // once, so that the options that name robots were right
   Wall::time_point next_watch_{}, next_trace_{};
+  Told told_;  // the world, as pages know it
   std::uint32_t revision_ = 1;
   ClientId steering_ = 0;
   std::thread thread_;

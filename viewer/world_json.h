@@ -3,6 +3,7 @@
 // the world file. docs/connecting.md, "world".
 #pragma once
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,19 @@ namespace viewer {
 /// objects' pieces: what is not in it has body -1.
 nlohmann::json world_json(const sim::LoadedWorld& loaded, const sim::WorldText& text, const std::string& base,
                           const twin::Twin* twin, const std::vector<int>& movable);
+
+/// What pages know of a world.
+struct Told {
+  sim::WorldText text{""};
+  std::vector<int> movable;  ///< ids
+  bool runs = false;
+  bool is_good = false;  ///< it had no problems
+};
+/// What became other since then, docs/connecting.md, "world_changed": it costs what changed, not what there is.
+/// None where that is more than pieces of the world, or where it has problems: then all is told.
+std::optional<nlohmann::json> world_changes(const Told& told, const sim::LoadedWorld& loaded,
+                                            const sim::WorldText& text, const std::string& base,
+                                            const twin::Twin* twin, const std::vector<int>& movable);
 
 /// The picture on the floor: `width`, `height`, `rgb` in base64, rows from the north.
 nlohmann::json floor_json(const sim::FloorDesc& floor);

@@ -18,8 +18,8 @@ sim::LoadedWorld load_world(const std::string& file) {
   return sim::load_world(file, robot_models(), board::part_kinds());
 }
 
-sim::LoadedWorld parse_world(std::string_view text, const std::string& file) {
-  return sim::parse_world(text, file, robot_models(), board::part_kinds());
+sim::LoadedWorld parse_world(std::string_view text, const std::string& file, sim::KnownWorld* known) {
+  return sim::parse_world(text, file, robot_models(), board::part_kinds(), known);
 }
 
 }  // namespace twin

@@ -24,6 +24,7 @@ FoundWorld find_world(const std::string& name, std::vector<std::string>& problem
 /// Reads and checks a file.
 sim::LoadedWorld load_world(const std::string& file);
 /// The same of a text; `file` is where it comes from, for messages and relative paths.
-sim::LoadedWorld parse_world(std::string_view text, const std::string& file);
+sim::LoadedWorld parse_world(std::string_view text, const std::string& file,
+                             sim::KnownWorld* known = nullptr);
 
 }  // namespace twin

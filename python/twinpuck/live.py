@@ -74,17 +74,34 @@ class Frame:
                      [w[0] for w in words], [w[1] for w in words], take("f", rays, 7))
 
 
+def _changed(world: Dict[str, Any], changes: Dict[str, Any]) -> Dict[str, Any]:
+    """A world after an edit."""
+    text = changes["text"]
+    lines = world["text"].split("\n")
+    lines[text["above"]:text["above"] + text["gone"]] = text["lines"]
+    changed = dict(changes["head"], text="\n".join(lines))
+    for name in ("things", "robots", "elements"):
+        pieces = {piece["id"]: piece for piece in world[name] + changes[name]["fresh"]}
+        changed[name] = [pieces[number] for number in changes[name]["order"]]
+    ends = changes["elements"]["lines"]
+    changed["elements"] = [dict(element, line=ends[2 * i], last_line=ends[2 * i + 1])
+                           for i, element in enumerate(changed["elements"])]
+    return changed
+
+
 class LiveView:
     """A client of a live view. `hello` is the event with which it greeted: world, programs, state, schema."""
 
     def __init__(self, address: str, timeout: float = 60.0):
         url = urllib.parse.urlparse(address)
-        self.timeout = timeout
+        self.address, self.timeout = address, timeout
         self._socket = websocket.create_connection(f"ws://{url.netloc}{url.path}live", timeout=timeout,
                                                    suppress_origin=True, enable_multithread=False)
         self._events: List[Dict[str, Any]] = []
         self._frame: Optional[Frame] = None
         self._next = 0
+        #: The world as it is now, with all edits: title, text, things, robots, elements of the file, problems.
+        self.world: Dict[str, Any] = {}
         self._process: Optional[subprocess.Popen] = None
         self.hello = self.event("hello")
 
@@ -147,6 +164,10 @@ class LiveView:
                 self._frame = Frame.read(data)
             elif code == websocket.ABNF.OPCODE_TEXT:
                 message = json.loads(data)
+                if "world" in message:
+                    self.world = message["world"]
+                elif message.get("event") == "world_changed":
+                    self.world = _changed(self.world, message["changes"])
                 (answers if "answer" in message else self._events).append(message)
             elif code == websocket.ABNF.OPCODE_CLOSE:
                 raise TwinpuckError("the live view has hung up")

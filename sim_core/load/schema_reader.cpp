@@ -109,25 +109,25 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
 
 }  // namespace
 
-std::optional<toml::table> SchemaReader::parse(std::string_view text) {
+const toml::table* SchemaReader::parse(std::string_view text) {
   if (text.size() > kLongestWorld) {
     problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestWorld));
-    return {};
+    return nullptr;
   }
   if (const TomlTrap trap = find_toml_trap(text); trap.line > 0) {
     problems_.push_back({trap.line, trap.column, trap.text});
-    return {};
+    return nullptr;
   }
   lines_ = split_lines(text);
-  toml::parse_result result = toml::parse(text);
-  if (!result) {
+  std::optional<toml::parse_error> error;
+  const toml::table* const root = tree_->take(text, error);
+  if (error) {
     // the library's sentence says what stands there; ours says what kind of file was wanted
-    std::string what(result.error().description());
+    std::string what(error->description());
     std::replace(what.begin(), what.end(), '\n', ' ');
-    problem(result.error().source(), "not TOML: " + what);
-    return {};
+    problem(error->source(), "not TOML: " + what);
   }
-  return std::move(result).table();
+  return root;
 }
 
 void SchemaReader::sort_problems() {

@@ -15,8 +15,11 @@ namespace sim {
 
 class SchemaReader {
  protected:
-  /// The tree of a file; none, with a problem, where it is none. `text` outlives the reading.
-  std::optional<toml::table> parse(std::string_view text);
+  /// `known`: the tree of a text before, and behind parse() of this one; null: there is none.
+  explicit SchemaReader(TomlTree* known = nullptr) : tree_(known ? known : &own_tree_) {}
+
+  /// The tree of a file; null, with a problem, where it is none. `text` outlives the reading.
+  const toml::table* parse(std::string_view text);
   void problem(const toml::source_region& where, std::string text);
   /// Those that stay, in the order of their places.
   void sort_problems();
@@ -54,6 +57,8 @@ class SchemaReader {
  private:
   static std::string choice_hint(const KeySpec& k, const std::string& got);
   std::vector<std::string_view> lines_;
+  TomlTree own_tree_;
+  TomlTree* const tree_;
 };
 
 }  // namespace sim

@@ -1,10 +1,70 @@
 // SPDX-License-Identifier: MIT
 #include "sim_core/load/toml_parser.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace sim {
 namespace {
 constexpr int kMostDots = 7;  // in one key; the longest of ours has one
 }  // namespace
+
+const toml::table* TomlTree::take(std::string_view text, std::optional<toml::parse_error>& error) {
+  if (!is_known_ || !take_one_table(text)) {
+    is_known_ = false;
+    toml::parse_result result = toml::parse(text);
+    if (!result) {
+      error = result.error();
+      return nullptr;
+    }
+    root_ = std::move(result).table();
+  }
+  text_ = text;
+  is_known_ = true;
+  return &root_;
+}
+
+/// False, with nothing changed, where it takes more than that.
+bool TomlTree::take_one_table(std::string_view text) {
+  const std::string_view before = text_;
+  const std::size_t shorter = std::min(before.size(), text.size());
+  std::size_t head = 0, tail = 0;
+  while (head < shorter && before[head] == text[head]) ++head;
+  if (head == before.size() && head == text.size()) return true;
+  while (tail < shorter - head && before[before.size() - 1 - tail] == text[text.size() - 1 - tail]) ++tail;
+  // from its heading, which stays as it is, up to the next heading of any kind
+  const std::size_t break_above = text.rfind("\n[[", head);
+  if (break_above == std::string_view::npos) return false;
+  const std::size_t begin = break_above + 1;
+  if (text.find('\n', begin) >= head) return false;
+  const std::size_t end = std::min(text.find("\n[", text.size() - tail), text.size());
+  const std::size_t end_before = end + before.size() - text.size();
+  if (text.find("\n[", begin) < end || before.find("\n[", begin) < end_before) return false;
+  const auto breaks = [](std::string_view lines) { return std::count(lines.begin(), lines.end(), '\n'); };
+  const std::string_view lines = text.substr(begin, end - begin);
+  if (breaks(lines) != breaks(before.substr(begin, end_before - begin))) return false;
+  // It is parsed where it stands, so that what is in it knows its lines.
+  const auto above = breaks(text.substr(0, begin));
+  toml::parse_result result = toml::parse(std::string(static_cast<std::size_t>(above), '\n').append(lines));
+  if (!result || result.table().size() != 1) return false;
+  toml::node& fresh_node = result.table().begin()->second;
+  toml::array* const fresh = fresh_node.as_array();
+  toml::array* const known = root_.get_as<toml::array>(result.table().begin()->first.str());
+  if (!fresh || !known || fresh->size() != 1 || !fresh->get_as<toml::table>(0)) return false;
+  // The one that stood there, if nothing of it stands elsewhere.
+  const auto first = static_cast<toml::source_index>(above + 1);
+  for (std::size_t i = 0; i < known->size(); ++i) {
+    const toml::table* table = known->get_as<toml::table>(i);
+    if (!table || table->source().begin.line != first) continue;
+    for (const auto& [key, value] : *table)
+      if (value.source().begin.line < first || value.source().begin.line > first + breaks(lines))
+        return false;
+    known->replace(known->cbegin() + static_cast<std::ptrdiff_t>(i),
+                   std::move(*fresh->get_as<toml::table>(0)));
+    return true;
+  }
+  return false;
+}
 
 TomlTrap find_toml_trap(std::string_view text) {
   enum class In { Plain, Comment, Basic, Literal, LongBasic, LongLiteral } in = In::Plain;
@@ -13,7 +73,8 @@ TomlTrap find_toml_trap(std::string_view text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
     const bool basic = in == In::Basic || in == In::LongBasic;
-    const bool triple = text.substr(i, 3) == "\"\"\"" || text.substr(i, 3) == "'''";
+    const bool triple =
+        (c == '"' || c == '\'') && text.substr(i, 3) == std::string_view(c == '"' ? "\"\"\"" : "'''");
     std::size_t skip = 0;  // characters of the same line to leave out
     // Outside of strings: what the parser cannot take. Inside, only the string's end matters.
     if (in == In::Plain) {

@@ -7,6 +7,8 @@
 #define TOML_ASSERT(condition) static_cast<void>(0)
 #define TOML_EXCEPTIONS 0
 #define TOML_MAX_NESTED_VALUES 32  // lists in lists; ours are three deep
+#define TOML_FLOAT_CHARCONV \
+  1  // off for GCC by default, whose <charconv> could not do it once; a third of the time
 #include <cstdint>
 // What the parser assumes it then checks: let it check. Its table of white space takes most characters beyond
 // ASCII for "unreachable", even those in strings; they are no white space.
@@ -20,9 +22,25 @@
 #define TOML_UNREACHABLE __builtin_unreachable()
 #include <toml++/toml.h>
 
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace sim {
+
+/// The tree of a text, kept for a next one: where that has other lines in one [[table]] alone, and as many,
+/// only that table is parsed. A mouse that drags a box through a long world changes one line at a time.
+class TomlTree {
+ public:
+  /// Valid until the next call. Null, with `error`, where the text is no TOML.
+  const toml::table* take(std::string_view text, std::optional<toml::parse_error>& error);
+
+ private:
+  bool take_one_table(std::string_view text);
+  std::string text_;
+  toml::table root_;
+  bool is_known_ = false;  // root_ is text_'s
+};
 
 /// What the parser is not given: a character beyond ASCII outside quotes and comments, which it would not
 /// name so plainly, and a key of very many parts ("a.a.a"), which it follows by recursion.

@@ -23,7 +23,8 @@ namespace {
 class Reader : private SchemaReader {
  public:
   Reader(const std::string& path, const std::vector<RobotModel>& models,
-         const std::vector<PartKind>& part_kinds) {
+         const std::vector<PartKind>& part_kinds, TomlTree* known)
+      : SchemaReader(known) {
     world_.file = path;
     world_.models = models;
     world_.part_kinds = part_kinds;
@@ -44,15 +45,21 @@ class Reader : private SchemaReader {
 
  private:
   /// Sections that may stand inside `path`.
-  static std::vector<std::string> inner_sections(const std::string& path) {
-    std::vector<std::string> out;
-    for (const SectionSpec& s : world_schema()) {
-      const std::string p = s.path;
-      const std::size_t dot = p.rfind('.');
-      const std::string outer = dot == std::string::npos ? "" : p.substr(0, dot);
-      if (!p.empty() && outer == path) out.push_back(dot == std::string::npos ? p : p.substr(dot + 1));
-    }
-    return out;
+  static const std::vector<std::string>& inner_sections(const std::string& path) {
+    static const auto all = [] {
+      std::map<std::string, std::vector<std::string>> by_outer;
+      for (const SectionSpec& s : world_schema()) {
+        const std::string p = s.path;
+        const std::size_t dot = p.rfind('.');
+        if (p.empty()) continue;
+        by_outer[dot == std::string::npos ? "" : p.substr(0, dot)].push_back(
+            dot == std::string::npos ? p : p.substr(dot + 1));
+      }
+      return by_outer;
+    }();
+    static const std::vector<std::string> kNone;
+    const auto found = all.find(path);
+    return found == all.end() ? kNone : found->second;
   }
 
   /// Applies every key of a table and names the unknown ones.
@@ -299,9 +306,14 @@ LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& m
 }
 
 LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models,
-                        const std::vector<PartKind>& part_kinds) {
-  return Reader(path, models, part_kinds).read(text);
+                        const std::vector<PartKind>& part_kinds, KnownWorld* known) {
+  return Reader(path, models, part_kinds, known ? known->tree.get() : nullptr).read(text);
 }
+
+KnownWorld::KnownWorld() : tree(std::make_unique<TomlTree>()) {}
+KnownWorld::~KnownWorld() = default;
+KnownWorld::KnownWorld(KnownWorld&&) noexcept = default;
+KnownWorld& KnownWorld::operator=(KnownWorld&&) noexcept = default;
 
 std::string resolve_path(const WorldDesc& world, const std::string& name) {
   const std::size_t slash = world.file.rfind('/');

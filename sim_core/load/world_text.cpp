@@ -196,6 +196,7 @@ void WorldText::scan(const std::vector<int>& ids) {
     const int next = line_at(table.end);
     e.last_line = std::max(e.first_line, table.end == text.size() ? next : next - 1);
   }
+  index_ids();
 }
 
 std::vector<int> WorldText::ids() const {
@@ -205,9 +206,14 @@ std::vector<int> WorldText::ids() const {
 }
 
 int WorldText::index_of(int id) const {
+  return id < 0 || id >= static_cast<int>(index_of_id_.size()) ? -1
+                                                               : index_of_id_[static_cast<std::size_t>(id)];
+}
+
+void WorldText::index_ids() {
+  index_of_id_.assign(static_cast<std::size_t>(next_id_), -1);
   for (std::size_t i = 0; i < elements_.size(); ++i)
-    if (elements_[i].id == id) return static_cast<int>(i);
-  return -1;
+    index_of_id_[static_cast<std::size_t>(elements_[i].id)] = static_cast<int>(i);
 }
 
 const WorldText::Element* WorldText::find(int id) const {
@@ -216,8 +222,11 @@ const WorldText::Element* WorldText::find(int id) const {
 }
 
 const WorldText::Element* WorldText::at_line(int line) const {
-  for (const Element& e : elements_)
-    if (line >= e.first_line && line <= e.last_line) return &e;
+  // they begin in their order; one whose table stands further below reaches over those between
+  auto e = std::upper_bound(elements_.begin(), elements_.end(), line,
+                            [](int at, const Element& other) { return at < other.first_line; });
+  while (e != elements_.begin())
+    if ((--e)->last_line >= line) return &*e;
   return nullptr;
 }
 
@@ -325,6 +334,23 @@ std::string WorldText::text_of(int id, bool commented) const {
   return out;
 }
 
+std::vector<int> WorldText::differing(const WorldText& before) const {
+  // each element's texts lie one behind another
+  const auto texts_of = [](const WorldText& text) {
+    std::vector<std::string> texts(text.elements_.size());
+    for (const Table& t : text.tables_)
+      texts[static_cast<std::size_t>(t.element)].append(text.text_, t.begin, t.end - t.begin);
+    return texts;
+  };
+  const std::vector<std::string> is = texts_of(*this), was = texts_of(before);
+  std::vector<int> ids;
+  for (std::size_t i = 0; i < elements_.size(); ++i) {
+    const int known = before.index_of(elements_[i].id);
+    if (known < 0 || was[static_cast<std::size_t>(known)] != is[i]) ids.push_back(elements_[i].id);
+  }
+  return ids;
+}
+
 std::string WorldText::inner_text(int id) const {
   const int index = index_of(id);
   std::string out;
@@ -401,6 +427,7 @@ void WorldText::replace(std::string text) {
         e.id = was[i].id;
         break;
       }
+  index_ids();
 }
 
 }  // namespace sim

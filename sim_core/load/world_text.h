@@ -40,6 +40,8 @@ class WorldText {
   Values values(int id) const;
   /// All of an element as it is written; `commented`: with the comment above it.
   std::string text_of(int id, bool commented = false) const;
+  /// Ids of elements that `before` has not, or has with another text, in their order.
+  std::vector<int> differing(const WorldText& before) const;
   /// Its tables below its own, likewise.
   std::string inner_text(int id) const;
 
@@ -75,6 +77,7 @@ class WorldText {
     std::vector<Entry> entries;
   };
   void scan(const std::vector<int>& ids);
+  void index_ids();
   std::vector<int> ids() const;
   int index_of(int id) const;
   int insert(const std::string& path, const std::string& element);
@@ -82,6 +85,7 @@ class WorldText {
   std::string text_;
   std::vector<Element> elements_;
   std::vector<Table> tables_;
+  std::vector<int> index_of_id_;  // by id; -1: there is none
   int next_id_ = 1;
 };
 

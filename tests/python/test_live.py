@@ -84,10 +84,16 @@ def test_an_edit_of_a_long_world_costs_little(view, record_property):
         box = next(t["id"] for t in page.hello["world"]["things"] if t.get("name") == "box")
         page.ask("step")
         time.sleep(0.3)
-        edits, before = 100, cpu_s(page._process)
-        for i in range(edits):
-            page.ask("edit", op="set", thing=box, values={"position": [1.0 + 0.001 * i, 1.0]}, group=7)
-        each_ms = (cpu_s(page._process) - before) / edits * 1000
-        print(f"an edit of a world of {len((WORLD + boxes).splitlines())} lines: {each_ms:.1f} ms of the server's processor")
-        record_property("each_ms", each_ms)
-        assert each_ms < 150  # 4 are asked for; 16 on an idle machine
+        batches, edits, best_ms = 8, 25, 1e9
+        for batch in range(batches):
+            before = cpu_s(page._process)
+            for i in range(edits):
+                place = [1.0 + 0.001 * (edits * batch + i), 1.0]
+                page.ask("edit", op="set", thing=box, values={"position": place}, group=7)
+            best_ms = min(best_ms, (cpu_s(page._process) - before) / edits * 1000)
+        print(f"an edit of a world of {len((WORLD + boxes).splitlines())} lines: {best_ms:.1f} ms of the server's processor")
+        record_property("best_ms", best_ms)
+        assert best_ms < 10  # 4 are asked for; beside other programs it may take twice that
+        page.ask("state")  # all events are there
+        with live.connect(page.address) as other:
+            assert page.world == other.hello["world"]

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 // World files: what is read, and the exact sentence for each kind of mistake.
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
 #include "sim_core/load/schema.h"
+#include "sim_core/load/toml_parser.h"
 #include "sim_core/world/variation.h"
 #include "tests/sim_core/fixture.h"
 #include "twinpuck_paths.h"
@@ -123,6 +126,100 @@ address = 8
   EXPECT_EQ(v.seed, 5u);
   EXPECT_EQ(v.boot_delay_s, 0.5);
   EXPECT_EQ(v.sensor_gain, std::vector<double>{0.9});
+}
+
+// --- a text that differs in little
+
+/// A tree with all of its values and their places.
+void tell_tree(const toml::node& node, std::string& out) {
+  const auto& s = node.source();
+  out += fmt::format("@{}:{}-{}:{} ", s.begin.line, s.begin.column, s.end.line, s.end.column);
+  if (const auto* table = node.as_table()) {
+    for (const auto& [key, value] : *table) {
+      out += std::string(key.str()) + "{";
+      tell_tree(value, out);
+      out += "}";
+    }
+  } else if (const auto* list = node.as_array()) {
+    for (const auto& value : *list) tell_tree(value, out);
+  } else {
+    std::ostringstream text;
+    node.visit([&](const auto& value) {
+      if constexpr (toml::is_value<decltype(value)>) text << value.get();
+    });
+    out += text.str() + "\n";
+  }
+}
+
+std::string tree_told(sim::TomlTree& tree, const std::string& text) {
+  std::optional<toml::parse_error> error;
+  std::string out;
+  if (const toml::table* root = tree.take(text, error)) {
+    for (const auto& [key, value] : *root) {
+      out += std::string(key.str()) + "{";
+      tell_tree(value, out);
+      out += "}";
+    }
+    EXPECT_FALSE(error);
+  } else {
+    out = std::string(error->description());
+  }
+  return out;
+}
+
+TEST(TomlTree, is_what_a_fresh_one_is_after_edits_of_all_kinds) {
+  const std::string begin = R"(twinpuck = 1
+[arena]
+size = [2, 1]  # m
+[[box]]
+name = "one"
+position = [0.1, 0.2]
+[[box]]
+name = """two
+[[box]]
+lines"""
+size = [
+[1, 2],
+[[3]]
+]
+[[robot]]
+name = "puck"
+[robot.proximity]
+noise = 1
+[[robot.part]]
+kind = "gauge"
+[[box]]
+name = "three"
+[box.more]
+depth = 1
+[[lamp]]
+intensity = 7
+[robot.later]
+a = 1
+)";
+  // whatever may be broken, closed and opened
+  const std::vector<std::string> pieces = {"1",           "\"",      "\"\"\"", "[",       "]", "\n",   "#",
+                                           "x",           " = ",     "0.5",    "[[box]]", "[", "name", ".",
+                                           "\n[[box]]\n", "\ny = 2", "'",      ",",       "}", "{"};
+  std::mt19937 random(7);
+  sim::TomlTree kept;
+  int alike = 0;
+  for (int i = 0; i < 20000; ++i) {
+    std::string text = begin;
+    // one edit or two, mostly within a line
+    for (auto n = random() % 2 + 1; n > 0; --n) {
+      const std::size_t at = random() % text.size(), gone = random() % 4;
+      text.replace(at, gone, pieces[random() % pieces.size()]);
+    }
+    tree_told(kept, begin);
+    sim::TomlTree fresh;
+    const std::string expected = tree_told(fresh, text);
+    ASSERT_EQ(tree_told(kept, text), expected) << text;
+    alike += expected.front() == 'a' || expected.front() == 'b';
+    // and back again
+    if (i % 16 == 0) ASSERT_EQ(tree_told(kept, begin), tree_told(fresh, begin)) << text;
+  }
+  EXPECT_GT(alike, 2000) << "most texts were none at all";
 }
 
 TEST(Loader, spread_is_drawn_from_the_robots_seed) {

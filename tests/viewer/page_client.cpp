@@ -6,6 +6,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <map>
+
 namespace viewer_test {
 
 namespace fs = std::filesystem;
@@ -39,6 +41,39 @@ Frame Frame::read(const std::string& bytes) {
   return f;
 }
 
+// As docs/connecting.md says it.
+static Json changed_world(const Json& before, const Json& changes) {
+  Json world = changes.at("head");
+  std::vector<std::string> lines(1);
+  for (const char c : before.at("text").get<std::string>())
+    if (c == '\n')
+      lines.emplace_back();
+    else
+      lines.back() += c;
+  const Json& text = changes.at("text");
+  const auto at = lines.begin() + text.at("above").get<int>();
+  const auto behind = lines.erase(at, at + text.at("gone").get<int>());
+  const auto fresh = text.at("lines").get<std::vector<std::string>>();
+  lines.insert(behind, fresh.begin(), fresh.end());
+  std::string joined;
+  for (std::size_t i = 0; i < lines.size(); ++i) joined += (i > 0 ? "\n" : "") + lines[i];
+  world["text"] = joined;
+  for (const char* name : {"things", "robots", "elements"}) {
+    const Json& change = changes.at(name);
+    std::map<int, Json> pieces;
+    for (const Json& piece : before.at(name)) pieces[piece.at("id")] = piece;
+    for (const Json& piece : change.at("fresh")) pieces[piece.at("id")] = piece;
+    world[name] = Json::array();
+    for (const int id : change.at("order")) world[name].push_back(pieces.at(id));
+  }
+  const Json& ends = changes.at("elements").at("lines");
+  for (std::size_t i = 0; i < world["elements"].size(); ++i) {
+    world["elements"][i]["line"] = ends.at(2 * i);
+    world["elements"][i]["last_line"] = ends.at(2 * i + 1);
+  }
+  return world;
+}
+
 Page::Page(const viewer::LiveView& view, const std::string& token, const std::string& origin) {
   char error[200] = "";
   const std::string path = "/" + (token.empty() ? view.server().token() : token) + "/live";
@@ -60,6 +95,12 @@ int Page::on_data(mg_connection*, int bits, char* bytes, std::size_t size, void*
   std::lock_guard<std::mutex> lock(page.mutex_);
   if ((bits & 0xF) == MG_WEBSOCKET_OPCODE_TEXT) {
     Json message = Json::parse(std::string(bytes, size));
+    if (message.contains("world")) page.world_ = message["world"];
+    if (message.value("event", "") == "world_changed") {
+      page.world_ = changed_world(page.world_, message["changes"]);
+      message["event"] = "world";
+      message["world"] = page.world_;
+    }
     (message.contains("answer") ? page.answers_ : page.events_).push_back(std::move(message));
   } else if ((bits & 0xF) == MG_WEBSOCKET_OPCODE_BINARY) {
     page.frame_.assign(bytes, size);
@@ -143,6 +184,11 @@ bool Page::is_closed() {
 int Page::frames() const {
   std::lock_guard<std::mutex> lock(mutex_);
   return frames_;
+}
+
+Json Page::world() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return world_;
 }
 
 int get_status(int port, const std::string& path, const std::string& headers, std::string* body) {

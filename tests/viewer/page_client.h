@@ -59,6 +59,8 @@ class Page {
   /// Waits until the server has hung up.
   bool is_closed();
   int frames() const;
+  /// The world as it was told, with all changes up to now.
+  Json world() const;
 
  private:
   static int on_data(mg_connection*, int bits, char* bytes, std::size_t size, void* me);
@@ -71,6 +73,7 @@ class Page {
   std::deque<Json> answers_, events_;
   std::string frame_;
   int frames_ = 0, next_ = 1;
+  Json world_;  // as told: an event "world_changed" is seen as "world"
   bool closed_ = false;
 };
 

@@ -89,6 +89,66 @@ TEST_F(Shown, a_robot_that_does_not_fit_has_its_place_and_no_body) {
   EXPECT_EQ(more.at("robots").at(1).at("body"), -1);
 }
 
+// --- changes
+
+/// Pieces that the last event told whole; -1: it told all.
+int pieces_told(Page& page) {
+  const Json event = page.event("world");
+  if (!event.contains("changes")) return -1;
+  int told = 0;
+  for (const char* name : {"things", "robots"})
+    told += static_cast<int>(event.at("changes").at(name).at("fresh").size());
+  return told;
+}
+
+TEST_F(Shown, an_edit_tells_what_became_other_and_no_more) {
+  write("world.toml",
+        std::string(kWorld) +
+            "\n[[ball]]\nname = \"ball\"\nradius = 0.02\nmovable = true\nposition = [0, 0.2]\n");
+  Page page(open("world.toml"));
+  Json world = page.event("hello").at("world");
+  const int wall = thing(world, "wall"), ball = thing(world, "ball");
+  const int arena = world.at("arena").at("id"), robot = world.at("robots").at(0).at("id");
+  const Json here{{"position", {0.7, 0.1}}};
+  struct Row {
+    Json edit;
+    int told;  // pieces; -1: all
+  };
+  const std::vector<Row> rows = {
+      {{{"op", "set"}, {"thing", wall}, {"values", here}}, 1},
+      {{{"op", "set"}, {"thing", ball}, {"values", {{"position", {0.1, 0.2}}}}}, 1},
+      // a line more, so that all behind it stand one further down
+      {{{"op", "set"}, {"thing", wall}, {"values", {{"heading", 10}}}}, 1},
+      {{{"op", "set"}, {"thing", wall}, {"values", {{"heading", nullptr}}}}, 1},
+      {{{"op", "add"}, {"path", "box"}, {"values", {{"position", {-0.8, 0.3}}, {"size", {0.1, 0.1, 0.1}}}}},
+       1},
+      {{{"op", "copy"}, {"thing", wall}, {"values", {{"position", {0.3, 0.3}}}}}, 1},
+      {{{"do", "undo"}}, 0},
+      {{{"do", "redo"}}, 1},
+      // a movable thing more: others have other bodies
+      {{{"op", "paste"}, {"text", "[[ball]]\nradius = 0.01\nmovable = true\nposition = [0.5, -0.4]\n"}}, 2},
+      {{{"op", "remove"}, {"thing", ball}}, 1},
+      {{{"op", "set"}, {"thing", robot}, {"values", {{"position", {-0.6, 0}}}}}, 1},
+      {{{"op", "set"}, {"thing", arena}, {"values", {{"size", {2.5, 1.5}}}}}, -1},
+      {{{"op", "set"}, {"thing", wall}, {"values", {{"position", {-0.6, 0}}}}}, -1},  // over the robot
+      {{{"op", "set"}, {"thing", wall}, {"values", here}}, -1},
+      {{{"op", "copy"}, {"thing", robot}, {"values", {{"name", "two"}, {"position", {-0.6, 0.3}}}}}, -1},
+      {{{"op", "add"}, {"path", "material"}, {"values", {{"name", "paint"}, {"colour", {1, 0, 0}}}}}, -1},
+      {{{"op", "set"}, {"thing", wall}, {"values", {{"material", "paint"}}}}, 1},
+      {{{"op", "text"}, {"text", "# \u00e4\n" + std::string(kWorld)}}, -1},
+      {{{"op", "text"}, {"text", "# \u00e4\n" + std::string(kWorld) + "\n# the end"}}, 1},
+  };
+  for (const Row& row : rows) {
+    Json request = row.edit;
+    if (!request.contains("do")) request["do"] = "edit";
+    page.good(request);
+    EXPECT_EQ(pieces_told(page), row.told) << request;
+    // it is what somebody sees who comes now
+    Page other(view());
+    EXPECT_EQ(page.world(), other.event("hello").at("world")) << request;
+  }
+}
+
 // --- the table
 
 std::string text_of(const std::string& file) {

@@ -82,6 +82,13 @@ export interface Element {
   last_line: number;
   values: Record<string, string>;
 }
+export interface WorldChanges {
+  head: Omit<World, "text" | "things" | "robots" | "elements">;
+  text: { above: number; gone: number; lines: string[] };
+  things: { fresh: Thing[]; order: number[] };
+  robots: { fresh: Robot[]; order: number[] };
+  elements: { fresh: Element[]; order: number[]; lines: number[] };
+}
 export interface Problem {
   line: number;
   column: number;
@@ -203,6 +210,7 @@ export interface Requests {
 export interface Events {
   hello: { event: "hello"; version: number; you: number; revision: number; state: State; world: World; programs: Program[]; problems: string[]; diagnoses: Diagnosis[]; traps: Trap[]; names: string[]; schema: Schema };
   world: { event: "world"; revision: number; world: World };
+  world_changed: { event: "world_changed"; revision: number; changes: WorldChanges };
   state: { event: "state"; state: State };
   programs: { event: "programs"; programs: Program[] };
   problems: { event: "problems"; problems: string[] };

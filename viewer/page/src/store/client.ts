@@ -3,6 +3,7 @@
 import type { Answer, Link } from "../link/connection";
 import type { Finding, Frame, Program } from "../link/protocol";
 import { notice, question } from "../frame/notices";
+import { changedWorld } from "./changes";
 import { findingOf, textOfDiagnosis, textOfTrap } from "./problems";
 import type { Diagnosis, Store } from "./store";
 
@@ -34,6 +35,9 @@ export class Client {
       if (!store.recorded) document.body.dataset.ready = "yes";
     });
     link.on("world", (e) => this.takeWorld(e));
+    link.on("world_changed", (e) =>
+      this.takeWorld({ world: changedWorld(store.world, e.changes), revision: e.revision }),
+    );
     link.on("programs", (e) => this.takePrograms(e.programs));
     link.on("state", (e) => this.takeState(e.state));
     link.on("serial", (e) => store.tell("serial", e));
