@@ -1,4 +1,0 @@
-int zero;
-int main(void) {
-  return 1 / zero;
-}
