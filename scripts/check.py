@@ -80,7 +80,7 @@ NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host
                    "twin": "hal_sim/twin", "api": "hal_sim/api", "debug": "hal_sim/debug", "signals": "hal_sim/signals", "faults": "hal_sim/faults", "inputs": "hal_sim/inputs", "runs": "hal_sim/runs", "dspic": "dspic30/device"}
 # packages and the only room that may include them
 PACKAGE_ROOMS = {
-    "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp"], "ccd/": ["sim_core/geometry"],
+    "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp", "import/affine.h"], "ccd/": ["sim_core/geometry"],
     "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["compiler/front", "dspic30/link", "dspic30/llvm", "dspic30/translate"], "clang/": ["compiler/front"],
     "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["dspic30/load", "programs/team"], "elfutils/": ["programs/team"],
     "libelf.h": ["dspic30/load"], "vpx/": ["sim_core/record"], "sndfile.h": ["sim_core/sound"], "pugixml.hpp": ["compiler/projects"], "zlib.h": ["sim_core/record", "viewer/report.cpp"],
