@@ -82,7 +82,7 @@ NAMESPACE_ROOMS = {"board": "hal_sim/board", "drivers": "hal_sim/drivers", "host
 PACKAGE_ROOMS = {
     "box2d/": ["sim_core/physics"], "Eigen/": ["sim_core/simulation.cpp", "import/affine.h"], "ccd/": ["sim_core/geometry"],
     "toml++/": ["sim_core/load/toml_parser.h"], "CLI/": ["tools"], "llvm/": ["compiler/front", "dspic30/link", "dspic30/llvm", "dspic30/translate"], "clang/": ["compiler/front"],
-    "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["dspic30/load", "programs/team"], "elfutils/": ["programs/team"],
+    "cairo": ["sim_core/record", "sim_core/load", "tools"], "enki/": ["bench"], "gelf.h": ["dspic30/load", "programs/team", "compiler/cache"], "elfutils/": ["programs/team"],
     "libelf.h": ["dspic30/load"], "vpx/": ["sim_core/record"], "sndfile.h": ["sim_core/sound"], "pugixml.hpp": ["compiler/projects"], "zlib.h": ["sim_core/record", "viewer/report.cpp"],
     "jpeglib.h": ["import", "programs/controller"], "png.h": ["programs/controller"],
     "civetweb.h": ["viewer"], "muParser": ["hal_sim/signals"],
