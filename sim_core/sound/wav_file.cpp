@@ -54,6 +54,10 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
   // libsndfile reads other formats, too, by what it finds
   if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
     return "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"";
+  // it would decode MPEG, too, by a library that writes to the terminal
+  if (const std::size_t format = bytes.find("fmt "); format < bytes.size() - 9 && bytes[format + 9] == 0)
+    if (const char number = bytes[format + 8]; number == 0x50 || number == 0x55)
+      return "got samples in MPEG, expected a WAV file of another format";
   SF_VIRTUAL_IO access{Memory::length, Memory::seek, Memory::read, nullptr, Memory::tell};
   Memory memory{bytes};
   SF_INFO info{};

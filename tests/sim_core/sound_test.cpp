@@ -225,6 +225,8 @@ TEST(Wav, mistakes_are_named) {
   sim::WavSound out;
   EXPECT_EQ(sim::parse_wav("RIFX0000WAVE", out),
             "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"");
+  EXPECT_EQ(sim::parse_wav(wav(0, 1, "abcd", 0x55), out),
+            "got samples in MPEG, expected a WAV file of another format");
   EXPECT_EQ(sim::parse_wav(wav(16, 6, "abcdefghijkl"), out), "got 6 channels, expected 1 or 2");
   EXPECT_EQ(sim::parse_wav(wav(16, 1, "ab", 1, 10), out), "got 10 samples a second, expected 1000 to 192000");
   EXPECT_EQ(sim::parse_wav(wav(16, 1, ""), out),
