@@ -122,43 +122,39 @@ std::optional<Piece> prism(std::vector<Vec2> hull, double z_low, double z_high) 
 }
 
 // a slope of this tilted box's upper face
-std::optional<sim::RampDesc> slope(Vec3 centre, const std::array<Vec3, 3>& half) {
+std::optional<sim::RampDesc> slope(const Affine& half) {
   int up = 0;
-  for (int i = 1; i < 3; ++i) {
-    if (std::abs(half[i].z) / length(half[i]) > std::abs(half[up].z) / length(half[up])) up = i;
-  }
-  Vec3 a = half[(up + 1) % 3], b = half[(up + 2) % 3];
-  if (std::abs(a.z) < std::abs(b.z)) std::swap(a, b);  // a climbs, b lies across
-  if (std::abs(b.z) > 0.03 * length(b)) return std::nullopt;
-  if (a.z < 0) a = -1.0 * a;
-  const double angle = std::asin(std::min(1.0, a.z / length(a)));
-  if (!(angle <= kSteepestRampRad) || length(half[up]) > 0.6 * length(a)) return std::nullopt;
-  const Vec3 top = centre + (half[up].z < 0 ? -1.0 : 1.0) * half[up];
+  half.linear().row(2).cwiseQuotient(half.linear().colwise().norm()).cwiseAbs().maxCoeff(&up);
+  Vec3 a = half.linear().col((up + 1) % 3), b = half.linear().col((up + 2) % 3);
+  if (std::abs(a.z()) < std::abs(b.z())) std::swap(a, b);  // a climbs, b lies across
+  if (std::abs(b.z()) > 0.03 * b.norm()) return std::nullopt;
+  if (a.z() < 0) a = -a;
+  const double angle = std::asin(std::min(1.0, a.z() / a.norm()));
+  const Vec3 rise = half.linear().col(up);
+  if (!(angle <= kSteepestRampRad) || rise.norm() > 0.6 * a.norm()) return std::nullopt;
+  const Vec3 top = half.translation() + (rise.z() < 0 ? -1.0 : 1.0) * rise;
   sim::RampDesc out;
-  out.pose = {top.x, top.y, std::atan2(a.y, a.x)};
-  out.size_m = {2 * std::hypot(a.x, a.y), 2 * length(b)};
-  out.low_m = top.z - a.z;
-  out.high_m = top.z + a.z;
+  out.pose = {top.x(), top.y(), std::atan2(a.y(), a.x())};
+  out.size_m = {2 * std::hypot(a.x(), a.y()), 2 * b.norm()};
+  out.low_m = top.z() - a.z();
+  out.high_m = top.z() + a.z();
   return out;
 }
 
-std::optional<Piece> box_piece(Vec3 size, const Affine& frame) {
-  const std::array<Vec3, 3> half{0.5 * size.x * frame.axes[0], 0.5 * size.y * frame.axes[1],
-                                 0.5 * size.z * frame.axes[2]};
+std::optional<Piece> box_piece(const Vec3& size, const Affine& frame) {
+  const Affine half = frame * Eigen::Scaling(Vec3(0.5 * size));  // from a cube of 2 m
+  const Vec3 at = frame.translation();
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.push_back(frame.at + (i & 1 ? 1.0 : -1.0) * half[0] + (i & 2 ? 1.0 : -1.0) * half[1] +
-                      (i & 4 ? 1.0 : -1.0) * half[2]);
-  const double volume =
-      size.x * size.y * size.z * std::abs(dot(frame.axes[0], cross(frame.axes[1], frame.axes[2])));
+  for (int i = 0; i < 8; ++i) corners.push_back(half * Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  const double volume = size.prod() * std::abs(frame.linear().determinant());
   for (int up = 0; up < 3; ++up) {
-    if (!(std::abs(half[up].z) > kUprightZ * length(half[up]))) continue;
+    const double h = std::abs(half(2, up));
+    if (!(h > kUprightZ * half.linear().col(up).norm())) continue;
     // x and y of the plan: the first of the two others that lies flat gives the heading
-    const Vec3 a = half[up == 0 ? 1 : 0], b = half[up == 2 ? 1 : 2];
-    if (std::abs(a.x * b.x + a.y * b.y) > 0.001 * length(a) * length(b)) break;  // sheared
-    const double h = std::abs(half[up].z);
-    Piece out = box({frame.at.x, frame.at.y}, {2 * std::hypot(a.x, a.y), 2 * std::hypot(b.x, b.y)},
-                    std::atan2(a.y, a.x), frame.at.z - h, frame.at.z + h);
+    const Vec3 a = half.linear().col(up == 0 ? 1 : 0), b = half.linear().col(up == 2 ? 1 : 2);
+    if (std::abs(a.x() * b.x() + a.y() * b.y()) > 0.001 * a.norm() * b.norm()) break;  // sheared
+    Piece out = box({at.x(), at.y()}, {2 * std::hypot(a.x(), a.y()), 2 * std::hypot(b.x(), b.y())},
+                    std::atan2(a.y(), a.x()), at.z() - h, at.z() + h);
     out.volume_m3 = volume;
     return out;
   }
@@ -166,26 +162,27 @@ std::optional<Piece> box_piece(Vec3 size, const Affine& frame) {
   if (!out) return out;
   out->volume_m3 = volume;
   out->approximation = "a tilted box: carried as the upright prism around it";
-  out->ramp = slope(frame.at, half);
+  out->ramp = slope(half);
   return out;
 }
 
 // a body of revolution by its rings: height along the axis and radius
 std::optional<Piece> round_piece(const std::vector<Vec2>& rings, bool plain, const Affine& frame, bool z_up) {
-  const Vec3 axis = frame.axes[z_up ? 2 : 1], side = frame.axes[0], other = frame.axes[z_up ? 1 : 2];
-  const double n = length(axis);
+  const Vec3 axis = frame.linear().col(z_up ? 2 : 1), side = frame.linear().col(0),
+             other = frame.linear().col(z_up ? 1 : 2), at = frame.translation();
+  const double n = axis.norm();
   double low = 1e300, high = -1e300, radius = 0;
   for (const Vec2 r : rings) {
     low = std::min(low, r.x), high = std::max(high, r.x), radius = std::max(radius, r.y);
   }
   // It stands upright: a cylinder.
-  if (n > 0 && std::abs(axis.z) > kUprightZ * n) {
+  if (n > 0 && std::abs(axis.z()) > kUprightZ * n) {
     Piece out;
     out.kind = ObjectKind::Cylinder;
-    out.at = {frame.at.x, frame.at.y};
-    out.radius_m = radius * std::max(length(side), length(other));
-    out.heading_rad = std::atan2(side.y, side.x);
-    const double a = frame.at.z + low * axis.z, b = frame.at.z + high * axis.z;
+    out.at = {at.x(), at.y()};
+    out.radius_m = radius * std::max(side.norm(), other.norm());
+    out.heading_rad = std::atan2(side.y(), side.x());
+    const double a = at.z() + low * axis.z(), b = at.z() + high * axis.z();
     out.z_low = std::min(a, b);
     out.z_high = std::max(a, b);
     out.volume_m3 = kPi * out.radius_m * out.radius_m * (out.z_high - out.z_low);
@@ -198,12 +195,12 @@ std::optional<Piece> round_piece(const std::vector<Vec2>& rings, bool plain, con
     for (int i = 0; i < 24; ++i) {
       const double t = 2 * kPi * i / 24;
       points.push_back(
-          frame.place({r.y * std::cos(t), z_up ? r.y * std::sin(t) : r.x, z_up ? r.x : r.y * std::sin(t)}));
+          frame * Vec3(r.y * std::cos(t), z_up ? r.y * std::sin(t) : r.x, z_up ? r.x : r.y * std::sin(t)));
     }
   }
   std::optional<Piece> out = hull_piece(points);
   if (out) {
-    out->volume_m3 = kPi * radius * radius * (high - low) * n * length(side) * length(other);
+    out->volume_m3 = kPi * radius * radius * (high - low) * n * side.norm() * other.norm();
     out->approximation = "lies on its side: carried as the upright prism around it";
   }
   return out;
@@ -215,12 +212,14 @@ struct Mesh {
 };
 
 // volume by the divergence theorem, seen from a point near it; nothing sensible for open meshes
-double volume_of(const Mesh& m, const std::vector<int>& which, Vec3 from) {
+double volume_of(const Mesh& m, const std::vector<int>& which, const Vec3& from) {
   double six = 0;
   for (const int f : which) {
     const auto& face = m.faces[static_cast<std::size_t>(f)];
-    const auto corner = [&](std::size_t i) { return m.points[static_cast<std::size_t>(face[i])] - from; };
-    for (std::size_t i = 2; i < face.size(); ++i) six += dot(corner(0), cross(corner(i - 1), corner(i)));
+    const auto corner = [&](std::size_t i) -> Vec3 {
+      return m.points[static_cast<std::size_t>(face[i])] - from;
+    };
+    for (std::size_t i = 2; i < face.size(); ++i) six += corner(0).dot(corner(i - 1).cross(corner(i)));
   }
   return std::abs(six) / 6;
 }
@@ -231,10 +230,10 @@ void sheets_of(const Mesh& m, const std::vector<int>& which, std::vector<Piece>&
     std::vector<Vec3> p;
     for (const int i : m.faces[static_cast<std::size_t>(f)])
       p.push_back(m.points[static_cast<std::size_t>(i)]);
-    Vec3 normal;
-    for (std::size_t i = 2; i < p.size(); ++i) normal = normal + cross(p[i - 1] - p[0], p[i] - p[0]);
-    const double n = length(normal);
-    if (!(n > 0) || std::abs(normal.z) > 0.1 * n) continue;
+    Vec3 normal = Vec3::Zero();
+    for (std::size_t i = 2; i < p.size(); ++i) normal += (p[i - 1] - p[0]).cross(p[i] - p[0]);
+    const double n = normal.norm();
+    if (!(n > 0) || std::abs(normal.z()) > 0.1 * n) continue;
     if (auto piece = hull_piece(p)) {
       piece->approximation = "a face of a hollow mesh: carried as a wall of 2 mm";
       out.push_back(std::move(*piece));
@@ -294,7 +293,7 @@ std::vector<Piece> mesh_pieces(const Mesh& m) {
 std::vector<Vec3> triples(const Field* f, const Affine& frame) {
   std::vector<Vec3> out;
   for (std::size_t i = 0; f && i + 2 < f->numbers.size(); i += 3)
-    out.push_back(frame.place({f->numbers[i], f->numbers[i + 1], f->numbers[i + 2]}));
+    out.push_back(frame * Vec3(f->numbers[i], f->numbers[i + 1], f->numbers[i + 2]));
   return out;
 }
 
@@ -339,7 +338,7 @@ std::vector<Vec3> grid_points(const Node& g, const Affine& frame, bool z_up) {
       const std::size_t k =
           static_cast<std::size_t>(j) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(i);
       const double h = height && k < height->numbers.size() ? height->numbers[k] : 0;
-      out.push_back(frame.place(z_up ? Vec3{i * dx, j * dy, h} : Vec3{i * dx, h, j * dy}));
+      out.push_back(frame * (z_up ? Vec3(i * dx, j * dy, h) : Vec3(i * dx, h, j * dy)));
     }
   }
   return out;
@@ -352,8 +351,8 @@ std::vector<Vec3> extrusion_points(const Node& g, const Affine& frame) {
   if (!section || !spine || section->numbers.size() * spine->numbers.size() > 1e6) return out;
   for (std::size_t s = 0; s + 2 < spine->numbers.size(); s += 3) {
     for (std::size_t i = 0; i + 1 < section->numbers.size(); i += 2)
-      out.push_back(frame.place({spine->numbers[s] + section->numbers[i], spine->numbers[s + 1],
-                                 spine->numbers[s + 2] + section->numbers[i + 1]}));
+      out.push_back(frame * Vec3(spine->numbers[s] + section->numbers[i], spine->numbers[s + 1],
+                                 spine->numbers[s + 2] + section->numbers[i + 1]));
   }
   return out;
 }
@@ -389,11 +388,11 @@ std::optional<Piece> hull_piece(const std::vector<Vec3>& points) {
   if (points.size() < 2) return std::nullopt;
   std::vector<Vec2> plan;
   double low = 1e300, high = -1e300;
-  for (const Vec3 p : points) {
-    if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > 1e6) return std::nullopt;
-    plan.push_back({p.x, p.y});
-    low = std::min(low, p.z);
-    high = std::max(high, p.z);
+  for (const Vec3& p : points) {
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > 1e6) return std::nullopt;
+    plan.push_back({p.x(), p.y()});
+    low = std::min(low, p.z());
+    high = std::max(high, p.z());
   }
   return prism(convex_hull(std::move(plan)), low, high);
 }
@@ -412,16 +411,16 @@ std::vector<Piece> pieces_of(const Node& g, const Affine& frame, bool z_up, std:
   if (g.type == "Box") {
     const bool old_default = !z_up;  // 2 m until R2018, 0.1 m today; nobody relies on it
     const double d = old_default ? 2 : 0.1;
-    one = box_piece({std::abs(g.number("size", d, 0)), std::abs(g.number("size", d, 1)),
-                     std::abs(g.number("size", d, 2))},
+    one = box_piece(Vec3(g.number("size", d, 0), g.number("size", d, 1), g.number("size", d, 2)).cwiseAbs(),
                     frame);
   } else if (g.type == "Sphere") {
     Piece p;
     p.kind = ObjectKind::Ball;
-    p.at = {frame.at.x, frame.at.y};
-    p.radius_m = r * std::max({length(frame.axes[0]), length(frame.axes[1]), length(frame.axes[2])});
-    p.z_low = frame.at.z - p.radius_m;
-    p.z_high = frame.at.z + p.radius_m;
+    const Vec3 at = frame.translation();
+    p.at = {at.x(), at.y()};
+    p.radius_m = r * frame.linear().colwise().norm().maxCoeff();
+    p.z_low = at.z() - p.radius_m;
+    p.z_high = at.z() + p.radius_m;
     p.volume_m3 = 4.0 / 3 * kPi * p.radius_m * p.radius_m * p.radius_m;
     one = p;
   } else if (g.type == "Cylinder") {
@@ -438,7 +437,7 @@ std::vector<Piece> pieces_of(const Node& g, const Affine& frame, bool z_up, std:
     std::vector<Vec3> p;
     for (int i = 0; i < 4; ++i) {
       const double x = i & 1 ? a : -a, y = i & 2 ? b : -b;
-      p.push_back(frame.place(z_up ? Vec3{x, y, 0} : Vec3{x, 0, y}));
+      p.push_back(frame * (z_up ? Vec3(x, y, 0) : Vec3(x, 0, y)));
     }
     one = hull_piece(p);
     if (one) one->endless_floor = true;

@@ -33,7 +33,7 @@ struct Device {
   std::optional<int> width, height;
   bool infra_red = false;
   // of what measures distances: place and way on the robot (ahead, left, up), and what it sees
-  Vec3 at;
+  sim::Vec3 at;
   double heading_rad = 0;
   std::optional<double> fov_rad, vertical_fov_rad, near_m, far_m, aperture_rad;
   std::vector<sim::ResponseRow> table;

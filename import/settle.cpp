@@ -172,7 +172,7 @@ class Settler {
 
   static bool is_sensible(const FoundArena& a) {
     return std::min(a.size.x, a.size.y) >= 0.01 && std::max(a.size.x, a.size.y) <= kFarthestM &&
-           is_finite({a.at.x, a.at.y, a.z_m}) && std::isfinite(a.heading_rad) &&
+           Vec3(a.at.x, a.at.y, a.z_m).allFinite() && std::isfinite(a.heading_rad) &&
            std::max({std::abs(a.at.x), std::abs(a.at.y), std::abs(a.z_m)}) <= kFarthestM;
   }
 
@@ -274,7 +274,7 @@ class Settler {
       double volume = 0;
       for (const Piece& p : pieces) {
         for (const Vec2 c : p.outline())
-          points.push_back({c.x, c.y, p.z_low}), points.push_back({c.x, c.y, p.z_high});
+          points.emplace_back(c.x, c.y, p.z_low), points.emplace_back(c.x, c.y, p.z_high);
         volume += p.volume_m3;
       }
       auto hull = hull_piece(points);

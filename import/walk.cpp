@@ -30,7 +30,7 @@ bool is_cosmetic(const std::string& t) {
   return t == "Viewpoint" || t == "TexturedBackground" || t == "TexturedBackgroundLight" || t == "Fog";
 }
 
-Vec3 vector_of(const Node& n, const char* field, Vec3 otherwise) {
+Vec3 vector_of(const Node& n, const char* field, sim::Vec3 otherwise) {
   return {n.number(field, otherwise.x, 0), n.number(field, otherwise.y, 1), n.number(field, otherwise.z, 2)};
 }
 
@@ -40,11 +40,11 @@ bool turns_about_y(const WorldText& text) {
   for (const NodePtr& n : text.nodes) {
     if (n->type == "Viewpoint" || n->type == "DirectionalLight") continue;
     const Vec3 axis = vector_of(*n, "rotation", {});
-    if (std::abs(axis.y) > 0.99) ++y;
-    if (std::abs(axis.z) > 0.99) ++z;
+    if (std::abs(axis.y()) > 0.99) ++y;
+    if (std::abs(axis.z()) > 0.99) ++z;
     const Vec3 at = vector_of(*n, "translation", {});
-    if (n->field("translation") && std::abs(at.y) < 0.2 && std::abs(at.z) > 0.3) ++y;
-    if (n->field("translation") && std::abs(at.z) < 0.2 && std::abs(at.y) > 0.3) ++z;
+    if (n->field("translation") && std::abs(at.y()) < 0.2 && std::abs(at.z()) > 0.3) ++y;
+    if (n->field("translation") && std::abs(at.z()) < 0.2 && std::abs(at.y()) > 0.3) ++z;
   }
   return y >= z;
 }
@@ -83,7 +83,7 @@ Walk::Walk(const WorldText& text, const Options& options, Report& report)
     scene_.nue = !text.at_least(2022, 'a');
   // shapes stand on z since R2022a; its nightly builds called themselves R2021c
   z_up_ = text.at_least(2022, 'a') || (text.at_least(2021, 'c') && !scene_.nue);
-  if (scene_.nue) world_.axes = {Vec3{1, 0, 0}, Vec3{0, 0, 1}, Vec3{0, -1, 0}};
+  if (scene_.nue) world_.linear() << 1, 0, 0, 0, 0, -1, 0, 1, 0;
   scene_.new_sensors = text.at_least(2020, 'b');
   scene_.uniform_noise = text.year == 0 && text.major <= 7;
 }
@@ -114,11 +114,10 @@ Affine Walk::inside(const Node& n, const Affine& frame) const {
   const Field* scale = n.field("scale");
   if (scale && !scale->numbers.empty()) {
     const double first = scale->numbers[0];
-    const Vec3 k{first, n.number("scale", first, 1), n.number("scale", first, 2)};
-    own.axes = {k.x * own.axes[0], k.y * own.axes[1], k.z * own.axes[2]};
+    own.scale(vector_of(n, "scale", {first, first, first}));
   }
-  own.at = vector_of(n, "translation", {});
-  return frame.then(own);
+  own.translation() = vector_of(n, "translation", {});
+  return frame * own;
 }
 
 void Walk::children(const Node& n, const char* field, const Affine& frame, int depth) {
@@ -221,22 +220,21 @@ void Walk::lamp(const Node& n, const Affine& frame) {
   double at_once = 1;  // share of the ambient part that arrives
   // A lamp far away shines as from a direction; others have a place, and fade.
   if (n.type == "DirectionalLight") {
-    const Vec3 d = frame.turn(vector_of(n, "direction", {0, 0, -1}));
-    const double far = length(d);
+    const Vec3 d = frame.linear() * vector_of(n, "direction", {0, 0, -1});
+    const double far = d.norm();
     if (!(far > 1e-9) || !std::isfinite(far)) return report_.add(n, "its direction makes no sense");
-    out.lamp.position_m = (-kSunDistanceM / far) * d;
+    out.lamp.position_m = plain((-kSunDistanceM / far) * d);
     if (out.lamp.position_m.z <= 0) {
       report_.add(n, "shines from below");
       out.lamp.intensity_w_m2 = 0;
     }
   } else {
-    out.lamp.position_m = frame.place(vector_of(n, "location", {0, 0, 0}));
+    const Vec3 p = frame * vector_of(n, "location", {});
+    out.lamp.position_m = plain(p);
     for (std::size_t i = 0; i < 3; ++i)
       out.lamp.attenuation[i] = std::clamp(n.number("attenuation", i == 0 ? 1 : 0, i), 0.0, 1e6);
-    const Vec3 p = out.lamp.position_m;
-    if (!is_finite(p) || std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > kFarthestM)
-      return report_.add(n, "too far away");
-    const double d = length(p);  // ambient light at the middle of the world
+    if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kFarthestM) return report_.add(n, "too far away");
+    const double d = p.norm();  // ambient light at the middle of the world
     at_once = out.lamp.attenuation[0] + d * (out.lamp.attenuation[1] + d * out.lamp.attenuation[2]);
     const auto& fades = out.lamp.attenuation;
     if (!(at_once > 0) || std::max({fades[0], fades[1], fades[2]}) < kFadesLeast) {

@@ -9,7 +9,7 @@
 namespace wbt {
 namespace {
 
-Vec3 three(const Node& n, const char* field, Vec3 otherwise) {
+sim::Vec3 three(const Node& n, const char* field, sim::Vec3 otherwise) {
   return {n.number(field, otherwise.x, 0), n.number(field, otherwise.y, 1), n.number(field, otherwise.z, 2)};
 }
 
@@ -17,7 +17,7 @@ Vec3 three(const Node& n, const char* field, Vec3 otherwise) {
 struct Block {
   const char* type;
   sim::ObjectKind kind;
-  Vec3 size;  // of a cylinder: x its radius, z its height; of a ball: x its radius
+  sim::Vec3 size;  // of a cylinder: x its radius, z its height; of a ball: x its radius
   sim::Colour colour;
   bool at_middle;  // its translation is its middle, not its foot
 };
@@ -66,8 +66,8 @@ FoundArena arena_at(const Node& n, const Affine& frame) {
   FoundArena a;
   a.type = n.type;
   a.line = n.line;
-  a.at = {frame.at.x, frame.at.y};
-  a.z_m = frame.at.z;
+  a.at = {frame.translation().x(), frame.translation().y()};
+  a.z_m = frame.translation().z();
   return a;
 }
 
@@ -77,8 +77,8 @@ void Walk::arena(const Node& n, const Affine& frame) {
   FoundArena a = arena_at(n, frame);
   // Its measures, and how it lies.
   a.size = {std::abs(n.number("floorSize", kArenaSizeM, 0)), std::abs(n.number("floorSize", kArenaSizeM, 1))};
-  a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
-  if (std::hypot(frame.axes[0].x, frame.axes[0].y) < 0.99) a.heading_rad = 0;
+  a.heading_rad = std::atan2(frame(1, 0), frame(0, 0));
+  if (std::hypot(frame(0, 0), frame(1, 0)) < 0.99) a.heading_rad = 0;
   a.wall_height_m = n.number("wallHeight", kArenaWallHeightM);
   a.wall_thickness_m = n.number("wallThickness", kArenaWallThicknessM);
   // The floor: one picture that covers it all can be carried, else its colour.
@@ -129,7 +129,7 @@ void Walk::floor_proto(const Node& n, const Affine& frame) {
   if (n.type == "UnevenTerrain") return report_.add(n, "uneven ground", "flat ground");
   FoundArena a = arena_at(n, frame);
   a.size = {std::abs(n.number("size", 10, 0)), std::abs(n.number("size", 10, 1))};
-  a.heading_rad = std::atan2(frame.axes[0].y, frame.axes[0].x);
+  a.heading_rad = std::atan2(frame(1, 0), frame(0, 0));
   const Node* look = n.node("appearance");
   a.floor = look ? surfaces_.of(look) : Surface{kParquet, 0};
   if (n.type == "CheckeredFloor") report_.add(n, "its checkered pattern", "the colour of parquet");
@@ -137,13 +137,13 @@ void Walk::floor_proto(const Node& n, const Affine& frame) {
 }
 
 void Walk::wall_proto(const Node& n, const Affine& frame) {
-  const Vec3 size = three(n, "size", z_up_ ? Vec3{0.2, 1, 2.4} : Vec3{1, 2.4, 0.2});
+  const sim::Vec3 size = three(n, "size", z_up_ ? sim::Vec3{0.2, 1, 2.4} : sim::Vec3{1, 2.4, 0.2});
   Node box;
   box.type = "Box";
   box.line = n.line;
   box.fields.push_back({"size", n.line, {size.x, size.y, size.z}, {}, {}, {}});
   Affine middle = frame;
-  middle.at = frame.place(z_up_ ? Vec3{0, 0, size.z / 2} : Vec3{0, size.y / 2, 0});
+  middle.translate(z_up_ ? Vec3(0, 0, size.z / 2) : Vec3(0, size.y / 2, 0));
   Body b = body_of(n);
   std::string why;
   b.pieces = pieces_of(box, middle, z_up_, why);
@@ -166,7 +166,7 @@ void Walk::block_proto(const Node& n, const Affine& frame) {
   double height = known->size.z;
   if (known->kind == sim::ObjectKind::Box) {
     shape.type = "Box";
-    const Vec3 s = three(n, "size", known->size);
+    const sim::Vec3 s = three(n, "size", known->size);
     give("size", {s.x, s.y, s.z});
     height = z_up_ ? s.z : s.y;
   } else if (known->kind == sim::ObjectKind::Cylinder) {
@@ -181,7 +181,7 @@ void Walk::block_proto(const Node& n, const Affine& frame) {
   Affine place = frame;
   // blocks that are not placed lie on the ground
   if (!n.field("translation") || !known->at_middle)
-    place.at = frame.place(z_up_ ? Vec3{0, 0, height / 2} : Vec3{0, height / 2, 0});
+    place.translate(z_up_ ? Vec3(0, 0, height / 2) : Vec3(0, height / 2, 0));
   Body b = body_of(n);
   b.contact = n.text("contactMaterial", "default");
   b.mass_kg = n.number("mass", 0);

@@ -101,7 +101,7 @@ bool is_floor_sensor(const std::string& name) {
 }
 
 // the turret's place on the robot: ahead, left, up [Webots: E-puck.proto, TURRET_SLOT]
-constexpr Vec3 kTurretAt{-0.0095, 0, 0.0486};
+constexpr sim::Vec3 kTurretAt{-0.0095, 0, 0.0486};
 
 // sensors that come with Webots as PROTOs, as the nodes that these are; null: it is none
 NodePtr known_device(const Node& n) {
@@ -258,14 +258,13 @@ void Walk::epuck(const Node& n, const Affine& frame, bool by_proto) {
   out.controller = n.text("controller", by_proto ? "" : "void");
   // Where it stands and where it looks. An axis of the node points ahead, which one the world's age says.
   const Affine place = inside(n, frame);
-  const Vec3 ahead = place.turn(z_up_ ? Vec3{1, 0, 0} : Vec3{0, 0, -1});
-  const Vec3 up = place.turn(z_up_ ? Vec3{0, 0, 1} : Vec3{0, 1, 0});
-  if (!is_finite(place.at) || !is_finite(ahead) ||
-      std::max({std::abs(place.at.x), std::abs(place.at.y)}) > kFarthestM)
+  const Vec3 at = place.translation(), up = place.linear() * (z_up_ ? Vec3::UnitZ() : Vec3::UnitY()),
+             ahead = place.linear() * (z_up_ ? Vec3(1, 0, 0) : Vec3(0, 0, -1));
+  if (!at.allFinite() || !ahead.allFinite() || at.head<2>().cwiseAbs().maxCoeff() > kFarthestM)
     return report_.add(n, "its place makes no sense");
-  out.pose = {place.at.x, place.at.y, std::hypot(ahead.x, ahead.y) > 1e-6 ? std::atan2(ahead.y, ahead.x) : 0};
-  out.z_m = place.at.z;
-  if (!(up.z > 0.9 * length(up))) report_.add(n, "that it lies on its side", "it stands");
+  out.pose = {at.x(), at.y(), ahead.head<2>().norm() > 1e-6 ? std::atan2(ahead.y(), ahead.x()) : 0};
+  out.z_m = at.z();
+  if (!(up.z() > 0.9 * up.norm())) report_.add(n, "that it lies on its side", "it stands");
   const std::string lower = n.type;
   if (lower.find("NoPhysics") != std::string::npos || n.truth("kinematic", false)) out.kinematic = true;
   if (!by_proto && !n.field("physics")) out.kinematic = true;
@@ -496,7 +495,8 @@ void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
   const Field* f = n.field(field);
   Affine base;
   if (std::string_view(field) == "turretSlot")
-    base.at = z_up_ ? kTurretAt : Vec3{0, kTurretAt.z, -kTurretAt.x};
+    base.translation() =
+        z_up_ ? Vec3(kTurretAt.x, kTurretAt.y, kTurretAt.z) : Vec3(0, kTurretAt.z, -kTurretAt.x);
   for (std::size_t i = 0; f && i < f->nodes.size(); ++i)
     device(*f->nodes[i], inside(*f->nodes[i], base), out, 0);
 }
@@ -522,12 +522,13 @@ std::vector<sim::ResponseRow> Walk::rows_of(const Node& n) {
 // where it is on the robot, where it looks, and what it sees
 void Walk::ranging(const Node& n, const Affine& at, Device& made) {
   const bool beam = made.kind == "distance";
-  const Vec3 look = at.turn(beam || z_up_ ? Vec3{1, 0, 0} : Vec3{0, 0, -1});
-  const auto ours = [&](Vec3 v) { return z_up_ ? v : Vec3{-v.z, -v.x, v.y}; };
-  const Vec3 way = ours(look), place = ours(at.at);
-  if (is_finite(place) && length(place) < 1) made.at = place;
-  if (is_finite(way) && std::hypot(way.x, way.y) > 1e-6) made.heading_rad = std::atan2(way.y, way.x);
-  if (is_finite(way) && std::hypot(way.x, way.y) < 0.9 * length(way))
+  const Vec3 look = at.linear() * (beam || z_up_ ? Vec3(1, 0, 0) : Vec3(0, 0, -1));
+  const auto ours = [&](const Vec3& v) { return z_up_ ? v : Vec3(-v.z(), -v.x(), v.y()); };
+  const Vec3 way = ours(look), place = ours(at.translation());
+  if (place.allFinite() && place.norm() < 1) made.at = plain(place);
+  const double level = way.head<2>().norm();
+  if (way.allFinite() && level > 1e-6) made.heading_rad = std::atan2(way.y(), way.x());
+  if (way.allFinite() && level < 0.9 * way.norm())
     report_.add(n, "that it looks up or down", "it looks level");
   if (beam) {
     made.table = rows_of(n);

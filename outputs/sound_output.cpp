@@ -3,7 +3,7 @@
 
 #include "hal_sim/board/sound_params.h"
 #include "outputs/output_folder.h"
-#include "sim_core/record/wav_recorder.h"
+#include "sim_core/sound/wav_file.h"
 
 namespace outputs {
 

@@ -12,7 +12,7 @@ build="g++ cmake ninja-build pkg-config python3 binutils zlib1g-dev
  llvm-14-dev libclang-14-dev clang-14
  libbox2d-dev libeigen3-dev libccd-dev
  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev libfmt-dev libelf-dev libdw-dev libcairo2-dev
- libcivetweb-dev libmuparser-dev libvpx-dev libjpeg62-turbo-dev libpng-dev libgtest-dev libwebm-dev mandoc bsdextrautils
+ libcivetweb-dev libmuparser-dev libvpx-dev libjpeg62-turbo-dev libpng-dev libsndfile1-dev libpugixml-dev libgtest-dev libwebm-dev mandoc bsdextrautils
  pybind11-dev python3-dev python3-numpy python3-pytest python3-pytest-xdist python3-websocket bubblewrap"
 check="clang-format clang-tidy"
 bench="libenki-dev libsimavr-dev"

@@ -72,8 +72,8 @@ std::vector<DriverChoice> choose_drivers(const std::vector<CompileOutcome>& user
   std::vector<std::string> texts;
   for (std::size_t i = 0; i < user.size(); ++i) {
     for (const auto& s : read_elf(user[i].object).symbols) {
-      if (s.name.empty() || !s.is_global) continue;
-      (s.is_defined || s.is_common ? symbols.defined : symbols.wanted).insert(s.name);
+      if (!s.is_global) continue;
+      (s.is_defined ? symbols.defined : symbols.wanted).insert(s.name);
     }
     texts.push_back(read_text(jobs[i].source));
   }
@@ -81,8 +81,7 @@ std::vector<DriverChoice> choose_drivers(const std::vector<CompileOutcome>& user
   std::set<std::string> wanted_by_members;
   for (const CompileOutcome& member : members)
     for (const auto& s : read_elf(member.object).symbols)
-      if (!s.name.empty() && s.is_global)
-        (s.is_defined || s.is_common ? symbols.defined : wanted_by_members).insert(s.name);
+      if (s.is_global) (s.is_defined ? symbols.defined : wanted_by_members).insert(s.name);
   for (const fs::path& header : files_below(o.source_dir, ".h"))
     if (library_place(fs::path(header).replace_extension(".c")).empty()) texts.push_back(read_text(header));
   auto choices = choose_driver_forms(symbols, program.library_places, texts, contract);
@@ -104,8 +103,8 @@ void check_second_definitions(const std::vector<CompileOutcome>& outcomes, const
   for (std::size_t i = 0; i < outcomes.size(); ++i) {
     const std::string file = outcomes[i].source.filename().string();
     for (const ElfSymbol& s : read_elf(outcomes[i].object).symbols) {
-      if (!s.is_global || s.name.empty()) continue;
-      if (s.is_defined || s.is_common) functions.defined.insert(s.name);
+      if (!s.is_global) continue;
+      if (s.is_defined) functions.defined.insert(s.name);
       if (!listed[i]) continue;
       if (!s.is_defined)
         functions.wanted.emplace(s.name, file);

@@ -115,10 +115,10 @@ std::string facts_of_assembler(const fs::path& object) {
   std::string labels, names;
   const auto symbols = read_elf(object).symbols;
   for (const ElfSymbol& s : symbols) {
-    if (!s.is_global || s.name.empty()) continue;
+    if (!s.is_global) continue;
     if (s.is_defined) labels += "F " + s.name + (is_handler_name(s.name) ? " h-\n" : " -\n");
     for (const ElfSymbol& other : symbols)
-      if (s.is_defined && other.is_global && !other.name.empty() && other.name != s.name)
+      if (s.is_defined && other.is_global && other.name != s.name)
         names += "N " + s.name + " " + other.name + "\n";
   }
   return labels + names;

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT
 // The little of ELF that the build needs: symbols and sections of objects for the chip.
 #pragma once
-#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 namespace cc {
 
 struct ElfSymbol {
-  std::string name;
-  uint64_t value = 0, size = 0;
-  bool is_defined = false, is_function = false, is_weak = false, is_global = false, is_common = false;
+  std::string name;  ///< as in C
+  bool is_defined = false, is_function = false, is_weak = false, is_global = false;
 };
 
 struct ElfFile {
   bool ok = false;
   std::vector<ElfSymbol> symbols;
+  std::map<std::string, std::string> sections;  ///< those with bytes in the file
   /// Content of a section, "" when absent.
-  std::string section(const std::string& name) const;
-  std::string bytes;
+  std::string section(const std::string& name) const {
+    const auto found = sections.find(name);
+    return found == sections.end() ? "" : found->second;
+  }
 };
 
 ElfFile read_elf(const std::filesystem::path& path);

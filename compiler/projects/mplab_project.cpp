@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <pugixml.hpp>
 #include <sstream>
 #include <string>
 
@@ -67,69 +68,63 @@ Listed read_mcp(const std::string& text) {
   return listed;
 }
 
-std::string without_entities(std::string text) {
-  for (const auto& [entity, plain] :
-       {std::pair("&quot;", "\""), std::pair("&lt;", "<"), std::pair("&gt;", ">"), std::pair("&amp;", "&")})
-    for (std::size_t at; (at = text.find(entity)) != std::string::npos;)
-      text.replace(at, std::string(entity).size(), plain);
-  return text;
-}
+/// What configurations.xml lists of configuration `name`; of all where there is none of that name. `told`: where
+/// the file is no XML.
+Listed read_configurations(const fs::path& file, const std::string& name, std::string& told) {
+  const std::string text = read_text(file);
+  pugi::xml_document all;
+  if (const auto read = all.load_buffer(text.data(), text.size(), pugi::parse_default | pugi::parse_fragment);
+      !read)
+    told = file.string() + ":" +
+           std::to_string(1 + std::count(text.begin(), text.begin() + read.offset, '\n')) +
+           ": got XML that breaks off (" + read.description() +
+           "), expected all that MPLAB X writes; what comes before is taken";
+  // settings of other configurations count only where the wanted one is missing
+  pugi::xml_node settings = all;
+  for (const pugi::xpath_node& at : all.select_nodes("//conf"))
+    if (at.node().attribute("name").value() == name) settings = at.node();
+  const auto values = [&](const char* path) {
+    std::vector<std::string> found;
+    for (const pugi::xpath_node& at : settings.select_nodes(path))
+      found.emplace_back(at.attribute() ? at.attribute().value() : at.node().child_value());
+    return found;
+  };
 
-Listed read_configurations(const std::string& text) {
-  Listed listed;
-  static const sim::Pattern kItem(R"(<itemPath>([^<]+)</itemPath>)");
-  static const sim::Pattern kExcluded(R"re(<item path="([^"]+)" ex="true")re");
-  static const sim::Pattern kInclude(
-      R"re(key="(extra|common)-include-directories(?:-for-assembler)?"\s+value="([^"]*)")re");
-  static const sim::Pattern kMacros(R"re(key="preprocessor-macros"\s+value="([^"]*)")re");
-  static const sim::Pattern kLevel(R"re(key="optimization-level"\s+value="([^"]*)")re");
-  static const sim::Pattern kMore(R"re(<appendMe\s+value="([^"]*)")re");
-  static const sim::Pattern kArchive(R"(<linkerLibFileItem>([^<]+)</linkerLibFileItem>)");
-  for (std::sregex_iterator it(text.begin(), text.end(), kArchive), end; it != end; ++it)
-    listed.archives.push_back(without_entities((*it)[1]));
-  // of another project: its folder, and where below it the archive is made
-  static const sim::Pattern kProject(R"re(<makeArtifact\s[^>]*?\bPL="([^"]*)"[^>]*?\bOP="([^"]*)")re");
-  for (std::sregex_iterator it(text.begin(), text.end(), kProject), end; it != end; ++it)
-    listed.archives.push_back(without_entities((*it)[1]) + "/" + without_entities((*it)[2]));
   // Its files, but for those that this configuration leaves out, and folders of headers.
-  std::vector<std::string> excluded;
-  for (std::sregex_iterator it(text.begin(), text.end(), kExcluded), end; it != end; ++it)
-    excluded.push_back((*it)[1]);
-  for (std::sregex_iterator it(text.begin(), text.end(), kItem), end; it != end; ++it)
-    if (std::find(excluded.begin(), excluded.end(), (*it)[1]) == excluded.end())
-      listed.files.push_back((*it)[1]);
-  for (std::sregex_iterator it(text.begin(), text.end(), kInclude), end; it != end; ++it)
-    listed.include_dirs.push_back(without_entities((*it)[2]));
+  Listed listed{values("//itemPath[text()]"),
+                values(".//property[@key='extra-include-directories' or @key='common-include-directories' or "
+                       "@key='extra-include-directories-for-assembler' or "
+                       "@key='common-include-directories-for-assembler']/@value"),
+                {},
+                values(".//linkerLibFileItem[text()]")};
+  const std::vector<std::string> excluded = values(".//item[@ex='true']/@path");
+  const auto is_out = [&](const std::string& f) {
+    return std::find(excluded.begin(), excluded.end(), f) != excluded.end();
+  };
+  listed.files.erase(std::remove_if(listed.files.begin(), listed.files.end(), is_out), listed.files.end());
+  // of another project: its folder, and where below it the archive is made
+  for (const pugi::xpath_node& at : settings.select_nodes(".//makeArtifact"))
+    listed.archives.push_back(std::string(at.node().attribute("PL").value()) + "/" +
+                              at.node().attribute("OP").value());
   // macros of the compiler, not of the assembler or the linker
   std::string options;
-  const std::size_t begin = text.find("<C30>"), end_of_compiler = text.find("</C30>");
-  const std::string compiler = begin == std::string::npos ? "" : text.substr(begin, end_of_compiler - begin);
-  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMacros), end; it != end; ++it) {
-    std::istringstream in(without_entities((*it)[1]));
+  for (const std::string& list : values("(.//C30)[1]//property[@key='preprocessor-macros']/@value")) {
+    std::istringstream in(list);
     for (std::string macro; std::getline(in, macro, ';');)
       if (!macro.empty()) options += "-D" + macro + " ";
   }
   // "", "0", "1" or "-O1"
-  if (std::smatch m; std::regex_search(compiler, m, kLevel))
-    if (const std::string level = m[1]; !level.empty())
-      options += (level[0] == '-' ? "" : "-O") + level + " ";
-  for (std::sregex_iterator it(compiler.begin(), compiler.end(), kMore), end; it != end; ++it)
-    options += without_entities((*it)[1]) + " ";
+  for (const std::string& level : values("((.//C30)[1]//property[@key='optimization-level'])[1]/@value"))
+    if (!level.empty()) options += (level[0] == '-' ? "" : "-O") + level + " ";
+  for (const std::string& more : values("(.//C30)[1]//appendMe/@value")) options += more + " ";
   listed.options = compiler_options(options);
-  if (listed.options.level.empty() && !compiler.empty()) listed.options.level = kLevelUnsaid;
+  if (listed.options.level.empty() && settings.select_node(".//C30")) listed.options.level = kLevelUnsaid;
   return listed;
-}
-
-/// The part of one configuration; all of the text where there is none of that name.
-std::string part_of_configuration(const std::string& text, const std::string& name) {
-  const std::size_t first = text.find("<conf "), begin = text.find("<conf name=\"" + name + "\"");
-  if (begin == std::string::npos) return text;
-  return text.substr(0, first) + text.substr(begin, text.find("</conf>", begin) - begin);
 }
 
 /// An archive that a project links: the file, or the C files of the project that makes it,
 /// "../lib.X/dist/default/production/lib.X.a", which are there for whatever asks for them.
-void add_archive(MplabProject& project, const fs::path& home, const std::string& archive) {
+void add_archive(MplabProject& project, const fs::path& home, const std::string& archive, std::string& told) {
   std::error_code ec;
   if (const fs::path file = resolve_path(home, archive).lexically_normal();
       !file.empty() && fs::is_regular_file(file, ec)) {
@@ -146,8 +141,7 @@ void add_archive(MplabProject& project, const fs::path& home, const std::string&
   look_at(file);
   if (sister.empty() || !fs::is_regular_file(file, ec)) return;
   const std::size_t name = made + std::char_traits<char>::length("/dist/");
-  const Listed listed = read_configurations(
-      part_of_configuration(read_text(file), written.substr(name, written.find('/', name) - name)));
+  const Listed listed = read_configurations(file, written.substr(name, written.find('/', name) - name), told);
   // Its files are there for whatever asks for them, and so are its folders of headers.
   for (const std::string& source : listed.files) {
     const fs::path found = resolve_path(sister, source).lexically_normal();
@@ -165,10 +159,9 @@ void add_archive(MplabProject& project, const fs::path& home, const std::string&
 }
 
 /// A project and its home: the folder that its relative paths start from.
-std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home) {
-  const std::string text = read_text(file);
-  const Listed listed =
-      lower(file.extension().string()) == ".mcp" ? read_mcp(text) : read_configurations(text);
+std::optional<MplabProject> read_project(const fs::path& file, const fs::path& home, std::string& told) {
+  const Listed listed = lower(file.extension().string()) == ".mcp" ? read_mcp(read_text(file))
+                                                                   : read_configurations(file, "", told);
   MplabProject project;
   project.file = file;
   project.defines = listed.options.defines;
@@ -198,7 +191,7 @@ std::optional<MplabProject> read_project(const fs::path& file, const fs::path& h
   }
   // A project without a main() makes a library.
   if (!has_main) return std::nullopt;
-  for (const std::string& archive : listed.archives) add_archive(project, home, archive);
+  for (const std::string& archive : listed.archives) add_archive(project, home, archive, told);
   const auto add_folder = [&](const std::string& name) {
     const fs::path found = resolve_path(home, name).lexically_normal();
     if (!found.empty() && fs::is_directory(found, ec)) project.include_dirs.push_back(found);
@@ -301,7 +294,7 @@ std::optional<MplabProject> find_mplab_project(const fs::path& folder, std::stri
   std::sort(files.begin(), files.end());
   std::vector<MplabProject> projects;
   for (const auto& [file, at] : files)
-    if (auto project = read_project(file, at)) projects.push_back(*project);
+    if (auto project = read_project(file, at, told)) projects.push_back(*project);
   if (projects.empty()) return std::nullopt;
 
   // They may agree; else one that stands out is taken, and the user is told.

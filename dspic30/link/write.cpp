@@ -103,7 +103,6 @@ class ElfFile {
 
   /// Each run of words without a gap is a section.
   void add_flash() {
-    const std::uint32_t page = program_.globals.at("__const_psvpage")->value;
     std::uint32_t first = 0, next = ~0u;
     std::string content;
     const auto flush = [&] {
@@ -128,7 +127,6 @@ class ElfFile {
       next = address + 2;
     }
     flush();
-    (void)page;
   }
 
   void add_ram() {

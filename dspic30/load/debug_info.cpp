@@ -1,265 +1,144 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/load/debug_info.h"
 
+#include <dwarf.h>
+#include <elfutils/libdw.h>
+
+#include <algorithm>
 #include <cstdlib>
 #include <mutex>
-
-#include "dspic30/load/cursor.h"
-#include "dspic30/load/dwarf.h"
+#include <optional>
 
 namespace dspic {
 
 namespace {
 
-using namespace dwarf;
-
 constexpr int kDeepest = 64;
+constexpr int kFramePointer = 14;
 
-struct Value {
-  unsigned form = 0;
-  std::uint32_t number = 0;
-  std::string text;
-  DebugInfo::Section block;
-};
-/// One entry: its tag, attributes, and the entries in it.
-struct Entry {
-  unsigned tag = 0;
-  std::map<unsigned, Value> attributes;
-  std::vector<std::uint32_t> inner;  // offsets
-  const Value* find(unsigned attribute) const {
-    const auto found = attributes.find(attribute);
-    return found == attributes.end() ? nullptr : &found->second;
-  }
-  std::uint32_t number(unsigned attribute, std::uint32_t otherwise = 0) const {
-    const Value* const value = find(attribute);
-    return value ? value->number : otherwise;
-  }
-};
+using Entry = Dwarf_Die;
+
+std::uint32_t offset_of(const Entry& entry) {
+  return static_cast<std::uint32_t>(dwarf_dieoffset(const_cast<Entry*>(&entry)));
+}
+/// An entry's own attribute.
+std::optional<Dwarf_Attribute> find(const Entry& entry, unsigned attribute) {
+  Dwarf_Attribute found;
+  if (!dwarf_attr(const_cast<Entry*>(&entry), attribute, &found)) return std::nullopt;
+  return found;
+}
+bool has(const Entry& entry, unsigned attribute) {
+  return dwarf_hasattr(const_cast<Entry*>(&entry), attribute) != 0;
+}
+std::optional<std::uint32_t> number(const Entry& entry, unsigned attribute) {
+  auto found = find(entry, attribute);
+  Dwarf_Word value = 0;
+  if (!found || dwarf_formudata(&*found, &value) != 0) return std::nullopt;
+  return static_cast<std::uint32_t>(value);
+}
+/// Empty: it has none.
+std::string text(const Entry& entry, unsigned attribute) {
+  auto found = find(entry, attribute);
+  const char* const value = found ? dwarf_formstring(&*found) : nullptr;
+  return value ? value : "";
+}
+/// The entry that an attribute refers to.
+std::optional<Entry> target(const Entry& entry, unsigned attribute) {
+  auto found = find(entry, attribute);
+  Entry to;
+  if (!found || !dwarf_formref_die(&*found, &to)) return std::nullopt;
+  return to;
+}
+template <class Visit>
+void each_inner(const Entry& entry, const Visit& visit) {
+  Entry inner;
+  if (dwarf_child(const_cast<Entry*>(&entry), &inner) != 0) return;
+  do visit(inner);
+  while (dwarf_siblingof(&inner, &inner) == 0);
+}
+/// Operations of a location that is one for all of the code; none: it is no such thing.
+std::vector<Dwarf_Op> location(const Entry& entry, unsigned attribute) {
+  auto found = find(entry, attribute);
+  Dwarf_Op* operations = nullptr;
+  std::size_t count = 0;
+  if (!found || dwarf_getlocation(&*found, &operations, &count) != 0) return {};
+  return {operations, operations + count};
+}
+/// The first address of its code; 0: it has none here.
+std::uint32_t begin_of(const Entry& entry) {
+  Dwarf_Addr base, begin, end;
+  const bool has_code = dwarf_ranges(const_cast<Entry*>(&entry), 0, &base, &begin, &end) > 0;
+  return has_code ? static_cast<std::uint32_t>(begin) : 0;
+}
+
+template <class Visit>
+void each_unit(Elf* elf, const Visit& visit) {
+  Dwarf* const dwarf = dwarf_begin_elf(elf, DWARF_C_READ, nullptr);
+  Dwarf_CU* unit = nullptr;
+  Entry top;
+  while (dwarf && dwarf_get_units(dwarf, unit, &unit, nullptr, nullptr, &top, nullptr) == 0)
+    if (dwarf_tag(&top) == DW_TAG_compile_unit) visit(top);
+  dwarf_end(dwarf);
+}
 
 class Reader {
  public:
-  Reader(DebugInfo& out, const std::map<std::string, DebugInfo::Section>& sections)
-      : out_(out), sections_(sections) {}
+  explicit Reader(DebugInfo& out) : out_(out) {}
 
-  void read() {
-    each_unit([&](std::uint32_t unit, Cursor& c) { read_unit(unit, c); });
-  }
-  std::map<std::uint32_t, std::string> folders() {
-    std::map<std::uint32_t, std::string> all;
-    each_unit([&](std::uint32_t unit, Cursor& c) {
-      const Entry* top = read_entries(unit, c, true);
-      const Value *const lines = top ? top->find(kStatements) : nullptr, *const folder =
-                                                                             top ? top->find(kCompileFolder)
-                                                                                 : nullptr;
-      if (lines && folder) all[lines->number] = folder->text;
-    });
-    return all;
-  }
-
- private:
-  template <class Visit>
-  void each_unit(const Visit& visit) {
-    const DebugInfo::Section info = section(".debug_info");
-    Cursor all(info.bytes, info.size);
-    while (all.left() > 11) {
-      const auto unit = static_cast<std::uint32_t>(info.size - all.left());
-      const std::uint32_t length = all.number(4);
-      if (length < 7 || length > all.left()) return;
-      Cursor inner = all.part(length);
-      visit(unit, inner);
-    }
-  }
-
-  struct Shape {
-    unsigned tag = 0;
-    bool has_inner = false;
-    std::vector<std::pair<unsigned, unsigned>> attributes;
-  };
-
-  DebugInfo::Section section(const char* name) const {
-    const auto found = sections_.find(name);
-    return found == sections_.end() ? DebugInfo::Section{} : found->second;
-  }
-  Cursor at(const char* name, std::uint32_t offset) const {
-    const DebugInfo::Section s = section(name);
-    return offset < s.size ? Cursor(s.bytes + offset, s.size - offset) : Cursor(nullptr, 0);
-  }
-
-  std::map<unsigned, Shape> shapes(std::uint32_t offset) const {
-    std::map<unsigned, Shape> all;
-    Cursor c = at(".debug_abbrev", offset);
-    while (const std::uint32_t code = c.leb()) {
-      Shape& shape = all[code];
-      shape.tag = c.leb();
-      shape.has_inner = c.byte() != 0;
-      shape.attributes.clear();
-      while (!c.is_at_end()) {
-        const unsigned attribute = c.leb(), form = c.leb();
-        if (!attribute && !form) break;
-        shape.attributes.emplace_back(attribute, form);
-      }
-    }
-    return all;
-  }
-
-  bool read_value(Cursor& c, unsigned form, Value& v) const {
-    v.form = form;
-    const auto block = [&](std::size_t size) {
-      v.block.bytes = c.here();
-      v.block.size = std::min(size, c.left());
-      c.part(size);
-    };
-    switch (form) {
-      case kAddr:
-        v.number = c.number(address_bytes_);
-        return true;
-      case kData1:
-      case kFlag:
-      case kRef1:
-        v.number = c.number(1);
-        break;
-      case kData2:
-      case kRef2:
-        v.number = c.number(2);
-        break;
-      case kData4:
-      case kRef4:
-      case kSecOffset:
-      case kRefAddr:
-        v.number = c.number(4);
-        break;
-      case kData8:
-      case kRef8:
-        v.number = c.number(8);
-        break;
-      case kSdata:
-        v.number = static_cast<std::uint32_t>(c.signed_leb());
-        return true;
-      case kUdata:
-      case kRefUdata:
-        v.number = c.leb();
-        break;
-      case kFlagPresent:
-        v.number = 1;
-        return true;
-      case kString:
-        v.text = c.text();
-        return true;
-      case kStrp:
-        v.text = at(".debug_str", c.number(4)).text();
-        return true;
-      case kBlock1:
-        block(c.number(1));
-        return true;
-      case kBlock2:
-        block(c.number(2));
-        return true;
-      case kBlock4:
-        block(c.number(4));
-        return true;
-      case kBlock:
-      case kExprloc:
-        block(c.leb());
-        return true;
-      default:
-        return false;
-    }
-    // references within a unit count from its beginning
-    if (form == kRef1 || form == kRef2 || form == kRef4 || form == kRef8 || form == kRefUdata)
-      v.number += unit_;
-    return true;
-  }
-
-  /// All of a unit, or its first alone; null: it is none that can be read.
-  const Entry* read_entries(std::uint32_t unit, Cursor& c, bool first_alone) {
-    const std::size_t all = c.left() + 4;
-    unit_ = unit;
-    const unsigned version = c.number(2);
-    if (version < 2 || version > 4) return nullptr;
-    const auto known = shapes(c.number(4));
-    address_bytes_ = c.byte();
-    entries_.clear();
-    std::vector<std::uint32_t> open;  // entries that are not ended
-    std::uint32_t first = 0;
-    while (!c.is_at_end()) {
-      const auto offset = static_cast<std::uint32_t>(unit + all - c.left());
-      const std::uint32_t code = c.leb();
-      if (code == 0) {
-        if (!open.empty()) open.pop_back();
-        continue;
-      }
-      const auto shape = known.find(code);
-      if (shape == known.end() || open.size() > kDeepest) break;
-      Entry& entry = entries_[offset];
-      entry.tag = shape->second.tag;
-      if (!open.empty()) entries_[open.back()].inner.push_back(offset);
-      if (!first) first = offset;
-      for (const auto& [attribute, form] : shape->second.attributes)
-        if (!read_value(c, form, entry.attributes[attribute])) return nullptr;
-      if (first_alone) break;
-      if (shape->second.has_inner) open.push_back(offset);
-    }
-    const auto top = entries_.find(first);
-    return top == entries_.end() || top->second.tag != kCompileUnit ? nullptr : &top->second;
-  }
-
-  void read_unit(std::uint32_t unit, Cursor& c) {
-    const Entry* const top = read_entries(unit, c, false);
+  void read_unit(const Entry& top) {
     types_.clear();
     points_.clear();
     functions_.clear();
-    if (!top) return;
-    if (const Value* name = top->find(kName)) file_ = name->text;
-    low_ = 2 * (top->number(kLowPc) / 2);
-    lines_ = top->number(kStatements);
-    scope(*top, 0, 0, 14, 0);
+    file_ = text(top, DW_AT_name);
+    lines_ = number(top, DW_AT_stmt_list).value_or(0);
+    scope(top, 0, 0, kFramePointer, 0);
     for (std::size_t i = 0; i < points_.size(); ++i) {  // what they point to may hold more of them
-      const auto [pointer, offset] = points_[i];
-      const int to = type_of(entries_.at(offset));
+      const auto [pointer, entry] = points_[i];
+      const int to = type_of(entry);
       out_.types[static_cast<std::size_t>(pointer)].element = to;
     }
   }
 
+ private:
   // --- types
 
   int type_of(const Entry& entry, int depth = 0) {
-    const Value* const type = entry.find(kType);
-    return type ? type_at(type->number, depth) : 0;
+    const auto type = target(entry, DW_AT_type);
+    return type ? type_at(*type, depth) : 0;
   }
 
-  int type_at(std::uint32_t offset, int depth) {
+  int type_at(const Entry& entry, int depth) {
+    const std::uint32_t offset = offset_of(entry);
     if (const auto known = types_.find(offset); known != types_.end()) return known->second;
-    const auto found = entries_.find(offset);
-    if (found == entries_.end() || depth > kDeepest) return 0;
+    if (depth > kDeepest) return 0;
     types_[offset] = 0;  // while it is being read
-    const Entry& entry = found->second;
     DebugInfo::Type type;
-    type.bytes = entry.number(kByteSize);
-    switch (entry.tag) {
-      case kTypedef:
-      case kConstType:
-      case kVolatileType:
+    type.bytes = number(entry, DW_AT_byte_size).value_or(0);
+    switch (dwarf_tag(const_cast<Entry*>(&entry))) {
+      case DW_TAG_typedef:
+      case DW_TAG_const_type:
+      case DW_TAG_volatile_type:
         return types_[offset] = type_of(entry, depth + 1);
-      case kBaseType: {
-        const unsigned encoding = entry.number(kEncoding);
-        type.kind = encoding == kFloatEncoding                               ? DebugInfo::Kind::Float
-                    : encoding == kSignedEncoding || encoding == kSignedChar ? DebugInfo::Kind::Signed
-                                                                             : DebugInfo::Kind::Unsigned;
+      case DW_TAG_base_type: {
+        const unsigned encoding = number(entry, DW_AT_encoding).value_or(0);
+        type.kind = encoding == DW_ATE_float                                      ? DebugInfo::Kind::Float
+                    : encoding == DW_ATE_signed || encoding == DW_ATE_signed_char ? DebugInfo::Kind::Signed
+                                                                                  : DebugInfo::Kind::Unsigned;
         break;
       }
-      case kEnumerationType:
+      case DW_TAG_enumeration_type:
         type.kind = add_enumerators(entry) ? DebugInfo::Kind::Signed : DebugInfo::Kind::Unsigned;
         if (!type.bytes) type.bytes = 2;
         break;
-      case kPointerType:
+      case DW_TAG_pointer_type:
         type.kind = DebugInfo::Kind::Pointer;
-        type.bytes = address_bytes_ == 8 ? 8 : 2;  // the chip's are words, whatever addresses of code are
-        points_.emplace_back(add(std::move(type)), offset);
+        type.bytes = 2;  // the chip's are words, whatever addresses of code are
+        points_.emplace_back(add(std::move(type)), entry);
         return types_[offset] = points_.back().first;
-      case kArrayType:
+      case DW_TAG_array_type:
         return types_[offset] = array(entry, depth);
-      case kStructureType:
-      case kUnionType:
+      case DW_TAG_structure_type:
+      case DW_TAG_union_type:
         type.kind = DebugInfo::Kind::Struct;
         add_members(entry, type, depth);
         break;
@@ -272,22 +151,21 @@ class Reader {
   /// True: one of them is negative.
   bool add_enumerators(const Entry& entry) {
     bool has_negative = false;
-    for (const std::uint32_t offset : entry.inner) {
-      const Entry& inner = entries_.at(offset);
-      const Value *const name = inner.find(kName), *const value = inner.find(kConstValue);
-      if (inner.tag != kEnumerator || !name || !value) continue;
-      const auto number = static_cast<std::int32_t>(value->number);
-      has_negative |= number < 0;
-      out_.enumerators.emplace(name->text, number);
-    }
+    each_inner(entry, [&](Entry& inner) {
+      const std::string name = text(inner, DW_AT_name);
+      const auto value = number(inner, DW_AT_const_value);
+      if (dwarf_tag(&inner) != DW_TAG_enumerator || name.empty() || !value) return;
+      has_negative |= static_cast<std::int32_t>(*value) < 0;
+      out_.enumerators.emplace(name, static_cast<std::int32_t>(*value));
+    });
     return has_negative;
   }
 
   /// For casts; the first of a name counts.
-  void note_name(const Entry& entry, std::uint32_t offset) {
-    const Value* const name = entry.find(kName);
-    if (!name || name->text.empty() || entry.number(kDeclaration)) return;
-    out_.named.emplace((entry.tag == kTypedef ? "" : "struct ") + name->text, type_at(offset, 0));
+  void note_name(Entry& entry) {
+    const std::string name = text(entry, DW_AT_name);
+    if (name.empty() || has(entry, DW_AT_declaration)) return;
+    out_.named.emplace((dwarf_tag(&entry) == DW_TAG_typedef ? "" : "struct ") + name, type_at(entry, 0));
   }
 
   int add(DebugInfo::Type&& type) {
@@ -297,13 +175,11 @@ class Reader {
 
   int array(const Entry& entry, int depth) {
     std::vector<unsigned> counts;
-    for (const std::uint32_t offset : entry.inner) {
-      const Entry& range = entries_.at(offset);
-      if (range.tag != kSubrangeType) continue;
-      counts.push_back(range.find(kCountOf)      ? range.number(kCountOf)
-                       : range.find(kUpperBound) ? range.number(kUpperBound) + 1
-                                                 : 0);
-    }
+    each_inner(entry, [&](Entry& range) {
+      if (dwarf_tag(&range) != DW_TAG_subrange_type) return;
+      const auto count = number(range, DW_AT_count), last = number(range, DW_AT_upper_bound);
+      counts.push_back(count ? *count : last ? *last + 1 : 0);
+    });
     int of = type_of(entry, depth + 1);
     for (auto count = counts.rbegin(); count != counts.rend(); ++count) {
       DebugInfo::Type type;
@@ -317,27 +193,28 @@ class Reader {
   }
 
   void add_members(const Entry& entry, DebugInfo::Type& type, int depth) {
-    for (const std::uint32_t offset : entry.inner) {
-      const Entry& inner = entries_.at(offset);
-      if (inner.tag != kMember) continue;
+    each_inner(entry, [&](Entry& inner) {
+      if (dwarf_tag(&inner) != DW_TAG_member) return;
       DebugInfo::Member member;
-      if (const Value* name = inner.find(kName)) member.name = name->text;
+      member.name = text(inner, DW_AT_name);
       member.type = type_of(inner, depth + 1);
-      if (const Value* at = inner.find(kDataMemberLocation)) {
-        Cursor c(at->block.bytes, at->block.size);
-        member.offset = !at->block.bytes ? at->number : c.byte() == kOpPlusConst ? c.leb() : 0;
-      }
-      if ((member.width = static_cast<int>(inner.number(kBitSize)))) {
+      if (const auto offset = number(inner, DW_AT_data_member_location))
+        member.offset = *offset;
+      else if (const auto at = location(inner, DW_AT_data_member_location);
+               !at.empty() && at[0].atom == DW_OP_plus_uconst)
+        member.offset = static_cast<unsigned>(at[0].number);
+      if ((member.width = static_cast<int>(number(inner, DW_AT_bit_size).value_or(0)))) {
         const unsigned unit = std::max(1u, out_.types[static_cast<std::size_t>(member.type)].bytes);
-        if (const Value* bit = inner.find(kDataBitOffset)) {
-          member.offset = bit->number / (8 * unit) * unit;
-          member.bit = static_cast<int>(bit->number % (8 * unit));
+        if (const auto bit = number(inner, DW_AT_data_bit_offset)) {
+          member.offset = *bit / (8 * unit) * unit;
+          member.bit = static_cast<int>(*bit % (8 * unit));
         } else {  // DWARF 2 counts from the highest bit of the storage unit
-          member.bit = static_cast<int>(8 * unit - inner.number(kBitOffset)) - member.width;
+          member.bit =
+              static_cast<int>(8 * unit - number(inner, DW_AT_bit_offset).value_or(0)) - member.width;
         }
       }
       type.members.push_back(std::move(member));
-    }
+    });
   }
 
   // --- variables
@@ -345,189 +222,158 @@ class Reader {
   // `begin` to `end`: code of the innermost function or block; end 0: of none
   void scope(const Entry& entry, std::uint32_t begin, std::uint32_t end, int frame, int depth) {
     if (depth > kDeepest) return;
-    for (const std::uint32_t offset : entry.inner) {
-      const Entry& inner = entries_.at(offset);
+    each_inner(entry, [&](Entry& inner) {
       std::uint32_t from = begin, to = end;
-      switch (inner.tag) {
-        case kTypedef:
-        case kStructureType:
-        case kUnionType:
-        case kEnumerationType:
-          note_name(inner, offset);
+      const int tag = dwarf_tag(&inner);
+      switch (tag) {
+        case DW_TAG_typedef:
+        case DW_TAG_structure_type:
+        case DW_TAG_union_type:
+        case DW_TAG_enumeration_type:
+          note_name(inner);
           break;
-        case kVariable:
-        case kFormalParameter:
+        case DW_TAG_variable:
+        case DW_TAG_formal_parameter:
           add_variable(inner, begin, end, frame);
           break;
-        case kSubprogram:
-        case kLexicalBlock:
-        case kInlinedSubroutine:
-          // its code begins here; the end is an address, or a length
-          if (const Value* low = inner.find(kLowPc)) {
-            from = low->number;
-            const Value* const high = inner.find(kHighPc);
-            to = !high ? from : high->form == kAddr ? high->number : from + high->number;
-          } else if (inner.tag == kSubprogram) {
+        case DW_TAG_subprogram:
+        case DW_TAG_lexical_block:
+        case DW_TAG_inlined_subroutine:
+          if (Dwarf_Addr low, high; dwarf_lowpc(&inner, &low) == 0) {
+            from = to = static_cast<std::uint32_t>(low);
+            if (dwarf_highpc(&inner, &high) == 0) to = static_cast<std::uint32_t>(high);
+          } else if (tag == DW_TAG_subprogram) {
             to = from = 1;  // only its statics are somewhere
           }
-          if (inner.tag != kLexicalBlock) note_function(inner, offset, from, to);
-          scope(inner, from, to, inner.tag == kSubprogram ? frame_of(inner) : frame, depth + 1);
+          if (tag != DW_TAG_lexical_block) note_function(inner, from, to);
+          scope(inner, from, to, tag == DW_TAG_subprogram ? frame_of(inner) : frame, depth + 1);
           break;
         default:
           break;
       }
-    }
+    });
   }
 
-  /// What both an entry of a function and those of its copies refer to.
-  std::uint32_t origin_of(const Entry& entry, std::uint32_t offset) const {
-    for (const unsigned link : {kAbstractOrigin, kSpecification})
-      if (const Value* to = entry.find(link)) return to->number;
-    return offset;
+  /// What both an entry of a function or variable and those of its copies refer to.
+  static Entry origin_of(const Entry& entry) {
+    for (const unsigned link : {DW_AT_abstract_origin, DW_AT_specification})
+      if (const auto to = target(entry, link)) return *to;
+    return entry;
   }
 
-  void note_function(const Entry& entry, std::uint32_t offset, std::uint32_t begin, std::uint32_t end) {
-    const std::uint32_t origin = origin_of(entry, offset);
-    const auto about = entries_.find(origin);
-    const Value* const name = about == entries_.end() ? nullptr : about->second.find(kName);
-    if (!name || about->second.number(kDeclaration)) return;
-    const auto [known, is_new] = functions_.emplace(origin, out_.functions.size());
+  void note_function(Entry& entry, std::uint32_t begin, std::uint32_t end) {
+    const Entry about = origin_of(entry);
+    const std::string name = text(about, DW_AT_name);
+    if (name.empty() || has(about, DW_AT_declaration)) return;
+    const auto [known, is_new] = functions_.emplace(offset_of(about), out_.functions.size());
     if (is_new) {
       out_.functions.emplace_back();
-      out_.functions.back().name = name->text;
+      out_.functions.back().name = name;
       out_.functions.back().unit = lines_;
-      out_.functions.back().file = about->second.number(kDeclaredFile);
-      out_.functions.back().line = static_cast<int>(about->second.number(kDeclaredLine));
+      out_.functions.back().file = number(about, DW_AT_decl_file).value_or(0);
+      out_.functions.back().line = static_cast<int>(number(about, DW_AT_decl_line).value_or(0));
     }
     DebugInfo::Function& function = out_.functions[known->second];
-    if (inlined_begin(entry, begin))
-      function.inlined_at.push_back(begin);
-    else if (entry.tag == kSubprogram && entry.find(kLowPc) && begin == 0)
+    if (dwarf_tag(&entry) == DW_TAG_inlined_subroutine) {  // a copy in another function, if it has code
+      if (const std::uint32_t copy = begin_of(entry)) function.inlined_at.push_back(copy);
+    } else if (has(entry, DW_AT_low_pc) && begin == 0) {
       function.is_left_out = true;
-    else if (entry.tag == kSubprogram && entry.find(kLowPc))
+    } else if (has(entry, DW_AT_low_pc)) {
       function.begin = begin, function.end = end;
+    }
   }
 
-  /// The first address of a copy in another function; false: it is no copy, or has no code.
-  bool inlined_begin(const Entry& entry, std::uint32_t& begin) const {
-    if (entry.tag != kInlinedSubroutine) return false;
-    if (entry.find(kLowPc)) return begin != 0;
-    const Value* const ranges = entry.find(kRanges);
-    if (!ranges) return false;
-    Cursor c = at(".debug_ranges", ranges->number);
-    begin = low_ + c.number(address_bytes_);
-    return begin != 0;
-  }
-
-  int frame_of(const Entry& function) const {
-    const Value* const base = function.find(kFrameBase);
-    if (!base || !base->block.size) return 14;
-    const unsigned operation = base->block.bytes[0];
-    return operation >= kOpReg0 && operation < kOpReg0 + 16     ? static_cast<int>(operation - kOpReg0)
-           : operation >= kOpBreg0 && operation < kOpBreg0 + 16 ? static_cast<int>(operation - kOpBreg0)
-                                                                : 14;
+  static int frame_of(const Entry& function) {
+    const auto base = location(function, DW_AT_frame_base);
+    const int operation = base.empty() ? 0 : base[0].atom;
+    return operation >= DW_OP_reg0 && operation <= DW_OP_reg15     ? operation - DW_OP_reg0
+           : operation >= DW_OP_breg0 && operation <= DW_OP_breg15 ? operation - DW_OP_breg0
+                                                                   : kFramePointer;
   }
 
   void add_variable(const Entry& entry, std::uint32_t begin, std::uint32_t end, int frame) {
-    const Entry* about = &entry;  // where its name and type are
-    for (const unsigned link : {kAbstractOrigin, kSpecification})
-      if (const Value* to = entry.find(link))
-        if (const auto found = entries_.find(to->number); found != entries_.end()) about = &found->second;
-    const Value *const name = about->find(kName), *const location = entry.find(kLocation);
-    if (!name || name->text.empty() || entry.number(kDeclaration)) return;
+    const Entry about = origin_of(entry);  // where its name and type are
     DebugInfo::Variable v;
-    v.name = name->text;
+    v.name = text(about, DW_AT_name);
+    if (v.name.empty() || has(entry, DW_AT_declaration)) return;
     v.file = file_;
-    v.type = type_of(*about);
+    v.type = type_of(about);
     v.begin = begin;
     v.end = end;
     v.is_static = false;
     DebugInfo::Place place;
-    if (const Value* constant = entry.find(kConstValue)) {
+    if (const auto constant = number(entry, DW_AT_const_value)) {
       place.in = DebugInfo::Place::In::Value;
-      place.value = static_cast<int>(constant->number);
+      place.value = static_cast<int>(*constant);
       v.places.push_back(place);
-    } else if (location && location->block.bytes) {
-      if (!read_place(location->block, frame, place)) return;
+    } else if (const auto operations = location(entry, DW_AT_location); !operations.empty()) {
+      if (!read_place(operations.data(), operations.size(), frame, place)) return;
       if (place.in == DebugInfo::Place::In::Memory && place.value == 0) return;  // the linker left it out
       v.is_static = place.in == DebugInfo::Place::In::Memory;
       v.places.push_back(place);
-    } else if (location) {
-      add_places(at(".debug_loc", location->number), frame, v);
+    } else {
+      add_places(entry, frame, v);
     }
     if (!v.is_static && end <= begin) return;
     if (!v.places.empty()) out_.variables.push_back(std::move(v));
   }
 
-  void add_places(Cursor c, int frame, DebugInfo::Variable& v) const {
-    const std::uint32_t base_mark = address_bytes_ == 2 ? 0xFFFF : 0xFFFFFFFF;
-    std::uint32_t base = low_;
-    while (c.left() >= 2 * address_bytes_ && v.places.size() < 1000) {
+  /// Of a list, each for a part of the code.
+  static void add_places(const Entry& entry, int frame, DebugInfo::Variable& v) {
+    auto list = find(entry, DW_AT_location);
+    Dwarf_Addr base, begin, end;
+    Dwarf_Op* operations;
+    std::size_t count;
+    for (std::ptrdiff_t at = 0;
+         list && v.places.size() < 1000 &&
+         (at = dwarf_getlocations(&*list, at, &base, &begin, &end, &operations, &count)) > 0;) {
       DebugInfo::Place place;
-      place.begin = c.number(address_bytes_);
-      place.end = c.number(address_bytes_);
-      if (!place.begin && !place.end) return;
-      if (place.begin == base_mark) {
-        base = place.end;
-        continue;
-      }
-      const std::size_t size = c.number(2);
-      const DebugInfo::Section expression{c.here(), std::min(size, c.left())};
-      c.part(size);
-      place.begin += base;
-      place.end += base;
-      if (read_place(expression, frame, place)) v.places.push_back(place);
+      place.begin = static_cast<std::uint32_t>(begin);
+      place.end = static_cast<std::uint32_t>(end);
+      if (read_place(operations, count, frame, place)) v.places.push_back(place);
     }
   }
 
   // of one operation, but for a value
-  bool read_place(DebugInfo::Section expression, int frame, DebugInfo::Place& place) const {
+  static bool read_place(const Dwarf_Op* operations, std::size_t count, int frame, DebugInfo::Place& place) {
     using In = DebugInfo::Place::In;
-    Cursor c(expression.bytes, expression.size);
-    const unsigned operation = c.byte();
-    if (operation == kOpAddr) {
+    if (count == 0) return false;
+    const int operation = operations->atom;
+    place.value = static_cast<int>(operations->number);
+    if (operation == DW_OP_addr) {
       place.in = In::Memory;
-      place.value = static_cast<int>(c.number(address_bytes_));
-    } else if (operation >= kOpReg0 && operation < kOpReg0 + 16) {
+    } else if (operation >= DW_OP_reg0 && operation <= DW_OP_reg15) {
       place.in = In::Register;
-      place.value = static_cast<int>(operation - kOpReg0);
-    } else if (operation == kOpFbreg || (operation >= kOpBreg0 && operation < kOpBreg0 + 16)) {
+      place.value = operation - DW_OP_reg0;
+    } else if (operation == DW_OP_fbreg || (operation >= DW_OP_breg0 && operation <= DW_OP_breg15)) {
       place.in = In::Frame;
-      place.base = operation == kOpFbreg ? frame : static_cast<int>(operation - kOpBreg0);
-      place.value = c.signed_leb();
+      place.base = operation == DW_OP_fbreg ? frame : operation - DW_OP_breg0;
     } else {
       place.in = In::Value;
-      if (operation >= kOpLit0 && operation < kOpLit0 + 32)
-        place.value = static_cast<int>(operation - kOpLit0);
-      else if (operation >= kOpConst1u && operation < kOpConst1u + 6)
-        place.value = static_cast<int>(c.number(std::size_t{1} << (operation - kOpConst1u) / 2));
-      else if (operation == kOpConsts)
-        place.value = c.signed_leb();
-      else if (operation == kOpConstu)
-        place.value = static_cast<int>(c.leb());
-      else
-        return false;
-      return c.byte() == kOpStackValue;
+      if (operation >= DW_OP_lit0 && operation <= DW_OP_lit31) place.value = operation - DW_OP_lit0;
+      const bool is_number = (operation >= DW_OP_lit0 && operation <= DW_OP_lit31) ||
+                             (operation >= DW_OP_const1u && operation <= DW_OP_consts);
+      return is_number && count == 2 && operations[1].atom == DW_OP_stack_value;
     }
-    return c.is_at_end();
+    return count == 1;
   }
 
   DebugInfo& out_;
-  const std::map<std::string, DebugInfo::Section>& sections_;
-  std::map<std::uint32_t, Entry> entries_;  // of the unit
-  std::map<std::uint32_t, int> types_;
-  std::map<std::uint32_t, std::size_t> functions_;     // of the unit, in out_
-  std::vector<std::pair<int, std::uint32_t>> points_;  // pointers, and their entries
+  std::map<std::uint32_t, int> types_;              // of the unit, by place
+  std::map<std::uint32_t, std::size_t> functions_;  // of the unit, in out_
+  std::vector<std::pair<int, Entry>> points_;       // pointers, and their entries
   std::string file_;
-  std::uint32_t unit_ = 0, low_ = 0, lines_ = 0;
-  std::size_t address_bytes_ = 4;
+  std::uint32_t lines_ = 0;
 };
 
 bool is_in(const DebugInfo::Variable& v, std::uint32_t pc) { return pc >= v.begin && pc < v.end; }
 
 }  // namespace
 
-void DebugInfo::add(const std::map<std::string, Section>& sections) { Reader(*this, sections).read(); }
+void DebugInfo::add(Elf* elf) {
+  Reader reader(*this);
+  each_unit(elf, [&](const Entry& top) { reader.read_unit(top); });
+}
 
 const DebugInfo::Place* DebugInfo::place_at(const Variable& variable, std::uint32_t pc) {
   for (const Place& place : variable.places)
@@ -608,33 +454,34 @@ bool DebugInfo::step_into(const std::string& name, Found& found, int depth) cons
   return false;
 }
 
-std::map<std::uint32_t, std::string> DebugInfo::folders_in(const std::map<std::string, Section>& sections) {
-  DebugInfo none;
-  return Reader(none, sections).folders();
+std::map<std::uint32_t, std::string> DebugInfo::folders_in(Elf* elf) {
+  std::map<std::uint32_t, std::string> all;
+  each_unit(elf, [&](const Entry& top) {
+    if (const auto lines = number(top, DW_AT_stmt_list)) all[*lines] = text(top, DW_AT_comp_dir);
+  });
+  return all;
 }
 
 struct LateDebugInfo::Kept {
-  std::map<std::string, std::string> bytes;
+  std::string bytes;
   std::once_flag read;
   DebugInfo info;
 };
 
-void LateDebugInfo::keep(const std::map<std::string, DebugInfo::Section>& sections) {
+void LateDebugInfo::keep(std::string elf) {
   kept_ = std::make_shared<Kept>();
-  for (const auto& [name, section] : sections)
-    if (name != ".debug_line" && name != ".debug_frame")
-      kept_->bytes[name].assign(reinterpret_cast<const char*>(section.bytes), section.size);
+  kept_->bytes = std::move(elf);
 }
 
 const DebugInfo& LateDebugInfo::info() const {
   static const DebugInfo none;
   if (!kept_) return none;
   std::call_once(kept_->read, [this] {
-    std::map<std::string, DebugInfo::Section> sections;
-    for (const auto& [name, bytes] : kept_->bytes)
-      sections[name] = {reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()};
-    kept_->info.add(sections);
-    kept_->bytes.clear();
+    if (Elf* const elf = elf_memory(kept_->bytes.data(), kept_->bytes.size())) {
+      kept_->info.add(elf);
+      elf_end(elf);
+    }
+    kept_->bytes = {};
   });
   return kept_->info;
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Types of an image's variables, and its functions' local ones.
 //
-//   .debug_info, .debug_abbrev, .debug_str, .debug_loc --> DebugInfo: find("state.speed[1]", pc)
+//   .debug_info and what it refers to, by libdw --> DebugInfo: find("state.speed[1]", pc)
 //
-// DWARF 2 to 4, as our own compiler and XC16 write it. Not read: C++.
+// As our own compiler and XC16 write it. Not read: C++.
 #pragma once
 #include <cstdint>
 #include <functional>
@@ -11,6 +11,8 @@
 #include <memory>
 #include <string>
 #include <vector>
+
+struct Elf;  // libelf's
 
 namespace dspic {
 
@@ -76,14 +78,10 @@ struct DebugInfo {
   /// Where it is at `pc`; null: the optimiser keeps it nowhere there.
   static const Place* place_at(const Variable& variable, std::uint32_t pc);
 
-  struct Section {
-    const unsigned char* bytes = nullptr;
-    std::size_t size = 0;
-  };
-  /// By name. What cannot be read is left out: nothing depends on it.
-  void add(const std::map<std::string, Section>& sections);
+  /// What cannot be read is left out: nothing depends on it.
+  void add(Elf* elf);
   /// Where the compiler stood, by place in .debug_line.
-  static std::map<std::uint32_t, std::string> folders_in(const std::map<std::string, Section>& sections);
+  static std::map<std::uint32_t, std::string> folders_in(Elf* elf);
 
  private:
   bool step_into(const std::string& name, Found& found, int depth = 0) const;
@@ -92,8 +90,8 @@ struct DebugInfo {
 /// Is read when somebody asks first: most runs never do. Copies share it; several threads may ask.
 class LateDebugInfo {
  public:
-  /// Keeps the sections' bytes.
-  void keep(const std::map<std::string, DebugInfo::Section>& sections);
+  /// Keeps the file's bytes.
+  void keep(std::string elf);
   const DebugInfo& info() const;
 
  private:

@@ -33,11 +33,13 @@ class ElfReader {
     if (error_.empty()) check_header(bytes.size());
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
-    file_.debug.keep(debug_);
-    if (const auto lines = debug_.find(".debug_line"); lines != debug_.end())
-      file_.code.add_lines(lines->second.bytes, lines->second.size, DebugInfo::folders_in(debug_));
+    if (lines_ && error_.empty())
+      file_.code.add_lines(static_cast<const unsigned char*>(lines_->d_buf), lines_->d_size,
+                           DebugInfo::folders_in(elf_.get()));
     file_.code.sort();
     error = error_;
+    elf_.reset();
+    file_.debug.keep(std::move(bytes));
     return error_.empty();
   }
 
@@ -71,9 +73,8 @@ class ElfReader {
     if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
     if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
     const std::string name = section_name(head);
-    if (name.compare(0, 7, ".debug_") == 0)
-      if (const Elf_Data* data = elf_getdata(section, nullptr); data && data->d_buf)
-        debug_[name] = {static_cast<const unsigned char*>(data->d_buf), data->d_size};
+    if (name == ".debug_line")
+      if (const Elf_Data* data = elf_getdata(section, nullptr); data && data->d_buf) lines_ = data;
     const bool is_program = (head.sh_flags & (SHF_EXECINSTR | kPsv | kEeprom)) != 0;
     if (head.sh_type != SHT_PROGBITS || !(head.sh_flags & SHF_ALLOC) || !is_program ||
         (head.sh_flags & kNoLoad) || head.sh_size == 0)
@@ -148,7 +149,7 @@ class ElfReader {
 
   const std::string& name_;
   FirmwareFile& file_;
-  std::map<std::string, DebugInfo::Section> debug_;
+  const Elf_Data* lines_ = nullptr;
   std::unique_ptr<Elf, Closer> elf_;
   std::string error_;
 };

@@ -10,21 +10,22 @@
 
 namespace programs {
 
-using sim::Vec3;
 using wbt::Affine;
+using wbt::Vec3;
 
 namespace {
 
 constexpr double kParkedM = 900;    // where robots go that were removed
 constexpr double kFarthest = 1000;  // m: worlds reach no further
 
-bool is_upright(const Affine& frame, bool nue) {
-  return (nue ? frame.axes[1].y : frame.axes[2].z) > 1 - 1e-9;
+bool is_upright(const Affine& frame, bool nue) { return (nue ? frame(1, 1) : frame(2, 2)) > 1 - 1e-9; }
+
+std::vector<double> numbers_of(const Affine& frame) {
+  return {frame.translation().begin(), frame.translation().end()};
 }
 
 bool is_near(const Affine& frame) {
-  return wbt::is_finite(frame.at) &&
-         std::max({std::abs(frame.at.x), std::abs(frame.at.y), std::abs(frame.at.z)}) <= kFarthest;
+  return frame.translation().allFinite() && frame.translation().cwiseAbs().maxCoeff() <= kFarthest;
 }
 
 }  // namespace
@@ -131,14 +132,14 @@ void Bodies::add_rest() {
       const int arena = add("RectangleArena", "", "", Is::Plain, 0);
       tree_.set(arena, "floorSize", kVec2, {w.arena->size_m.x, w.arena->size_m.y});
       tree_.set(arena, "wallHeight", kFloat, {w.arena->wall_height_m});
-      const Vec3 at = out({w.arena->centre_m.x, w.arena->centre_m.y, 0});
+      const sim::Vec3 at = out({w.arena->centre_m.x, w.arena->centre_m.y, 0});
       tree_.set(arena, "translation", kVec3, {at.x, at.y, at.z});
     }
   }
   for (std::size_t i = 0; i < w.lamps.size(); ++i) {
     if (node_of(Is::Lamp, static_cast<int>(i)) != 0) continue;
     const int id = add("PointLight", w.lamps[i].name, "", Is::Lamp, i);
-    const Vec3 at = out(w.lamps[i].position_m);
+    const sim::Vec3 at = out(w.lamps[i].position_m);
     tree_.set(id, "location", kVec3, {at.x, at.y, at.z});
     tree_.set(id, "intensity", kFloat, {w.lamps[i].intensity_w_m2});
     tree_.set(id, "on", kBool, {w.lamps[i].on ? 1.0 : 0.0});
@@ -178,7 +179,7 @@ int Bodies::add_object(const sim::ObjectDesc& o) {
   tree_.set(id, "model", o.model);
   // its middle
   const Affine at = from_body(o.pose, o.z_m + 0.5 * o.size_m.z, false);
-  tree_.set(id, "translation", kVec3, {at.at.x, at.at.y, at.at.z});
+  tree_.set(id, "translation", kVec3, numbers_of(at));
   tree_.set(id, "rotation", kTurn, axis_angle(at, is_nue()));
   std::vector<double> colours;
   for (const sim::Colour& c : o.recognition_colours) colours.insert(colours.end(), {c.r, c.g, c.b});
@@ -237,7 +238,7 @@ void Bodies::tie() {
     const sim::ObjectDesc& first = objects[static_cast<std::size_t>(list.front())];
     Piece piece;
     // before it is one: its own fields say where it is
-    piece.start = rigid(pose(tree_.node(id).parent).then(tree_.local(id)));
+    piece.start = rigid(pose(tree_.node(id).parent) * tree_.local(id));
     piece.body = from_body(first.pose, first.z_m, false);
     piece.objects = std::move(list);
     pieces_[id] = std::move(piece);
@@ -246,30 +247,32 @@ void Bodies::tie() {
 
 // --- poses
 
-Vec3 Bodies::out(Vec3 p) const {
+sim::Vec3 Bodies::out(sim::Vec3 p) const {
   const double up = p.z + twin_.world().webots.floor_m;
-  return is_nue() ? Vec3{p.x, up, -p.y} : Vec3{p.x, p.y, up};
+  return is_nue() ? sim::Vec3{p.x, up, -p.y} : sim::Vec3{p.x, p.y, up};
 }
 
-Vec3 Bodies::in(Vec3 p) const {
+sim::Vec3 Bodies::in(sim::Vec3 p) const {
   const double floor = twin_.world().webots.floor_m;
-  return is_nue() ? Vec3{p.x, -p.z, p.y - floor} : Vec3{p.x, p.y, p.z - floor};
+  return is_nue() ? sim::Vec3{p.x, -p.z, p.y - floor} : sim::Vec3{p.x, p.y, p.z - floor};
 }
 
 Affine Bodies::from_body(const sim::Pose2& pose, double z_m, bool robot) const {
   // robots look along -z at angle 0 where y is up, objects keep their x axis
   const double angle = is_nue() && robot ? pose.heading_rad - sim::kPi / 2 : pose.heading_rad;
-  Affine frame = wbt::turned(is_nue() ? Vec3{0, 1, 0} : Vec3{0, 0, 1}, angle);
-  frame.at = out({pose.x_m, pose.y_m, z_m});
+  Affine frame = wbt::turned(is_nue() ? Vec3::UnitY() : Vec3::UnitZ(), angle);
+  const sim::Vec3 at = out({pose.x_m, pose.y_m, z_m});
+  frame.translation() = Vec3(at.x, at.y, at.z);
   return frame;
 }
 
 void Bodies::to_body(const Affine& frame, bool robot, sim::Pose2& pose, double& z_m) const {
-  const Vec3 at = in(frame.at), ahead = frame.turn(is_nue() && robot ? Vec3{0, 0, -1} : Vec3{1, 0, 0});
+  const sim::Vec3 at = in(wbt::plain(frame.translation()));
+  const Vec3 ahead = frame.linear() * (is_nue() && robot ? Vec3(0, 0, -1) : Vec3(1, 0, 0));
   pose.x_m = at.x;
   pose.y_m = at.y;
   // a turn about another axis than up leaves what it does to the heading
-  pose.heading_rad = is_nue() ? std::atan2(-ahead.z, ahead.x) : std::atan2(ahead.y, ahead.x);
+  pose.heading_rad = std::atan2(is_nue() ? -ahead.z() : ahead.y(), ahead.x());
   z_m = std::max(0.0, at.z);
 }
 
@@ -284,21 +287,20 @@ Affine Bodies::pose(int id) const {
   if (id <= Tree::kRoot) return {};
   const TreeNode& n = tree_.node(id);
   const int body = moving_body(id);
-  if (body < 0 || n.gone) return rigid(pose(n.parent).then(tree_.local(id)));
+  if (body < 0 || n.gone) return rigid(pose(n.parent) * tree_.local(id));
   const sim::BodyState state = twin_.simulation().state(body);
   const Affine now = from_body(state.pose, state.z_m, n.is == Is::Robot);
   if (n.is == Is::Robot) return now;
   const Piece& piece = pieces_.at(id);
-  return now.then(inverse(piece.body)).then(piece.start);
+  return now * piece.body.inverse(Eigen::Isometry) * piece.start;
 }
 
 std::vector<double> Bodies::place(int id, const std::string& field) const {
   const TreeNode& n = tree_.node(id);
   if (moving_body(id) < 0)
     return n.numbers(field, field == "translation" ? std::vector<double>(3) : std::vector<double>(4));
-  const Affine own = inverse(pose(n.parent)).then(pose(id));
-  return field == "translation" ? std::vector<double>{own.at.x, own.at.y, own.at.z}
-                                : axis_angle(own, is_nue());
+  const Affine own = pose(n.parent).inverse(Eigen::Isometry) * pose(id);
+  return field == "translation" ? numbers_of(own) : axis_angle(own, is_nue());
 }
 
 /// The tree's own fields say what the engine has.
@@ -321,7 +323,7 @@ void Bodies::put(int id, const Affine& frame) {
   const int body = moving_body(id);
   if (tree_.node(id).is == Is::Robot) return put_body(body, frame, true);
   const Piece& piece = pieces_.at(id);
-  put_body(body, frame.then(inverse(piece.start)).then(piece.body), false);
+  put_body(body, frame * piece.start.inverse(Eigen::Isometry) * piece.body, false);
 }
 
 std::string Bodies::set_place(int id, const std::string& field, const std::vector<double>& numbers) {
@@ -331,7 +333,7 @@ std::string Bodies::set_place(int id, const std::string& field, const std::vecto
   for (const int n : tree_.below(id))
     if (pieces_.count(n)) sync(n), before[n] = pose(n);
   tree_.set(id, field, field == "translation" ? kVec3 : kTurn, numbers);
-  const Affine to = rigid(pose(tree_.node(id).parent).then(tree_.local(id)));
+  const Affine to = rigid(pose(tree_.node(id).parent) * tree_.local(id));
   if (!is_near(to)) {
     tree_.set(id, field, field == "translation" ? kVec3 : kTurn, old);
     return "got a place beyond 1000 m; it stays where it is";
@@ -350,15 +352,15 @@ void Bodies::shift(int id, const std::map<int, Affine>& before) {
   std::set<int> cleared;
   for (const auto& [n, was] : before) {
     if (moving_body(n) >= 0) {  // its place within its parent stays
-      put(n, rigid(pose(tree_.node(n).parent).then(tree_.local(n))));
+      put(n, rigid(pose(tree_.node(n).parent) * tree_.local(n)));
       continue;
     }
-    const Affine way = pose(n).then(inverse(was));
+    const Affine way = pose(n) * was.inverse(Eigen::Isometry);
     if (!is_upright(way, is_nue())) return derive(id, true);
     cleared.insert(n);
     for (const int object : pieces_.at(n).objects) {
       sim::ObjectDesc o = twin_.world().objects[static_cast<std::size_t>(object)];
-      const Affine to = way.then(from_body(o.pose, o.z_m, false));
+      const Affine to = way * from_body(o.pose, o.z_m, false);
       to_body(to, false, o.pose, o.z_m);
       made[n].push_back(std::move(o));
     }
@@ -407,8 +409,8 @@ bool Bodies::load(int id, const std::string& name) {
       put(n, state.pose);
       set_velocity(n, state.velocity);
     } else if (n == id && tree_.node(n).find("translation")) {
-      const Affine own = inverse(pose(tree_.node(n).parent)).then(state.pose);
-      set_place(n, "translation", {own.at.x, own.at.y, own.at.z});
+      const Affine own = pose(tree_.node(n).parent).inverse(Eigen::Isometry) * state.pose;
+      set_place(n, "translation", numbers_of(own));
       set_place(n, "rotation", axis_angle(own, is_nue()));
     }
   }
@@ -435,7 +437,7 @@ void Bodies::derive(int id, bool keep_course) {
   if (tree_.node(id).parent > Tree::kRoot) {
     auto outer = std::make_shared<wbt::Node>();
     outer->type = "Transform";
-    outer->fields.push_back({"translation", 0, {around.at.x, around.at.y, around.at.z}, {}, {}, {}});
+    outer->fields.push_back({"translation", 0, numbers_of(around), {}, {}, {}});
     outer->fields.push_back({"rotation", 0, axis_angle(around, is_nue()), {}, {}, {}});
     outer->fields.push_back({"children", 0, {}, {}, {}, {text}});
     text = outer;
@@ -600,8 +602,8 @@ void Bodies::lamp_changed(int id) {
   if (n.base != "DirectionalLight") {
     const std::vector<double> at = n.numbers("location", {0, 0, 0});
     Affine there;
-    there.at = pose(n.parent).place({at[0], at[1], at[2]});
-    if (is_near(there)) l.position_m = in(there.at);
+    there.translation() = pose(n.parent) * Vec3(at[0], at[1], at[2]);
+    if (is_near(there)) l.position_m = in(wbt::plain(there.translation()));
   }
   constexpr double kBrightest = 10000;  // W/m2
   twin_.simulation().set_lamp(n.number, n.numbers("on", {1})[0] != 0,

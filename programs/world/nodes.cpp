@@ -151,7 +151,7 @@ struct Nodes::Inside {
     const int id = static_cast<int>(r.ints[0]);
     if (!tree().has(id)) return nothing(out, fmt::format("node {} is not there any more", id));
     const wbt::Affine at = bodies().pose(id);
-    const auto& [x, y, z] = at.axes;
+    const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = at.matrix();
     std::vector<double> values;
     int count = -1;
     // Questions: place and centre of mass, axes, velocity, points of contact, the whole pose, whether it
@@ -159,10 +159,10 @@ struct Nodes::Inside {
     switch (r.ints[1]) {
       case 0:
       case 3:
-        values = {at.at.x, at.at.y, at.at.z};
+        values = {at.translation().begin(), at.translation().end()};
         break;
       case 1:
-        values = {x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z};
+        for (int i = 0; i < 9; ++i) values.push_back(rows(i / 3, i % 3));
         break;
       case 2:
         values = bodies().velocity(id);
@@ -171,7 +171,7 @@ struct Nodes::Inside {
         count = 0;
         break;
       case 5:
-        values = {x.x, y.x, z.x, at.at.x, x.y, y.y, z.y, at.at.y, x.z, y.z, z.z, at.at.z, 0, 0, 0, 1};
+        values.assign(rows.data(), rows.data() + rows.size());
         break;
       case 6:
         values = {1};

@@ -6,9 +6,8 @@
 
 namespace programs {
 
-using sim::Vec3;
 using wbt::Affine;
-using wbt::operator*;
+using wbt::Vec3;
 
 namespace {
 
@@ -287,46 +286,29 @@ Affine Tree::local(int id) const {
   if (!n.find("translation") && !n.find("rotation")) return {};
   const std::vector<double> t = n.numbers("translation", {0, 0, 0}), r = n.numbers("rotation", {0, 0, 1, 0});
   Affine own = wbt::turned({r[0], r[1], r[2]}, r[3]);
-  own.at = {t[0], t[1], t[2]};
+  own.translation() = Vec3(t[0], t[1], t[2]);
   if (n.base == "Transform") {
     const std::vector<double> s = n.numbers("scale", {1, 1, 1});
-    own.axes = {s[0] * own.axes[0], s[1] * own.axes[1], s[2] * own.axes[2]};
+    own.scale(Vec3(s[0], s[1], s[2]));
   }
   return own;
 }
 
 std::vector<double> axis_angle(const Affine& frame, bool nue) {
-  const auto& [x, y, z] = frame.axes;
+  const auto& m = frame.matrix();
   // the usual case first: about what is up
-  const Vec3 up = nue ? y : z;
-  if ((nue ? up.y : up.z) > 1 - 1e-12)
-    return nue ? std::vector<double>{0, 1, 0, std::atan2(z.x, z.z)}
-               : std::vector<double>{0, 0, 1, std::atan2(x.y, x.x)};
-  const double c = std::clamp((x.x + y.y + z.z - 1) / 2, -1.0, 1.0), angle = std::acos(c);
-  Vec3 axis{y.z - z.y, z.x - x.z, x.y - y.x};
-  if (wbt::length(axis) < 1e-9) {  // half a turn: the axis is what stays
-    if (c > 0) return nue ? std::vector<double>{0, 1, 0, 0} : std::vector<double>{0, 0, 1, 0};
-    const Vec3 by_x{x.x + 1, x.y, x.z}, by_y{y.x, y.y + 1, y.z}, by_z{z.x, z.y, z.z + 1};
-    axis = by_x;
-    if (wbt::length(by_y) > wbt::length(axis)) axis = by_y;
-    if (wbt::length(by_z) > wbt::length(axis)) axis = by_z;
-  }
-  const double n = wbt::length(axis);
-  return {axis.x / n, axis.y / n, axis.z / n, angle};
+  const int up = nue ? 1 : 2;
+  if (m(up, up) > 1 - 1e-12)
+    return nue ? std::vector<double>{0, 1, 0, std::atan2(m(0, 2), m(2, 2))}
+               : std::vector<double>{0, 0, 1, std::atan2(m(1, 0), m(0, 0))};
+  const Eigen::AngleAxisd turn(frame.linear());
+  return {turn.axis().x(), turn.axis().y(), turn.axis().z(), turn.angle()};
 }
 
 Affine rigid(const Affine& frame) {
   Affine out = frame;
-  for (Vec3& axis : out.axes)
-    if (const double n = wbt::length(axis); n > 1e-12) axis = (1 / n) * axis;
-  return out;
-}
-
-Affine inverse(const Affine& frame) {
-  const auto& [x, y, z] = frame.axes;
-  Affine out;
-  out.axes = {Vec3{x.x, y.x, z.x}, Vec3{x.y, y.y, z.y}, Vec3{x.z, y.z, z.z}};
-  out.at = -1.0 * out.turn(frame.at);
+  for (int i = 0; i < 3; ++i)
+    if (const double n = out.linear().col(i).norm(); n > 1e-12) out.linear().col(i) /= n;
   return out;
 }
 

@@ -99,7 +99,5 @@ class Tree {
 std::vector<double> axis_angle(const wbt::Affine& frame, bool nue);
 /// Without scale.
 wbt::Affine rigid(const wbt::Affine& frame);
-/// Of a rigid one.
-wbt::Affine inverse(const wbt::Affine& frame);
 
 }  // namespace programs

@@ -48,7 +48,7 @@ std::vector<SectionSpec> sound_sections() {
               return std::string();
             })},
            {"file", ValueType::Text, "", 0, 0, "", "",
-            "WAV file of 8 or 16 bits, mono or stereo (averaged); relative to this file",
+            "WAV file, mono or stereo (averaged); relative to this file",
             into<S>([](S& s, const Value& v) { s.file = v.text; })},
            {"loop", ValueType::Flag, "", 0, 0, "", "true", "false: the file is played once",
             into<S>([](S& s, const Value& v) { s.loop = v.flag; })},

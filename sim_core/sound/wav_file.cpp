@@ -1,7 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "sim_core/sound/wav_file.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sndfile.h>
+
 #include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <memory>
 
 #include "sim_core/base/input_file.h"
 
@@ -9,75 +18,74 @@ namespace sim {
 namespace {
 
 constexpr std::size_t kLongestFile = 64u << 20;  // bytes: twelve minutes at 44.1 kHz, 16 bits, mono
-constexpr std::uint32_t kLowestRateHz = 1000;
-constexpr std::uint32_t kHighestRateHz = 192000;
+constexpr std::size_t kMostRead = 64u << 20;     // samples: a short file may be long when it is unpacked
+constexpr int kLowestRateHz = 1000;
+constexpr int kHighestRateHz = 192000;
+constexpr std::int64_t kMostWritten = (INT64_C(1) << 31) - 64;  // sizes in the header have 32 bits
 
-std::uint32_t little(std::string_view bytes, std::size_t at, int count) {
-  std::uint32_t value = 0;
-  for (int i = count - 1; i >= 0; --i)
-    value = value << 8 | static_cast<std::uint8_t>(bytes[at + static_cast<std::size_t>(i)]);
-  return value;
-}
+/// A file in memory, as libsndfile asks for it.
+struct Memory {
+  std::string_view bytes;
+  sf_count_t at = 0;
 
-void put(std::string& out, std::uint32_t value, int count) {
-  for (int i = 0; i < count; ++i) out += static_cast<char>(value >> (8 * i) & 0xFF);
+  static Memory& of(void* user) { return *static_cast<Memory*>(user); }
+  static sf_count_t length(void* user) { return static_cast<sf_count_t>(of(user).bytes.size()); }
+  static sf_count_t tell(void* user) { return of(user).at; }
+  static sf_count_t seek(sf_count_t offset, int from, void* user) {
+    const sf_count_t base = from == SEEK_SET ? 0 : from == SEEK_CUR ? of(user).at : length(user);
+    return of(user).at = std::clamp<sf_count_t>(base + offset, 0, length(user));
+  }
+  static sf_count_t read(void* to, sf_count_t count, void* user) {
+    count = std::clamp<sf_count_t>(count, 0, length(user) - of(user).at);
+    std::memcpy(to, of(user).bytes.data() + of(user).at, static_cast<std::size_t>(count));
+    of(user).at += count;
+    return count;
+  }
+};
+
+/// The system's reason, where it has one, says more than libsndfile's.
+std::string refused(const std::string& path, SNDFILE* file) {
+  return fmt::format("{}: cannot be written: {}", path, errno ? std::strerror(errno) : sf_strerror(file));
 }
 
 }  // namespace
 
 std::string parse_wav(std::string_view bytes, WavSound& out) {
+  // libsndfile reads other formats, too, by what it finds
   if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
     return "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"";
-  // Chunks: the format, and the first one with samples; all others are passed over.
-  std::uint32_t channels = 0, bits = 0, rate = 0;
-  std::string_view data;
-  bool has_data = false;
-  for (std::size_t at = 12; at + 8 <= bytes.size();) {
-    const std::string_view name = bytes.substr(at, 4);
-    const std::size_t said = little(bytes, at + 4, 4);
-    const std::size_t begin = at + 8;
-    // a file that was cut off, or that is still being written, gives what is there
-    const std::size_t length = std::min(said, bytes.size() - begin);
-    if (name == "fmt ") {
-      if (length < 16) return "got a short \"fmt \" chunk, expected at least 16 bytes";
-      const std::uint32_t format = little(bytes, begin, 2);
-      if (format != 1)
-        return "got samples of format " + std::to_string(format) + ", expected 1 (uncompressed)";
-      channels = little(bytes, begin + 2, 2);
-      rate = little(bytes, begin + 4, 4);
-      bits = little(bytes, begin + 14, 2);
-    } else if (name == "data" && !has_data) {
-      data = bytes.substr(begin, length);
-      has_data = true;
-    }
-    if (said > bytes.size() - begin) break;
-    at = begin + said + (said & 1);
-  }
-  // Is the format one that we know?
-  if (channels == 0 && bits == 0) return "got no \"fmt \" chunk, expected one before the samples";
-  if (channels != 1 && channels != 2) return "got " + std::to_string(channels) + " channels, expected 1 or 2";
-  if (bits != 8 && bits != 16) return "got " + std::to_string(bits) + " bits a sample, expected 8 or 16";
-  if (rate < kLowestRateHz || rate > kHighestRateHz)
-    return "got " + std::to_string(rate) + " samples a second, expected " + std::to_string(kLowestRateHz) +
-           " to " + std::to_string(kHighestRateHz);
-  const std::size_t frame = channels * bits / 8;
-  if (!has_data || data.size() < frame) return "got no samples, expected a \"data\" chunk with at least one";
+  // it would decode MPEG, too, by a library that writes to the terminal
+  if (const std::size_t format = bytes.find("fmt "); format < bytes.size() - 9 && bytes[format + 9] == 0)
+    if (const char number = bytes[format + 8]; number == 0x50 || number == 0x55)
+      return "got samples in MPEG, expected a WAV file of another format";
+  SF_VIRTUAL_IO access{Memory::length, Memory::seek, Memory::read, nullptr, Memory::tell};
+  Memory memory{bytes};
+  SF_INFO info{};
+  const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open_virtual(&access, SFM_READ, &info, &memory),
+                                                         sf_close);
+  if (!file)
+    return fmt::format("got a WAV file that cannot be read ({}), expected a whole one", sf_strerror(nullptr));
+  if (info.channels != 1 && info.channels != 2)
+    return fmt::format("got {} channels, expected 1 or 2", info.channels);
+  if (info.samplerate < kLowestRateHz || info.samplerate > kHighestRateHz)
+    return fmt::format("got {} samples a second, expected {} to {}", info.samplerate, kLowestRateHz,
+                       kHighestRateHz);
 
-  // Samples from -1 to 1, the mean of both channels.
-  out.rate_hz = rate;
+  // Samples from -1 to 1, the mean of both channels. Numbers with a point may be larger, or none.
+  out.rate_hz = info.samplerate;
   out.samples.clear();
-  out.samples.reserve(data.size() / frame);
-  for (std::size_t at = 0; at + frame <= data.size(); at += frame) {
-    double sum = 0;
-    for (std::uint32_t c = 0; c < channels; ++c) {
-      const std::size_t place = at + c * bits / 8;
-      // 8 bits count from 0 with silence at 128; 16 bits are signed
-      sum += bits == 8 ? (little(data, place, 1) - 128.0) / 128.0
-                       : static_cast<std::int16_t>(little(data, place, 2)) / 32768.0;
+  std::array<double, 4096> block;
+  while (const sf_count_t frames = sf_readf_double(file.get(), block.data(),
+                                                   static_cast<sf_count_t>(block.size()) / info.channels)) {
+    if (out.samples.size() + static_cast<std::size_t>(frames) > kMostRead)
+      return fmt::format("got more samples than {}, expected a shorter sound", kMostRead);
+    for (sf_count_t i = 0; i < frames; ++i) {
+      const double* const frame = block.data() + i * info.channels;
+      const double mean = info.channels == 1 ? frame[0] : (frame[0] + frame[1]) / 2;
+      out.samples.push_back(std::isnan(mean) ? 0 : static_cast<float>(std::clamp(mean, -1.0, 1.0)));
     }
-    out.samples.push_back(static_cast<float>(sum / channels));
   }
-  return {};
+  return out.samples.empty() ? "got no samples, expected a \"data\" chunk with at least one" : "";
 }
 
 std::string read_wav(const std::string& path, WavSound& out) {
@@ -86,20 +94,38 @@ std::string read_wav(const std::string& path, WavSound& out) {
   return wrong.empty() ? parse_wav(text, out) : wrong;
 }
 
-std::string wav_header(int rate_hz, std::uint32_t samples) {
-  std::string out = "RIFF";
-  put(out, 36 + 2 * samples, 4);
-  out += "WAVEfmt ";
-  put(out, 16, 4);
-  put(out, 1, 2);                                        // uncompressed
-  put(out, 1, 2);                                        // channels
-  put(out, static_cast<std::uint32_t>(rate_hz), 4);      // samples a second
-  put(out, static_cast<std::uint32_t>(2 * rate_hz), 4);  // bytes a second
-  put(out, 2, 2);                                        // bytes of all channels
-  put(out, 16, 2);                                       // bits
-  out += "data";
-  put(out, 2 * samples, 4);
-  return out;
+WavRecorder::WavRecorder(std::string path, int rate_hz) : path_(std::move(path)) {
+  errno = 0;
+  const int opened = ::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  SF_INFO info{};
+  info.samplerate = rate_hz;
+  info.channels = 1;
+  info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
+  if (opened >= 0) file_ = sf_open_fd(opened, SFM_WRITE, &info, SF_TRUE);
+  if (!file_) {
+    error_ = refused(path_, nullptr);
+    return;
+  }
+  // the header is there at once, and is written anew behind all samples
+  sf_command(file_, SFC_UPDATE_HEADER_NOW, nullptr, 0);
+  sf_command(file_, SFC_SET_UPDATE_HEADER_AUTO, nullptr, SF_TRUE);
+}
+
+WavRecorder::~WavRecorder() {
+  if (file_) sf_close(file_);
+}
+
+bool WavRecorder::append(const std::vector<std::int16_t>& samples) {
+  if (!is_good() || samples.empty()) return is_good();
+  const auto count = static_cast<sf_count_t>(samples.size());
+  samples_ += count;
+  errno = 0;
+  if (samples_ > kMostWritten)
+    error_ =
+        fmt::format("{}: got more samples than a WAV file holds, expected at most {}", path_, kMostWritten);
+  else if (sf_write_short(file_, samples.data(), count) != count)
+    error_ = refused(path_, file_);
+  return is_good();
 }
 
 }  // namespace sim

@@ -117,6 +117,36 @@ TEST(mplab_project, an_archive_of_another_project_is_made_of_its_files) {
   }
 }
 
+// a file that was cut off is told, by line; what it lists before that is taken
+TEST(mplab_project, a_project_that_breaks_off_is_told) {
+  Folder folder;
+  folder.file("prog/main.c", "int main(void) { return 0; }");
+  folder.file("prog/a & b.c", "int part(void) { return 1; }");
+  const std::string file = "prog/robot.X/nbproject/configurations.xml";
+  const std::string whole =
+      "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<configurationDescriptor version=\"65\">\n"
+      "  <!-- <itemPath>../gone.c</itemPath> -->\n  <itemPath>../main.c</itemPath>\n"
+      "  <itemPath>../a &amp; b.c</itemPath>\n  <confs><conf name=\"x\">";
+  for (const bool is_whole : {true, false}) {
+    folder.file(file, whole + (is_whole ? "</conf></confs></configurationDescriptor>" : "<C30><prop"));
+    std::string told;
+    const auto project = cc::find_mplab_project(folder.path / "prog", told);
+    ASSERT_TRUE(project);
+    EXPECT_EQ(project->sources.size(), 2u);
+    EXPECT_EQ(project->missing, 0);
+    EXPECT_EQ(told, is_whole ? ""
+                             : (folder.path / file).string() +
+                                   ":6: got XML that breaks off (Error parsing start element tag), expected "
+                                   "all that MPLAB X writes; what comes before is taken");
+  }
+  // elements within elements, more than a stack would hold
+  std::string deep;
+  for (int i = 0; i < 300'000; ++i) deep += "<C30>";
+  folder.file(file, whole + deep);
+  std::string told;
+  EXPECT_TRUE(cc::find_mplab_project(folder.path / "prog", told));
+}
+
 // XC16 without -O is gcc's -O0; the chip alone is built so, and --opt wins
 TEST(mplab_project, a_projects_optimisation_level_is_the_chips) {
   const auto mplab_x = [](const std::string& settings) {
