@@ -83,6 +83,9 @@ test("a signal of bytes: two of the same without a pause are two", () => {
     [0x68, 0x6c, 0x6c, 0x6f, 0x6f],
   );
   assert.deepEqual(values(bytesOfValues(changes, undefined, 2)), [0x68, 0x6c, 0x6f]);
+  // cut off in the middle of the last one: the others are no longer for that
+  const cut = 1 + 3 * t + t / 50;
+  assert.deepEqual(values(bytesOfValues(changes, busy.slice(0, -1), cut)), [0x68, 0x6c, 0x6c, 0x6f]);
 });
 
 test("duty and period of a PWM", () => {

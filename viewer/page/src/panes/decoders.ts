@@ -104,11 +104,13 @@ export function bytesOfValues(changes: readonly Change[], busy: readonly Change[
     }
     if (on && (begins || is)) put(at, value);
   }
-  return repeated(out);
+  return repeated(out, edges[0]?.at, until);
 }
-/** A byte that is sent twice without a pause is one value for twice as long. */
-function repeated(bytes: Byte[]): Byte[] {
-  const shortest = bytes.reduce((least, b) => (b.to > b.from ? Math.min(least, b.to - b.from) : least), Infinity);
+/** A byte that is sent twice without a pause is one value for twice as long. What is seen in part, at the beginning or
+ * at the end, does not say how long one takes. */
+function repeated(bytes: Byte[], since: number, until: number): Byte[] {
+  const isWhole = (b: Byte) => b.to > b.from && b.from > since && b.to < until;
+  const shortest = bytes.reduce((least, b) => (isWhole(b) ? Math.min(least, b.to - b.from) : least), Infinity);
   return bytes.flatMap((b) => {
     const count = Math.max(1, Math.round((b.to - b.from) / shortest)) || 1,
       each = (b.to - b.from) / count;

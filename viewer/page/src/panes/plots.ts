@@ -39,6 +39,8 @@ export function nearest(times: readonly number[], time: number): number {
 export class Plots {
   readonly pane: HTMLElement;
   names: string[] = [];
+  /** Those, and what is asked for. */
+  private asked: string[] = [];
   private times: number[] = [];
   private series: (number | null)[][] = [];
   private gaps: number[] = [];
@@ -94,7 +96,7 @@ export class Plots {
       this.area,
     );
     new ResizeObserver(() => this.chart?.setSize(this.size())).observe(this.area);
-    store.wanted.push(() => this.names);
+    store.wanted.push(() => this.asked);
     store.on("plot", (name) => void this.toggle(name));
     store.on("sample", (time) =>
       this.sample(
@@ -118,16 +120,19 @@ export class Plots {
     return { width: Math.max(200, this.area.clientWidth), height: Math.max(80, this.area.clientHeight - 4) };
   }
   async toggle(name: string) {
-    const before = this.names;
-    this.names = before.includes(name) ? before.filter((n) => n !== name) : [...before, name].slice(-kPalette.length);
+    const before = this.asked;
+    const asked = before.includes(name) ? before.filter((n) => n !== name) : [...before, name].slice(-kPalette.length);
+    this.asked = asked;
     try {
       await this.client.subscribe();
     } catch (e) {
-      this.names = before;
+      this.asked = this.asked.filter((n) => n !== name || before.includes(n));
       notice((e as Error).message, true);
-      this.client.subscribe();
+      this.client.subscribe().catch(() => {});
       return;
     }
+    // samples of what came before are told apart until here
+    this.names = asked;
     this.build();
     this.refill();
     this.store.tell("show", "plots");
