@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal_sim/board/specimen.h"
 #include "hal_sim/board/camera_params.h"
+#include "hal_sim/board/specimen.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/random/counter_random.h"
 

@@ -45,6 +45,8 @@ static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 
 Cycle scan_flash_cycles(int sensor) { return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor); }
 
+AdcScan::AdcScan(const AnalogueInputs& inputs) : ir_(inputs.ir()), inputs_(inputs) {}
+
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {
@@ -171,7 +173,7 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   const Cycle at = full_cycle(interrupt) - hold_to_end(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
-  return inputs_.ir().counts(sensor, at, lit_for);
+  return ir_.counts(sensor, at, lit_for);
 }
 
 void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
@@ -191,7 +193,7 @@ inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (sensor >= kRingSensors) return kept.counts;
   const Cycle held = kept.until - turn - kScanFileCycles - hold_to_end(sensor);
   kept.counts =
-      static_cast<std::int16_t>(inputs_.ir().counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
+      static_cast<std::int16_t>(ir_.counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
   return kept.counts;
 }
 
@@ -209,7 +211,7 @@ int AdcScan::read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample) {
 
 // in darkness, once there is a dark sample, the others are the same
 bool AdcScan::stays_dark(int sensor) const {
-  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && inputs_.ir().is_dark();
+  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && ir_.is_dark();
 }
 
 int AdcScan::dark(int sensor, Cycle at) {

@@ -27,7 +27,8 @@
 
 namespace board {
 class AnalogueInputs;
-}
+class IrCircuit;
+}  // namespace board
 
 namespace drivers {
 
@@ -37,7 +38,7 @@ Cycle scan_flash_cycles(int sensor);
 class AdcScan {
  public:
   /// `inputs`: what it samples; they outlive it.
-  explicit AdcScan(const board::AnalogueInputs& inputs) : inputs_(inputs) {}
+  explicit AdcScan(const board::AnalogueInputs& inputs);
 
   /// e_init_ad_scan(): converter and interrupt start. `five_pairs`: selector 10.
   void start(bool micro_only, bool five_pairs, Cycle at);
@@ -190,6 +191,7 @@ class AdcScan {
   void fill_acc(std::int64_t count);
 
   Samples lit_{};
+  const board::IrCircuit& ir_;
   const board::AnalogueInputs& inputs_;
   bool on_ = false;
   bool acc_used_ = false;

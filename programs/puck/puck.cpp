@@ -484,8 +484,8 @@ double Puck::proximity(int sensor, Cycle at) {
     counts = pair.dark - pair.lit;
   } else {
     // the scan has not come round yet, which a program of the robot would have waited for
-    counts =
-        board_.ir().counts(sensor, at, -1) - board_.ir().counts(sensor, at, drivers::scan_flash_cycles(sensor));
+    counts = board_.ir().counts(sensor, at, -1) -
+             board_.ir().counts(sensor, at, drivers::scan_flash_cycles(sensor));
   }
   return std::clamp(counts, 0, kFullScale);
 }

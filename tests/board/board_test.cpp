@@ -80,7 +80,7 @@ TEST(Pins, coils_written_directly_turn_the_wheels) {
   const unsigned pattern[4] = {0xA, 0x6, 0x5, 0x9};
   for (int n = 0; n <= 8; ++n)
     robot.pins().write('D', Register::Lat, static_cast<std::uint16_t>(pattern[n & 3] << 4 | pattern[-n & 3]),
-                     n * 15000);
+                       n * 15000);
   EXPECT_EQ(robot.motors().left_steps(kSecond), 8);
   EXPECT_EQ(robot.motors().right_steps(kSecond), 8);
   EXPECT_EQ(robot.pins().read('D', Register::Lat, kSecond), 0xA0 | 0xA);

@@ -58,6 +58,7 @@ TEST_F(Microphones, counts_follow_the_pressure_and_clip) {
 TEST_F(Microphones, sit_right_left_and_behind) {
   std::vector<sim::Vec3> asked;
   scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks) { return asked.push_back(at), 0.0; };
+  robot.look_at(&scene);
   for (int m = 0; m < 3; ++m) robot.ears().counts(m, 0);
   EXPECT_LT(asked[0].y, -0.03);
   EXPECT_GT(asked[1].y, 0.03);
@@ -87,6 +88,7 @@ TEST_F(Microphones, noise_has_its_size_and_is_the_robots_own) {
 TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   std::vector<sim::Clicks> held;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return held.push_back(at), 0.0; };
+  robot.look_at(&scene);
   now = 5000;
   robot.scan().start(false, false, now);
   const auto calls = scan_times::calls(5000, 65);
@@ -131,6 +133,7 @@ TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
 
 TEST_F(Microphones, single_conversions_hear_now) {
   scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks when) { return when == 777 && at.y > 0 ? 2.0 : 0.0; };
+  robot.look_at(&scene);
   now = 777;
   EXPECT_EQ(robot.convert(2, now), 2048);
   EXPECT_EQ(robot.convert(3, now), 2245);  // left: 2048 + 197.1
@@ -195,7 +198,8 @@ TEST_F(Speaker, without_power_or_registers_it_is_silent) {
   driver.play(0, 2112, now);
   for (Cycle c = 0; c < 100000; c += 1000) EXPECT_EQ(codec.output(c), 0);
   EXPECT_FALSE(codec.has_news());
-  robot.pins().write_bit('F', 0, true, now);  // an input after reset: nothing happens before the direction is set
+  robot.pins().write_bit('F', 0, true,
+                         now);  // an input after reset: nothing happens before the direction is set
   codec.configure();
   driver.play(0, 2112, now);
   EXPECT_FALSE(codec.has_news());
