@@ -147,8 +147,8 @@ SensorReport report_sensor(twin::Twin& twin, const std::string& world_file, int 
   r.offset_counts = board.setup().ir_offset_counts[static_cast<std::size_t>(sensor)];
   const board::Cycle flash = drivers::scan_flash_cycles(sensor);
   r.flash_us = 1e6 * static_cast<double>(flash) / static_cast<double>(board::kFcyHz);
-  r.dark_made_of = board.ir_conversion(sensor, cycle, -1);
-  r.lit_made_of = board.ir_conversion(sensor, cycle, flash);
+  r.dark_made_of = board.ir().conversion(sensor, cycle, -1);
+  r.lit_made_of = board.ir().conversion(sensor, cycle, flash);
   const auto sample = [](double level) { return Sample{volts(level), board::adc_counts(level)}; };
   r.dark = sample(r.dark_made_of.counts());
   r.lit = sample(r.lit_made_of.counts());

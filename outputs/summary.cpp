@@ -86,7 +86,7 @@ Summary summarise(const twin::Twin& twin, double wall_s) {
     r.left_steps = report.left_steps;
     r.right_steps = report.right_steps;
     r.cycles = mind.now();
-    const auto& battery = mind.board().battery();
+    const auto& battery = mind.board().power().battery();
     r.battery_v = battery.voltage(mind.now());
     r.battery_used_wh = battery.used_wh(mind.now());
     r.battery_minutes = battery.minutes_left(mind.now());

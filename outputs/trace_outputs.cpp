@@ -211,7 +211,7 @@ void TraceOutputs::write_counters(sim::Clicks now) {
                        static_cast<double>(board.uart(1).sent() + board.uart(2).sent()));
     timeline_->counter(t.robot, now, "UART bytes received", "bytes",
                        static_cast<double>(t.trace->received()));
-    timeline_->counter(t.robot, now, "battery", "V", board.battery().voltage(mind.now()));
+    timeline_->counter(t.robot, now, "battery", "V", board.power().battery().voltage(mind.now()));
   }
 }
 

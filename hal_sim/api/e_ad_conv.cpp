@@ -33,7 +33,7 @@ HostResult HostLibrary::e_init_ad_scan(const Call& call) {
                                            : (five_pairs ? c.scan_all_gumstix : c.scan_all));
     follow_ticks(call.at);
     scan().start(micro_only, five_pairs, on);
-    board_.follow_power(on);
+    board_.pins().follow(on);
     changed(call);
     if (micro_only) return HostResult::done(on - call.at + c.scan_micro_return);
     if (const Cycle full = scan().first_fill(on); full > on) return HostResult::waits(full);
@@ -66,7 +66,7 @@ HostResult HostLibrary::e_ad_is_acquisition_completed(const Call& call) {
 HostResult HostLibrary::e_ad_scan_on(const Call& call) {
   effect(call);
   scan().switch_converter(true, call.at);
-  board_.follow_power(call.at);
+  board_.pins().follow(call.at);
   changed(call);
   return HostResult::done(cycles_.scan_on);
 }
@@ -74,7 +74,7 @@ HostResult HostLibrary::e_ad_scan_on(const Call& call) {
 HostResult HostLibrary::e_ad_scan_off(const Call& call) {
   effect(call);
   scan().switch_converter(false, call.at);
-  board_.follow_power(call.at);
+  board_.pins().follow(call.at);
   changed(call);
   return HostResult::done(cycles_.scan_off);
 }

@@ -50,7 +50,7 @@ HostResult HostLibrary::e_start_agendas_processing(const Call& call) {
   cpu.write16(kIec0, cpu.read16(kIec0) | kTickBit);
   const Cycle on = call.at + cycles_.agendas_start - kReturnCycles;
   agendas().start(on);
-  board_.follow_motors(on);
+  board_.pins().follow_motors(on);
   changed(call);
   return HostResult::done(cycles_.agendas_start);
 }
@@ -58,7 +58,7 @@ HostResult HostLibrary::e_start_agendas_processing(const Call& call) {
 HostResult HostLibrary::e_end_agendas_processing(const Call& call) {
   effect(call);
   agendas().stop(call.at);
-  board_.follow_motors(call.at);
+  board_.pins().follow_motors(call.at);
   changed(call);
   return HostResult::done(cycles_.agendas_stop);
 }
@@ -87,7 +87,7 @@ Cycle HostLibrary::activate(const Call& call, Function function, std::uint16_t c
 HostResult HostLibrary::e_activate_agenda(const Call& call) {
   effect(call);
   const Cycle cost = activate(call, function_at(call.cpu, call.word(0)), call.word(1), call.at);
-  board_.follow_motors(call.at);
+  board_.pins().follow_motors(call.at);
   changed(call);
   call.give(kDone);
   return HostResult::done(cost);
@@ -110,7 +110,7 @@ HostResult HostLibrary::e_destroy_agenda(const Call& call) {
     heap_.give_back(function);
   }
   const int result = agendas().destroy(function, call.at);
-  board_.follow_motors(call.at);
+  board_.pins().follow_motors(call.at);
   changed(call);
   call.give(result);
   return HostResult::done(cost);
@@ -123,7 +123,7 @@ HostResult HostLibrary::change_found(const Call& call, Cycle cost, Change change
   const Function function = function_at(call.cpu, call.word(0));
   const Cycle then = call.at + cost - kReturnCycles;
   const int result = change(function, then);
-  if (result != kNotFound) board_.follow_motors(then);
+  if (result != kNotFound) board_.pins().follow_motors(then);
   changed(call);
   call.give(result);
   return HostResult::done(cost);

@@ -33,7 +33,7 @@ Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
   cost += cost_of_set_cycle(key_of(run_of(wheel)));
   const Cycle then = at + cost - 2 * kReturnCycles;
   agendas().set_speed(wheel, speed, at + kReturnCycles, then);
-  board_.follow_motor(wheel, then);
+  board_.pins().follow_motor(wheel, then);
   return cost;
 }
 
@@ -74,7 +74,7 @@ HostResult HostLibrary::e_init_motors(const Call& call) {
   Cycle cost = cycles_.init_motors;
   for (Wheel wheel : {Wheel::Left, Wheel::Right})
     cost += activate(call, key_of(run_of(wheel)), 0, call.at + cost);
-  board_.follow_motors(call.at + cost);
+  board_.pins().follow_motors(call.at + cost);
   changed(call);
   return HostResult::done(cost);
 }
@@ -139,7 +139,7 @@ HostResult HostLibrary::run_motor(const Call& call, Wheel wheel) {
     cost = choose(c.run_left_forward_step, c.run_left_backward_step, c.run_right_forward_step,
                   c.run_right_backward_step);
   const bool fine = agendas().run_motor(wheel, call.at);
-  board_.follow_motor(wheel, call.at);
+  board_.pins().follow_motor(wheel, call.at);
   changed(call);
   if (!fine) {
     call.cpu.trap(dspic::Trap::MathError);

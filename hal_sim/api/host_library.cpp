@@ -122,7 +122,7 @@ void HostLibrary::reset(Cycle at) {
 
 void HostLibrary::begin_anew(Cycle at) {
   agendas().forget(at);
-  board_.follow_motors(at);
+  board_.pins().follow_motors(at);
   heap_ = {};
   zero_steps_ = {};
   note(3, at);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal_sim/board/board.h"
+#include "hal_sim/board/specimen.h"
 #include "sim_core/base/portable_math.h"
 #include "sim_core/world/true_motion.h"
 
@@ -27,13 +27,13 @@ sim::Vec3 plus(const sim::Vec3& a, double k, const sim::Vec3& b) {
 double time_constant_s(double pole_hz) { return 1 / (sim::kTwoPi * pole_hz); }
 
 /// The newest instant whose motion is known whenever a sample of `at` may be worked out.
-sim::Clicks known(const Board& robot, Cycle at) {
+sim::Clicks known(const Specimen& robot, Cycle at) {
   return robot.clock().click_at(at) - sim::motion_lag(*robot.scene());
 }
 
 }  // namespace
 
-sim::Vec3 felt_force_m_s2(const Board& robot, Cycle at, double pole_hz) {
+sim::Vec3 felt_force_m_s2(const Specimen& robot, Cycle at, double pole_hz) {
   sim::Vec3 f{0, 0, kStandardGravityMS2};
   if (robot.scene()) {
     f = {};
@@ -47,7 +47,7 @@ sim::Vec3 felt_force_m_s2(const Board& robot, Cycle at, double pole_hz) {
   return {f.x + offset[0], f.y + offset[1], f.z + offset[2]};
 }
 
-sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz) {
+sim::Vec3 felt_turn_rad_s(const Specimen& robot, Cycle at, double pole_hz) {
   sim::Vec3 w;
   if (robot.scene()) {
     // rates are means over a tick, so the filter is a sum over ticks, and turning in jerks
@@ -65,7 +65,7 @@ sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz) {
   return {w.x + offset[0], w.y + offset[1], w.z + offset[2]};
 }
 
-static int sound_accelerometer_counts(const Board& robot, int axis, Cycle at) {
+static int sound_accelerometer_counts(const Specimen& robot, int axis, Cycle at) {
   const double pole_hz = axis == 2 ? kAccPoleZHz : kAccPoleXyHz;
   const sim::Vec3 f = felt_force_m_s2(robot, at, pole_hz);
   double g = (axis == 0 ? f.y : axis == 1 ? f.x : f.z) / kStandardGravityMS2;
@@ -79,13 +79,24 @@ static int sound_accelerometer_counts(const Board& robot, int axis, Cycle at) {
   return static_cast<int>(std::clamp(std::floor(output + 0.5), 0.0, double{kAdcMax}));
 }
 
-int accelerometer_counts(const Board& robot, int axis, Cycle at) {
+int accelerometer_counts(const Specimen& robot, int axis, Cycle at) {
   const int counts = sound_accelerometer_counts(robot, axis, at);
   const Damage* const damage = robot.damage();
   if (!damage || damage->acc_stuck.at(at) == 0) return counts;
   const int stuck = damage->acc_counts[static_cast<std::size_t>(axis)];
   if (stuck != counts) damage->note(damage->acc_stood_still, at);
   return stuck;
+}
+
+void stick_accelerometer(Specimen& robot, bool is, Cycle at) {
+  Damage& d = robot.be_damaged();
+  if (is && d.acc_stuck.now() == 0) {
+    const Unseen unseen(&d);
+    for (int axis = 0; axis < 3; ++axis)
+      d.acc_counts[static_cast<std::size_t>(axis)] = accelerometer_counts(robot, axis, at);
+    d.acc_since = at;
+  }
+  d.acc_stuck.set(is ? 1 : 0, at);
 }
 
 }  // namespace board

@@ -15,15 +15,17 @@
 
 namespace board {
 
-class Board;
+class Specimen;
 
 /// Specific force in the robot's frame (m/s2) after a filter with one pole, as a sensor feels it at `at`;
 /// (0, 0, 9.81) without a scene. Offsets of the robot's variation included.
-sim::Vec3 felt_force_m_s2(const Board& robot, Cycle at, double pole_hz);
+sim::Vec3 felt_force_m_s2(const Specimen& robot, Cycle at, double pole_hz);
 /// Angular rate about the robot's axes (rad/s), the same way; zero without a scene.
-sim::Vec3 felt_turn_rad_s(const Board& robot, Cycle at, double pole_hz);
+sim::Vec3 felt_turn_rad_s(const Specimen& robot, Cycle at, double pole_hz);
 
 /// One conversion of axis 0 x, 1 y, 2 z, held at `at`, counts 0 to 4095.
-int accelerometer_counts(const Board& robot, int axis, Cycle at);
+int accelerometer_counts(const Specimen& robot, int axis, Cycle at);
+/// The outputs stand still from `at` on (before revision 1.3 at the counts they have then), or do no longer.
+void stick_accelerometer(Specimen& robot, bool is, Cycle at);
 
 }  // namespace board

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal_sim/board/board.h"
 #include "hal_sim/board/camera_params.h"
+#include "hal_sim/board/specimen.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/random/counter_random.h"
 
@@ -33,8 +33,8 @@ double light_of_count(const SensorSetup& s, double count) {
 
 }  // namespace
 
-Camera::Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise)
-    : board_(board), sensor_(sensor), mount_(mount), noise_(noise), exposure_s_(kStartExposureS) {}
+Camera::Camera(const Specimen& robot, CameraSensor& sensor, CameraMount mount, double noise)
+    : robot_(robot), sensor_(sensor), mount_(mount), noise_(noise), exposure_s_(kStartExposureS) {}
 
 // --- frames
 
@@ -62,7 +62,7 @@ Cycle Camera::await_frame(Cycle at) {
   first_use.note();
   rendered_ = 0;
   picture_.clear();
-  if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
+  if (const sim::Scene* scene = robot_.scene()) sim::watch_leds(*scene);
   const Cycle frame = frame_cycles();
   return frame_start_ + ((at - frame_start_) / frame + 1) * frame;
 }
@@ -149,9 +149,9 @@ std::array<double, 4> Camera::edges(const Part& part) const {
 /// Light at places of the array (x along a line, y down the lines), as seen through mirrors, mount and lens.
 /// The result is light_[j * x.size() + i], or light_[i * y.size() + j] when transposed_.
 void Camera::render(const std::vector<double>& x, const std::vector<double>& y, Cycle at) {
-  const sim::Scene* scene = board_.scene();
+  const sim::Scene* scene = robot_.scene();
   transposed_ = mount_ == CameraMount::Sideways;
-  const Damage* const damage = board_.damage();
+  const Damage* const damage = robot_.damage();
   const bool is_covered = damage && damage->lens_covered.at(at) != 0;
   if (is_covered) damage->note(damage->saw_dark, at);
   if (!scene || is_covered) {
@@ -169,7 +169,7 @@ void Camera::render(const std::vector<double>& x, const std::vector<double>& y, 
     for (double column : x) right_.push_back((column - 0.5 * kArrayWidth) * along);
     for (double row : y) up_.push_back(-(row - 0.5 * kArrayHeight) * down);
   }
-  sim::render_camera(*scene, board_.setup().robot, {kCameraXM, 0, kCameraZM}, board_.clock().click_at(at),
+  sim::render_camera(*scene, robot_.setup().robot, {kCameraXM, 0, kCameraZM}, robot_.clock().click_at(at),
                      right_, up_, light_);
 }
 
@@ -247,7 +247,7 @@ std::array<std::uint8_t, 3> Camera::develop(const sim::Light& light, std::uint64
   const double in[3] = {light.r * scale_[0], light.g * scale_[1], light.b * scale_[2]};
   std::array<std::uint8_t, 3> out{};
   const std::uint64_t bits =
-      noise_ > 0 ? sim::random_bits({board_.setup().seed, 0, kCameraStream}, pixel) : 0;
+      noise_ > 0 ? sim::random_bits({robot_.setup().seed, 0, kCameraStream}, pixel) : 0;
   std::uint64_t more = bits;
   for (std::size_t c = 0; c < 3; ++c) {
     double signal = in[c];
@@ -334,7 +334,7 @@ void Camera::sensor_reset(Cycle at) {
   exposure_s_ = kStartExposureS;
   ++exposed_;
   auto_red_ = auto_blue_ = 1;
-  if (const sim::Scene* scene = board_.scene()) sim::watch_leds(*scene);
+  if (const sim::Scene* scene = robot_.scene()) sim::watch_leds(*scene);
 }
 
 void Camera::begin_again(Cycle at) {

@@ -25,7 +25,7 @@
 
 namespace board {
 
-class Board;
+class Specimen;
 
 /// How the sensor sits in the robot; e_poxxxx_get_orientation() answers 1, 0, 2.
 enum class CameraMount {
@@ -56,7 +56,7 @@ class Camera {
   FirstUse first_use;
 
   /// `board` outlives the camera. The sensor belongs to the board's I2C bus.
-  Camera(Board& board, CameraSensor& sensor, CameraMount mount, double noise);
+  Camera(const Specimen& robot, CameraSensor& sensor, CameraMount mount, double noise);
 
   /// What somebody takes of a frame as it comes over the data pins.
   struct Cut {
@@ -128,7 +128,7 @@ class Camera {
   std::array<std::uint8_t, 3> develop(const sim::Light& light, std::uint64_t pixel) const;
   void render_rows(int first_row, Cycle at);
 
-  Board& board_;
+  const Specimen& robot_;
   CameraSensor& sensor_;
   CameraMount mount_;
   double noise_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Checks of the board: what a program does to motors, emitters and pins that no register knows to be
-// wrong. Counters are kept where things happen anyway (stepper.h, changes of pins); sentences are
+// wrong. Counters are kept where things happen anyway (stepper.h, ir_circuit.h); sentences are
 // made when asked for.
 #include <algorithm>
 #include <cstdarg>
@@ -33,30 +33,11 @@ void add(std::vector<Diagnosis>& all, const StepperFaults::Fault& fault, const c
 
 }  // namespace
 
-void Board::note_pulses(std::size_t port, std::uint16_t new_lat, std::uint16_t new_tris, Cycle at) {
-  if (!kEmitterMask[port]) return;
-  const unsigned before = lat_[port] & ~static_cast<unsigned>(tris_[port]);
-  const unsigned after = new_lat & ~static_cast<unsigned>(new_tris);
-  const std::size_t first = port == kF ? 0 : 2;
-  for (std::size_t line = first; line < first + 2; ++line) {
-    const unsigned bit = kEmitterPins[line].mask();
-    if (!((before ^ after) & bit)) continue;
-    if (after & bit) {
-      lit_since_[line] = at;
-      continue;
-    }
-    if (at - lit_since_[line] < kLongPulseCycles) continue;
-    LongPulse& p = long_pulses_[line];
-    if (p.count++ == 0) p.first = lit_since_[line];
-    p.longest = std::max(p.longest, at - lit_since_[line]);
-  }
-}
-
 std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   std::vector<Diagnosis> all;
   // What the motors did not follow.
   for (const Wheel wheel : {Wheel::Left, Wheel::Right}) {
-    const StepperFaults faults = stepper_at(wheel, at).faults(at);
+    const StepperFaults faults = motors_.faults(wheel, at);
     const std::string pins = wheel == Wheel::Left ? "LATD0-3" : "LATD4-7";
     const char* motor = wheel == Wheel::Left ? "left motor" : "right motor";
     add(all, faults.jumps, "lost steps", pins,
@@ -76,17 +57,11 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
         "switch the four pins off while the motor rests");
   }
   // IR pulses: those that are over, and the one that goes on.
-  for (std::size_t line = 0; line < 4; ++line) {
-    LongPulse p = long_pulses_[line];
-    const std::size_t port = static_cast<std::size_t>(kEmitterPins[line].port);
-    const bool is_lit = lat_[port] & ~tris_[port] & kEmitterPins[line].mask();
-    if (is_lit && at - lit_since_[line] >= kLongPulseCycles) {
-      if (p.count++ == 0) p.first = lit_since_[line];
-      p.longest = std::max(p.longest, at - lit_since_[line]);
-    }
+  for (int line = 0; line < kEmitterLines; ++line) {
+    const IrCircuit::LongPulses p = ir_.long_pulses(line, at);
     if (p.count == 0) continue;
     all.push_back({"IR pulse too long", text("LAT%c%d", kEmitterPins[line].letter(), kEmitterPins[line].bit),
-                   text("pulse_IR%zu stays high for %.1f ms: its two IR emitters draw %.0f mA all the time",
+                   text("pulse_IR%d stays high for %.1f ms: its two IR emitters draw %.0f mA all the time",
                         line, ms(p.longest), 1000 * 2 * kIrEmitterA),
                    "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
   }

@@ -102,7 +102,7 @@ struct Damage {
   Cycle acc_since = 0;              ///< ... since then
   Noticed acc_stood_still;
 
-  std::uint32_t dead_leds = 0;  ///< bits as Board::leds(); those give no light and draw nothing
+  std::uint32_t dead_leds = 0;  ///< bits as Pins::leds(); those give no light and draw nothing
   Timed lens_covered;           ///< 1: no light reaches the camera
   Noticed saw_dark;
 
@@ -117,6 +117,22 @@ struct Damage {
   void note(const Noticed& what, Cycle at) const {
     if (unseen == 0) what.note(at);
   }
+};
+
+/// While one of these lives, somebody outside asks: what is wrong has not been noticed by the robot.
+class Unseen {
+ public:
+  explicit Unseen(const Damage* damage) : damage_(damage) {
+    if (damage_) ++damage_->unseen;
+  }
+  ~Unseen() {
+    if (damage_) --damage_->unseen;
+  }
+  Unseen(const Unseen&) = delete;
+  Unseen& operator=(const Unseen&) = delete;
+
+ private:
+  const Damage* damage_;
 };
 
 }  // namespace board

@@ -2,7 +2,7 @@
 // The e-puck's body, wheels and sensor places, as the world sees them, and what a world file may say
 // of an e-puck alone.
 #pragma once
-#include "hal_sim/board/board.h"
+#include "hal_sim/board/setup.h"
 #include "sim_core/world/robot_model.h"
 
 namespace board {

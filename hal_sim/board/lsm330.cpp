@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "hal_sim/board/accelerometer.h"
-#include "hal_sim/board/board.h"
+#include "hal_sim/board/specimen.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/random/counter_random.h"
 
@@ -39,7 +39,7 @@ constexpr double kDegPerRad = 57.29577951308232;
 
 }  // namespace
 
-Lsm330::Lsm330(const Board& robot) : robot_(robot) { begin_again(0); }
+Lsm330::Lsm330(const Specimen& robot) : robot_(robot) { begin_again(0); }
 
 void Lsm330::begin_again(Cycle at) {
   acc_ = gyro_ = Half{};

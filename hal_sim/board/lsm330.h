@@ -19,11 +19,11 @@
 
 namespace board {
 
-class Board;
+class Specimen;
 
 class Lsm330 final : public I2cDevice {
  public:
-  explicit Lsm330(const Board& robot);
+  explicit Lsm330(const Specimen& robot);
 
   bool answers_to(std::uint8_t address) const override;
   void begin(std::uint8_t address, bool reading, Cycle at) override;
@@ -53,7 +53,7 @@ class Lsm330 final : public I2cDevice {
   std::uint8_t data_byte(Half& half, int number, Cycle at);
   void set(Half& half, int number, std::uint8_t value, Cycle at);
 
-  const Board& robot_;
+  const Specimen& robot_;
   Half acc_, gyro_;
   Half* addressed_ = nullptr;
   bool expects_register_ = false;

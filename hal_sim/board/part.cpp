@@ -19,7 +19,7 @@ sim::Pose2 Part::pose(Cycle at) const {
   return scene ? scene->pose(board_->setup().robot, board_->clock().click_at(at)) : sim::Pose2{};
 }
 
-Cycle Part::since_begin(Cycle at) const { return at - board_->begun_at(); }
+Cycle Part::since_begin(Cycle at) const { return at - board_->noise().begun_at(); }
 
 sim::Vec2 Part::to_world(sim::Vec2 point_m, Cycle at) const {
   const sim::Pose2 p = pose(at);

@@ -55,7 +55,7 @@ class Part {
   virtual std::optional<double> analogue_v(int /*channel*/, Cycle /*at*/) const { return std::nullopt; }
 
   /// The processor wrote to a port at `at`: the place to note when a pin changed. Levels:
-  /// board().port_read().
+  /// board().pins().read().
   virtual void pins_changed(Cycle /*at*/) {}
 
   /// The processor was reset. Parts have power of their own, so the default does nothing.

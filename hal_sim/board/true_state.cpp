@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "hal_sim/board/board.h"
+#include "hal_sim/board/specimen.h"
 #include "sim_core/world/scene.h"
 #include "sim_core/world/true_motion.h"
 
@@ -16,15 +16,15 @@ sim::Vec3 to_nue_robot(const sim::Vec3& v) { return {-v.y, v.z, -v.x}; }
 
 }  // namespace
 
-TrueState true_state(const Board& board, Cycle at) {
+TrueState true_state(const Specimen& specimen, Cycle at) {
   TrueState out;
-  const sim::Scene* scene = board.scene();
+  const sim::Scene* scene = specimen.scene();
   if (!scene) return out;
-  const int robot = board.setup().robot;
-  const sim::Pose2 pose = scene->pose(robot, board.clock().click_at(at));
+  const int robot = specimen.setup().robot;
+  const sim::Pose2 pose = scene->pose(robot, specimen.clock().click_at(at));
   const sim::Stance stance = sim::stance(*scene, robot, scene->now());
   const sim::BodyState& state = scene->state(robot);
-  const bool nue = board.setup().webots.axes == sim::Axes::Nue;
+  const bool nue = specimen.setup().webots.axes == sim::Axes::Nue;
   const sim::Frame2 frame(pose);
   out.position_m = {pose.x_m, pose.y_m, stance.origin_m.z};
   out.velocity_m_s = {state.velocity_m_s.x, state.velocity_m_s.y, 0};

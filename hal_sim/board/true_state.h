@@ -7,7 +7,7 @@
 
 namespace board {
 
-class Board;
+class Specimen;
 
 /// In the axes that the world file chose ([webots] axes).
 struct TrueState {
@@ -19,6 +19,6 @@ struct TrueState {
 };
 
 /// At `at`; all zero where there is no world.
-TrueState true_state(const Board& board, Cycle at);
+TrueState true_state(const Specimen& robot, Cycle at);
 
 }  // namespace board

@@ -61,7 +61,41 @@ constexpr std::uint16_t mask(Port port, const Pins&... groups) {
   return static_cast<std::uint16_t>(bits);
 }
 
-inline constexpr std::uint16_t kEmitterMask[kPorts] = {
-    0, 0, 0, 0, mask(kF, kEmitterPins), mask(kG, kEmitterPins)};
+/// Who hangs on a port, pin by pin: the bits of each consumer. The first group is moved by the processor.
+struct PortWiring {
+  std::uint16_t implemented;
+  std::uint16_t leds, coils, emitters, codec_on, camera_reset, serial_out, i2c;
+  std::uint16_t serial_in, battery_good, remote, selector, camera;  ///< moved by the board
+  /// What e_init_port() makes outputs, at 0, and inputs; without port D.
+  constexpr std::uint16_t first_outputs() const {
+    return static_cast<std::uint16_t>(leds | emitters | codec_on | camera_reset | i2c);
+  }
+  constexpr std::uint16_t first_inputs() const {
+    return static_cast<std::uint16_t>(battery_good | remote | selector);
+  }
+};
+
+constexpr PortWiring wiring_of(Port port) {
+  constexpr std::uint16_t kImplemented[kPorts] = {0xF6C0, 0xFFFF, 0xE01E,
+                                                  0xFFFF, 0x01FF, 0xF3CF};  // [DS70143 3.2]
+  const std::uint16_t coils = port == kD ? kLeftCoils | kRightCoils : 0, data = port == kD ? kCameraData : 0;
+  return {kImplemented[port],
+          mask(port, kRingLedPins, kFrontLedPin, kBodyLedPin),
+          coils,
+          mask(port, kEmitterPins),
+          mask(port, kCodecOnPin),
+          mask(port, kCameraResetPin),
+          mask(port, kUartOutPins),
+          mask(port, kI2cPins),
+          mask(port, kUartInPins),
+          mask(port, kBatteryGoodPin),
+          mask(port, kRemotePin),
+          mask(port, kSelectorPins),
+          static_cast<std::uint16_t>(data | mask(port, kCameraHrefPin, kCameraVsyncPin, kCameraClockPin))};
+}
+
+/// The one table from pin to consumer.
+inline constexpr PortWiring kWiring[kPorts] = {wiring_of(kA), wiring_of(kB), wiring_of(kC),
+                                               wiring_of(kD), wiring_of(kF), wiring_of(kG)};
 
 }  // namespace board

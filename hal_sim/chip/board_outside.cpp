@@ -8,24 +8,22 @@
 
 #include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/sfr_table.h"
-#include "hal_sim/board/accelerometer.h"
 
 namespace chip {
 
 namespace {
 
 using board::Board;
+using board::Pins;
 using dspic::Port;
 using dspic::sfr;
 
 static_assert(board::kPorts == dspic::kPorts);  // both in the order of their letters
-constexpr std::uint16_t kSelector = mask(board::kG, board::kSelectorPins),
-                        kI2cLines = mask(board::kG, board::kI2cPins),
-                        kSerialIn = mask(board::kF, board::kUartInPins),
-                        kSerialOut = mask(board::kF, board::kUartOutPins),
-                        kBattery = board::kBatteryGoodPin.mask(), kRemote = board::kRemotePin.mask();
-constexpr std::uint16_t kCameraClocks =
-    mask(board::kC, board::kCameraHrefPin, board::kCameraVsyncPin, board::kCameraClockPin);
+// a serial line that nobody drives is high
+constexpr const board::PortWiring &kWiredC = board::kWiring[board::kC], &kWiredD = board::kWiring[board::kD],
+                                  &kWiredF = board::kWiring[board::kF], &kWiredG = board::kWiring[board::kG];
+constexpr std::uint16_t kGivenF = kWiredF.serial_in | kWiredF.battery_good | kWiredF.remote,
+                        kGivenG = kWiredG.selector | kWiredG.i2c;
 
 constexpr unsigned kDciCon3 = sfr("DCICON3");
 constexpr double kCodecRateTolerance = 0.01;
@@ -36,7 +34,6 @@ std::string hertz(double rate) { return std::to_string(std::lround(rate)); }
 
 BoardOutside::BoardOutside(Board& board) : board_(board), selector_(board.selector()), camera_(board) {
   tris_.fill(0xFFFF);
-  board_.solder();
 }
 
 bool BoardOutside::may_have_news() const {
@@ -92,27 +89,26 @@ void BoardOutside::pins_driven(Port port, std::uint16_t levels, std::uint16_t dr
   const std::uint16_t serial = port == Port::D ? 0 : by_peripheral;
   const auto tris = static_cast<std::uint16_t>(~(driven & ~serial));
   const auto lat = static_cast<std::uint16_t>(levels & ~serial);
-  const auto lit_before = static_cast<std::uint16_t>(levels_[p] & ~tris_[p]);
   if (tris != tris_[p] || lat != levels_[p])
     digest_.note(EventDigest::Kind::Pins,
                  static_cast<std::uint64_t>(p) << 32 | static_cast<std::uint64_t>(tris) << 16 | lat, at);
   // directions first: coils that are switched on together with their pins pull the rotor
-  if (tris != tris_[p]) board_.port_write(letter, Board::Register::Tris, tris, at);
-  if (lat != levels_[p]) board_.port_write(letter, Board::Register::Lat, on_board(port, lat, at), at);
+  if (tris != tris_[p]) board_.pins().write(letter, Pins::Register::Tris, tris, at);
+  if (lat != levels_[p]) board_.pins().write(letter, Pins::Register::Lat, on_board(port, lat, at), at);
   tris_[p] = tris;
   levels_[p] = lat;
-  if ((lit_before ^ (lat & ~tris)) & board::kEmitterMask[p]) follow_emitters(port, at);
   if (port != Port::F) return;
-  const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kSerialOut);
+  const auto low = static_cast<std::uint16_t>(driven & ~by_peripheral & ~levels & kWiredF.serial_out);
   if (low != low_lines_) follow_breaks(low, at);
 }
 
 /// What a latch does to the board.
 std::uint16_t BoardOutside::on_board(Port port, std::uint16_t lat, Cycle at) {
   if (port != Port::D || !shares_coils_) return lat;
-  constexpr std::uint16_t kCoils = 0x00FF;  // board/wiring.h
-  const auto kept = static_cast<std::uint16_t>(kCoils & ~(lat ^ levels_[static_cast<std::size_t>(port)]));
-  return static_cast<std::uint16_t>((lat & ~kept) | (board_.port_read('D', Board::Register::Lat, at) & kept));
+  const auto kept =
+      static_cast<std::uint16_t>(kWiredD.coils & ~(lat ^ levels_[static_cast<std::size_t>(port)]));
+  return static_cast<std::uint16_t>((lat & ~kept) |
+                                    (board_.pins().read('D', Pins::Register::Lat, at) & kept));
 }
 
 // a port that holds the line low where its module has let go: whoever listens takes more
@@ -128,55 +124,19 @@ void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
   }
 }
 
-void BoardOutside::follow_emitters(Port port, Cycle at) {
-  const auto p = static_cast<std::size_t>(port);
-  const int first = port == Port::F ? 0 : 2;
-  if (!emitters_) emitters_ = std::make_unique<std::array<Emitter, 4>>();
-  for (int i = first; i < first + 2; ++i) {
-    Emitter& e = (*emitters_)[static_cast<std::size_t>(i)];
-    if (((levels_[p] & ~tris_[p] & board::kEmitterPins[i].mask()) != 0) != e.is_on()) e.change(at);
-  }
-}
-
-int BoardOutside::Emitter::changes_by(Cycle at) const {
-  int n = changes;
-  while (when(n - 1) > at) --n;
-  return n;
-}
-
-Cycle BoardOutside::Emitter::when(int n) const {
-  return n < 0 || n < changes - kRemembered ? -1 : changed[static_cast<std::size_t>(n % kRemembered)];
-}
-
-Cycle BoardOutside::lit_for(int sensor, Cycle at) const {
-  if (!emitters_) return -1;
-  const Emitter& e = (*emitters_)[static_cast<std::size_t>(sensor & 3)];
-  const int changes = e.changes_by(at);
-  return changes % 2 != 0 ? at - std::max<Cycle>(0, e.when(changes - 1)) : -1;
-}
-
 dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
   switch (port) {
     case Port::C:
       asks_camera_ = true;
-      return {camera_.levels(at), board_.camera() ? kCameraClocks : std::uint16_t{0}};
+      return {camera_.levels(at), board_.camera() ? kWiredC.camera : std::uint16_t{0}};
     case Port::D:
       asks_camera_ = takes_pictures_ = true;
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
-              board_.camera() ? board::kCameraData : std::uint16_t{0}};
-    case Port::F: {
-      // a serial line that nobody drives is high
-      std::uint16_t levels = kSerialIn;
-      if (board_.battery().voltage(at) >= board::kBatteryLowV) levels |= kBattery;
-      if (board_.remote().level(at)) levels |= kRemote;
-      return {board_.with_held_pins(board::kF, levels),
-              static_cast<std::uint16_t>(kSerialIn | kBattery | kRemote)};
-    }
+              board_.camera() ? kWiredD.camera : std::uint16_t{0}};
+    case Port::F:
+      return {board_.pins().given(board::kF, at), kGivenF};
     case Port::G:
-      return {board_.with_held_pins(board::kG,
-                                    static_cast<std::uint16_t>(
-                                        (board_.selector() & 15) << board::kSelectorPins[0].bit | kI2cLines)),
-              static_cast<std::uint16_t>(kSelector | kI2cLines)};
+      return {board_.pins().given(board::kG, at), kGivenG};
     default:
       return {};
   }
@@ -191,7 +151,7 @@ Cycle BoardOutside::levels_horizon(Port port, std::uint16_t pins, Cycle after) {
       asks_camera_ = true;
       return pins & board::kCameraData ? camera_.next_byte(after) : dspic::kNever;
     case Port::F:
-      return std::min(board_.battery().below(board::kBatteryLowV, after), board_.remote().horizon(after));
+      return board_.pins().given_horizon(board::kF, after);
     default:
       return dspic::kNever;
   }
@@ -224,17 +184,14 @@ Cycle BoardOutside::nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std:
 
 int BoardOutside::analogue_counts(int channel, Cycle at) {
   if (channel >= board::kMicChannel && channel < board::kAccChannel)
-    return board_.mic_counts(channel - board::kMicChannel, at);
+    return board_.ears().counts(channel - board::kMicChannel, at);
   return beside_microphones(channel, at);
 }
 
-// proximity sensors, then what a part or another owner of the input puts there, then the accelerometer
 int BoardOutside::beside_microphones(int channel, Cycle at) {
-  if (channel >= board::kIrChannel)
-    return board_.ir_counts(channel - board::kIrChannel, at, lit_for(channel - board::kIrChannel, at));
-  if (const auto counts = board_.counts_of_others(channel, at)) return *counts;
-  return channel >= board::kAccChannel ? board::accelerometer_counts(board_, channel - board::kAccChannel, at)
-                                       : 0;
+  const Cycle lit_for =
+      channel >= board::kIrChannel ? board_.ir().lit_for(channel - board::kIrChannel, at) : -1;
+  return std::max(0, board_.inputs().counts(channel, at, lit_for));
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The board as the pins of the dsPIC30F6014A see it: dspic::Outside on one board::Board.
 //
-//   pins_driven -> Board::port_write: coils, LEDs, IR emitters, codec and camera reset
+//   pins_driven -> Pins::write: coils, LEDs, IR emitters, codec and camera reset
 //   pin_levels  <- selector, battery detector, remote receiver, idle serial lines, camera clocks and data
 //   analogue    <- IR phototransistors, microphones, accelerometer or battery, what parts put there
 //   UART words <-> Uart ends; I2C <-> the board's bus; DCI words -> the codec
@@ -11,7 +11,6 @@
 #pragma once
 #include <array>
 #include <cstdint>
-#include <memory>
 
 #include "dspic30/device/dspic30f6014a.h"
 #include "dspic30/periph/outside.h"
@@ -69,27 +68,10 @@ class BoardOutside final : public dspic::Outside {
  private:
   /// The codec's clocks: the bit clock, and whether it agrees with the codec's registers.
   void follow_codec(dspic::Dspic30f6014a& chip, Cycle now);
-  /// When the IR emitters of one line went on and off, in turns: results of the converter
-  /// are asked for later.
-  struct Emitter {
-    static constexpr int kRemembered = 16;
-    std::array<Cycle, kRemembered> changed{};
-    int changes = 0;
-
-    bool is_on() const { return changes % 2 != 0; }
-    void change(Cycle at) { changed[static_cast<std::size_t>(changes++ % kRemembered)] = at; }
-    /// Changes up to `at`, not fewer than those that are forgotten.
-    int changes_by(Cycle at) const;
-    /// When change `n` came, from 0; -1: there was none, or it is forgotten.
-    Cycle when(int n) const;
-  };
   /// analogue_counts() of every channel that is no microphone's.
   __attribute__((noinline)) int beside_microphones(int channel, Cycle at);
-  /// Cycles for which the emitter beside a sensor has been on at `at`; -1: it was off.
-  Cycle lit_for(int sensor, Cycle at) const;
   std::uint64_t pins_changed() const { return board_.damage() ? board_.damage()->pins_changed : 0; }
   std::uint16_t on_board(dspic::Port port, std::uint16_t lat, Cycle at);
-  void follow_emitters(dspic::Port port, Cycle at);
   void follow_breaks(std::uint16_t low, Cycle at);
 
   board::Board& board_;
@@ -102,7 +84,6 @@ class BoardOutside final : public dspic::Outside {
   std::int64_t followed_writes_ = -1;  // to the chip's registers, when its UARTs were looked at last
   EventDigest digest_;
   CameraPins camera_;
-  std::unique_ptr<std::array<Emitter, 4>> emitters_;  // null: pins have switched none
   std::array<std::uint16_t, dspic::kPorts> levels_{};
   std::array<std::uint16_t, dspic::kPorts> tris_{};
   std::array<Cycle, 2> low_since_{-1, -1};  // a serial line held low by its port; -1: it is not

@@ -218,7 +218,7 @@ void LibraryCalls::activate_agenda(const Site& site) {
 // --- standing still
 
 std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
-  return wheel == 0 ? board_.left_steps(now) : board_.right_steps(now);
+  return wheel == 0 ? board_.motors().left_steps(now) : board_.motors().right_steps(now);
 }
 
 void LibraryCalls::look(Cycle now) {

@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal_sim/board/accelerometer.h"
-#include "hal_sim/board/board.h"
-#include "hal_sim/board/sound_params.h"
+#include "hal_sim/board/analogue_inputs.h"
 
 namespace drivers {
 
@@ -46,6 +44,8 @@ static_assert(hold_to_end(frame_of(kScanLitSlot), 3) == 349);
 }  // namespace
 
 Cycle scan_flash_cycles(int sensor) { return kScanFlashCycles - kScanLightCycles - hold_to_end(sensor); }
+
+AdcScan::AdcScan(const AnalogueInputs& inputs) : ir_(inputs.ir()), inputs_(inputs) {}
 
 void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
@@ -173,7 +173,7 @@ int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   const Cycle at = full_cycle(interrupt) - hold_to_end(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
-  return board_.ir_counts(sensor, at, lit_for);
+  return ir_.counts(sensor, at, lit_for);
 }
 
 void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const {
@@ -193,7 +193,7 @@ inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (sensor >= kRingSensors) return kept.counts;
   const Cycle held = kept.until - turn - kScanFileCycles - hold_to_end(sensor);
   kept.counts =
-      static_cast<std::int16_t>(board_.ir_counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
+      static_cast<std::int16_t>(ir_.counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
   return kept.counts;
 }
 
@@ -211,7 +211,7 @@ int AdcScan::read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample) {
 
 // in darkness, once there is a dark sample, the others are the same
 bool AdcScan::stays_dark(int sensor) const {
-  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && board_.is_dark();
+  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && ir_.is_dark();
 }
 
 int AdcScan::dark(int sensor, Cycle at) {
@@ -260,7 +260,7 @@ Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
 }
 
 int AdcScan::mic_sample(int microphone, std::int64_t number) const {
-  return board_.mic_counts(microphone, mic_hold(microphone, number));
+  return inputs_.ears().counts(microphone, mic_hold(microphone, number));
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
@@ -274,8 +274,7 @@ Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) co
 int AdcScan::evaluate_acc(int axis, std::int64_t sample) const {
   const Cycle end = full_cycle(sample * kScanPeriod + kScanAccSlot);
   const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
-  const auto other = board_.counts_of_others(kAccChannel + axis, hold);
-  return other ? *other : accelerometer_counts(board_, axis, hold);
+  return inputs_.counts(kAccChannel + axis, hold);
 }
 
 void AdcScan::fill_acc(std::int64_t count) {

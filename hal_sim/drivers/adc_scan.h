@@ -26,19 +26,19 @@
 #include "hal_sim/drivers/driver_params.h"
 
 namespace board {
-class Board;
-}
+class AnalogueInputs;
+class IrCircuit;
+}  // namespace board
 
 namespace drivers {
-
-using board::Board;
 
 /// Cycles for which the emitter of a ring sensor has been on when its lit sample is held.
 Cycle scan_flash_cycles(int sensor);
 
 class AdcScan {
  public:
-  explicit AdcScan(const Board& board) : board_(board) {}
+  /// `inputs`: what it samples; they outlive it.
+  explicit AdcScan(const board::AnalogueInputs& inputs);
 
   /// e_init_ad_scan(): converter and interrupt start. `five_pairs`: selector 10.
   void start(bool micro_only, bool five_pairs, Cycle at);
@@ -191,7 +191,8 @@ class AdcScan {
   void fill_acc(std::int64_t count);
 
   Samples lit_{};
-  const Board& board_;
+  const board::IrCircuit& ir_;
+  const board::AnalogueInputs& inputs_;
   bool on_ = false;
   bool acc_used_ = false;
   std::uint16_t regular_dark_ = 0;  // bit i: dark_[i].is_regular

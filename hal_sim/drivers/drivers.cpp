@@ -9,11 +9,13 @@
 namespace drivers {
 
 Drivers::Drivers(board::Board& board)
-    : board_(board), agendas_(board.own_motor(Wheel::Left), board.own_motor(Wheel::Right)), scan_(board) {
-  board_.attach(this);
+    : pins_(board.pins()),
+      agendas_(board.motors().own(Wheel::Left), board.motors().own(Wheel::Right)),
+      scan_(board.inputs()) {
+  pins_.attach(this);
 }
 
-Drivers::~Drivers() { board_.attach(nullptr); }
+Drivers::~Drivers() { pins_.attach(nullptr); }
 
 std::optional<double> Drivers::coil_duty(Wheel wheel) const {
   if (!agendas_.runs(wheel)) return std::nullopt;

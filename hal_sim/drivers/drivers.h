@@ -13,6 +13,11 @@
 #include "hal_sim/drivers/adc_scan.h"
 #include "hal_sim/drivers/agenda_timer.h"
 
+namespace board {
+class Board;
+class Pins;
+}  // namespace board
+
 namespace drivers {
 
 class Drivers final : public board::PinDriver {
@@ -45,7 +50,7 @@ class Drivers final : public board::PinDriver {
   std::uint64_t state_sum(Cycle at) const override;
 
  private:
-  board::Board& board_;
+  board::Pins& pins_;
   AgendaTimer agendas_;
   AdcScan scan_;
 };

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "hal_sim/board/accelerometer.h"
 #include "hal_sim/board/battery_params.h"
 #include "hal_sim/host/variables.h"
 #include "sim_core/base/hash.h"
@@ -109,7 +110,7 @@ void steps(const Case& c, const std::vector<Case*>& cases, Hands& h) {
       loss.block(is_blocked);
     else
       loss.lose(1 - made);
-    h.board.steps_changed(wheel, h.now);
+    h.board.motors().lose_steps(wheel, loss.is_active() ? &loss : nullptr, h.now);
   }
 }
 
@@ -155,8 +156,8 @@ void battery(const Case& c, const std::vector<Case*>& cases, Hands& h) {
     drop_v += number(other, "drop_v");
     more_ohm += number(other, "more_ohm");
   });
-  h.board.weaken_battery(drop_v, more_ohm, h.now);
-  h.board.damage_changed(h.now);
+  h.board.power().weaken(drop_v, more_ohm, h.now);
+  h.board.pins().changed_by_hand(h.now);
 }
 
 void bump(Case& c, Hands& h) {
@@ -203,7 +204,7 @@ void leds(const Case& c, const std::vector<Case*>& cases, Hands& h) {
   std::uint32_t dead = 0;
   each_active(c, cases, [&](const Case& other) { dead |= leds_of(other); });
   h.board.be_damaged().dead_leds = dead;
-  h.board.damage_changed(h.now);
+  h.board.pins().changed_by_hand(h.now);
 }
 
 void pins(const Case& c, const std::vector<Case*>& cases, Hands& h) {
@@ -212,7 +213,7 @@ void pins(const Case& c, const std::vector<Case*>& cases, Hands& h) {
   each_active(c, cases, [&](const Case& other) {
     if (port_of(other) == port_of(c) && bit_of(other) == bit_of(c)) level = number(other, "level") != 0;
   });
-  h.board.hold_pin(port_of(c), bit_of(c), level, h.now);
+  h.board.pins().hold(port_of(c), bit_of(c), level, h.now);
 }
 
 bool any_active(const Case& c, const std::vector<Case*>& cases) {
@@ -227,7 +228,7 @@ bool free_level(const Case& c, Board& board, Cycle now) {
   const auto held = damage.held_pins;
   damage.held_pins = {};
   const char port = port_of(c);
-  const bool level = (board.port_read(port, Board::Register::Port, now) >> bit_of(c) & 1) != 0;
+  const bool level = (board.pins().read(port, board::Pins::Register::Port, now) >> bit_of(c) & 1) != 0;
   damage.held_pins = held;
   return level;
 }
@@ -332,7 +333,7 @@ std::string check(const Case& c, twin::Twin& twin) {
     const std::string pin = word(c, "pin");
     const bool is_pin =
         pin.size() >= 2 && pin.size() <= 3 && pin.find_first_not_of("0123456789", 1) == std::string::npos;
-    if (!is_pin || !Board::can_be_held(pin[0], std::atoi(pin.c_str() + 1)))
+    if (!is_pin || !board::Pins::can_be_held(pin[0], std::atoi(pin.c_str() + 1)))
       return fmt::format(
           "pin: got '{}', expected an input or an LED's: F1, F6, G6 to G9, A6, A7, A9, A10, A12 to A15, "
           "C1, C2",
@@ -372,7 +373,7 @@ void apply(Case& c, std::vector<Case*>& cases, twin::Twin& twin) {
   else if (is_kind(c, "microphone_silent"))
     microphones(c, cases, h);
   else if (is_kind(c, "accelerometer_stuck"))
-    h.board.stick_accelerometer(any_active(c, cases), h.now);
+    board::stick_accelerometer(h.board, any_active(c, cases), h.now);
   else if (is_kind(c, "led_dead"))
     leds(c, cases, h);
   else if (is_kind(c, "camera_covered"))
@@ -433,7 +434,7 @@ Clicks noticed(const Case& c, twin::Twin& twin) {
     if (lasts_now && slipped < sim::kEver && slipped > c.begun) return slipped;
   }
   if (is_kind(c, "battery_sag") && lasts_now) {
-    const auto& battery = mind.board().battery();
+    const auto& battery = mind.board().power().battery();
     const double volts = battery.voltage(now), sound = battery.sound_voltage(now);
     const bool is_told = (volts >= board::kBatteryLowV) != (sound >= board::kBatteryLowV);
     if (is_told || (volts != sound && board.setup().revision == board::Revision::Rev13)) return world_now;
@@ -442,7 +443,7 @@ Clicks noticed(const Case& c, twin::Twin& twin) {
     const double missing = std::fabs(number(c, "ppm")) * 1e-6 * static_cast<double>(world_now - c.begun);
     if (missing >= 1) return world_now;
   }
-  if (is_kind(c, "led_dead") && lasts_now && (board.driven_leds(now) & leds_of(c))) return world_now;
+  if (is_kind(c, "led_dead") && lasts_now && (board.pins().driven_leds(now) & leds_of(c))) return world_now;
   if (is_kind(c, "pin_forced") && lasts_now && free_level(c, board, now) != (number(c, "level") != 0))
     return world_now;
   if (is_kind(c, "bytes_sent") && board.uart(uart_of(c)).injected() > c.first_byte) return world_now;

@@ -9,7 +9,7 @@ namespace host {
 
 FirmwareMind::FirmwareMind(const board::Setup& setup, const RunnerFactory& make_runner) : board_(setup) {
   if (!make_runner) {
-    board_.switch_off();
+    board_.power().switch_off();
     return;
   }
   power_up(make_runner);
@@ -83,8 +83,8 @@ sim::WheelCourse FirmwareMind::course_at(sim::Clicks at) const {
   const board::RobotClock& clock = board_.clock();
   const Cycle cycle = cycle_at(at);
   tell_asked(cycle);
-  const board::WheelTurn left = board_.wheel_turn(board::Wheel::Left, cycle),
-                         right = board_.wheel_turn(board::Wheel::Right, cycle);
+  const board::WheelTurn left = board_.motors().turn(board::Wheel::Left, cycle),
+                         right = board_.motors().turn(board::Wheel::Right, cycle);
   const Cycle until = std::min(left.until, right.until);
   const double cycles_per_click = 1 + static_cast<double>(clock.ppb()) * 1e-9;
   return {{left.angle_rad, right.angle_rad},
@@ -97,7 +97,7 @@ sim::WheelCourse FirmwareMind::course_at(sim::Clicks at) const {
 sim::MindReport FirmwareMind::report() const {
   const Cycle at = now();
   tell_asked(at);
-  return {board_.left_steps(at), board_.right_steps(at), board_.leds(at)};
+  return {board_.motors().left_steps(at), board_.motors().right_steps(at), board_.pins().leds(at)};
 }
 
 int FirmwareMind::proximity_counts(const sim::Scene& scene, int index) {

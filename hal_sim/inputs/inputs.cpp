@@ -223,7 +223,7 @@ void Inputs::turn_selector(const Json& input, int robot) {
 
 void Inputs::set_battery(const Json& input, int robot) {
   host::FirmwareMind& mind = twin_.mind(robot);
-  mind.board().set_battery(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
+  mind.board().power().set_voltage(number(input, "volts", kLeastBatteryV, kMostBatteryV), mind.now());
 }
 
 void Inputs::type(const Json& input, int robot) {

@@ -36,7 +36,7 @@ double converted(const twin::Twin& twin, int robot, int channel) {
 
 double step_rate(const twin::Twin& twin, int robot, board::Wheel wheel) {
   const auto& m = mind(twin, robot);
-  const board::WheelTurn turn = m.board().wheel_turn(wheel, m.now());
+  const board::WheelTurn turn = m.board().motors().turn(wheel, m.now());
   const double ratio = m.board().setup().wheel_ratio[static_cast<std::size_t>(wheel)];
   return turn.rate_rad / (sim::kTwoPi / board::kStepsPerTurn * ratio) * double(board::kFcyHz);
 }
@@ -174,13 +174,13 @@ const std::vector<Signal>& all() {
       {"selector", 0, "", 0, 15, "its position", false,
        [](T t, int r, int) { return double(mind(t, r).board().selector()); }, "selector", "", 1},
       {"battery_v", 0, "V", 0, 5, "voltage at the battery's terminals", false,
-       [](T t, int r, int) { return mind(t, r).board().battery().voltage(mind(t, r).now()); }, "battery", "V",
-       1},
+       [](T t, int r, int) { return mind(t, r).board().power().battery().voltage(mind(t, r).now()); },
+       "battery", "V", 1},
       {"charge", 0, "", -1, 2, "share of a full battery", false,
-       [](T t, int r, int) { return mind(t, r).board().battery().charge(mind(t, r).now()); }, "charge", "%",
-       100},
+       [](T t, int r, int) { return mind(t, r).board().power().battery().charge(mind(t, r).now()); },
+       "charge", "%", 100},
       {"current_a", 0, "A", 0, 10, "what flows out of it", false,
-       [](T t, int r, int) { return mind(t, r).board().battery().amps(); }, "current", "mA", 1000},
+       [](T t, int r, int) { return mind(t, r).board().power().battery().amps(); }, "current", "mA", 1000},
       {"load", 0, "", 0, 1, "share of processor time not spent waiting, since power-up", false,
        [](T t, int r, int) {
          const auto* robot = program(t, r);
@@ -281,7 +281,7 @@ Named find_pin(twin::Twin& /*twin*/, int robot, const std::string& name) {
     throw std::runtime_error("got pin '" + name + "', expected a port and a bit, such as D3");
   return {"", [robot, port = name[0], bit](twin::Twin& t) {
             const auto& m = mind(t, robot);
-            return double(m.board().port_read(port, board::Board::Register::Port, m.now()) >> bit & 1);
+            return double(m.board().pins().read(port, board::Pins::Register::Port, m.now()) >> bit & 1);
           }};
 }
 

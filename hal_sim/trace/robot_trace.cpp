@@ -104,20 +104,20 @@ void RobotTrace::sample(Cycle at) {
 }
 
 std::uint64_t RobotTrace::value_of(const SignalSource& source, Cycle at) {
-  using Register = board::Board::Register;
+  using Register = board::Pins::Register;
   const char port = static_cast<char>(source.index);
   const std::size_t index = static_cast<std::size_t>(source.index);
   switch (source.kind) {
     case Source::Lat:
-      return board_.port_read(port, Register::Lat, at);
+      return board_.pins().read(port, Register::Lat, at);
     case Source::Port:
-      return board_.port_read(port, Register::Port, at);
+      return board_.pins().read(port, Register::Port, at);
     case Source::Tris:
-      return board_.port_read(port, Register::Tris, at);
+      return board_.pins().read(port, Register::Tris, at);
     case Source::Lights:
-      return board_.leds(at);
+      return board_.pins().leds(at);
     case Source::Steps:
-      return static_cast<std::uint64_t>(board_.steps(static_cast<board::Wheel>(source.index), at));
+      return static_cast<std::uint64_t>(board_.motors().steps(static_cast<board::Wheel>(source.index), at));
     case Source::Flag:
       return runner_ && runner_->chip() && runner_->chip()->flag(source.index, at);
     case Source::Service:
@@ -154,7 +154,7 @@ Cycle RobotTrace::horizon(Cycle at) {
   Cycle next = host::kNever;
   const auto port = [&](char letter) {
     // where a tick of the agendas is late, its own cycle has already passed
-    const Cycle then = board_.port_horizon(letter, at);
+    const Cycle then = board_.pins().horizon(letter, at);
     next = std::min(next, then > at ? then : at + drivers::kAgendaTickCycles);
   };
   // The soonest instant at which any of the signals can change. What changes at calls only has none.

@@ -52,8 +52,8 @@ void PuckCamera::start(Cycle at) {
   shown_.assign(kCameraColumns * kCameraRows * 4, 0);
   for (std::size_t i = 3; i < shown_.size(); i += 4) shown_[i] = 255;
   const board::Pin reset = board::kCameraResetPin;
-  board_.latch_bit(reset.letter(), reset.bit, false, at);
-  board_.latch_bit(reset.letter(), reset.bit, true, at);
+  board_.pins().write_bit(reset.letter(), reset.bit, false, at);
+  board_.pins().write_bit(reset.letter(), reset.bit, true, at);
   const Registers setup = setup_of(board_.setup().camera);
   int bank = 0;
   for (const CameraRegister* r = setup.first; r != setup.first + setup.count; ++r) {

@@ -96,10 +96,10 @@ Puck::Puck(board::Board& board, Cycle start)
       speaker_(board.codec()),
       wheels_(board, drivers_.agendas()) {
   drivers_.agendas().count_from(start);
-  board_.init_ports(start);
+  board_.pins().init(start);
   wheels_.start(start);
   drivers_.scan().start(false, false, start);
-  board_.follow_power(start);
+  board_.pins().follow(start);
   has_lsm_ = board_.setup().revision == board::Revision::Rev13;
   if (has_lsm_) {
     // as initAccAndGyro() of the library does
@@ -352,7 +352,7 @@ void Puck::set_led(int led, bool on, Cycle at) {
   const board::Pin pin = led < 8    ? board::kRingLedPins[led]
                          : led == 8 ? board::kBodyLedPin
                                     : board::kFrontLedPin;
-  board_.latch_bit(pin.letter(), pin.bit, on, at);
+  board_.pins().write_bit(pin.letter(), pin.bit, on, at);
 }
 
 std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle at) {
@@ -367,7 +367,7 @@ std::string Puck::play(std::int64_t, const std::string& sound, bool again, Cycle
     speaks_ = true;
     // as e_init_sound() does
     const board::Pin power = board::kCodecOnPin;
-    board_.latch_bit(power.letter(), power.bit, true, at);
+    board_.pins().write_bit(power.letter(), power.bit, true, at);
     speaker_.start(at);
     speaker_.codec().configure();
   }
@@ -439,7 +439,7 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
     case Kind::Selector:
       return put(to, tag, {static_cast<double>(board_.selector())});
     case Kind::Battery:
-      return put(to, tag, {board_.battery().charge(at) * board_.setup().battery_wh * 3600});
+      return put(to, tag, {board_.power().battery().charge(at) * board_.setup().battery_wh * 3600});
     case Kind::Keyboard: {
       const double now_s = sim::to_seconds(board_.clock().click_at(at));
       std::vector<double> down;
@@ -484,15 +484,15 @@ double Puck::proximity(int sensor, Cycle at) {
     counts = pair.dark - pair.lit;
   } else {
     // the scan has not come round yet, which a program of the robot would have waited for
-    counts =
-        board_.ir_counts(sensor, at, -1) - board_.ir_counts(sensor, at, drivers::scan_flash_cycles(sensor));
+    counts = board_.ir().counts(sensor, at, -1) -
+             board_.ir().counts(sensor, at, drivers::scan_flash_cycles(sensor));
   }
   return std::clamp(counts, 0, kFullScale);
 }
 
 double Puck::light(int sensor, Cycle at) {
   drivers::AdcScan& scan = drivers_.scan();
-  return scan.dark_number(sensor, at) >= 0 ? scan.dark(sensor, at) : board_.ir_counts(sensor, at, -1);
+  return scan.dark_number(sensor, at) >= 0 ? scan.dark(sensor, at) : board_.ir().counts(sensor, at, -1);
 }
 
 /// Left, centre, right: two registers each, the high byte first.

@@ -38,7 +38,7 @@ void Wheels::command(int wheel, int speed, Cycle at) {
   if (wheels_[static_cast<std::size_t>(wheel)].command == speed) return;
   wheels_[static_cast<std::size_t>(wheel)].command = speed;
   agendas_.set_speed(wheel_of(wheel), speed, at);
-  board_.follow_motor(wheel_of(wheel), at);
+  board_.pins().follow_motor(wheel_of(wheel), at);
 }
 
 void Wheels::set_velocity(int wheel, double rad_s, Cycle at) {

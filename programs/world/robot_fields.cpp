@@ -68,7 +68,7 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
   } else if (name == "selector") {
     numbers[0] = mind.board().selector();
   } else if (name == "batteryVoltage") {
-    numbers[0] = mind.board().battery().voltage(mind.now());
+    numbers[0] = mind.board().power().battery().voltage(mind.now());
   } else if (name == "leds") {
     numbers[0] = mind.report().leds;
   } else if (name == "proximity") {
@@ -113,7 +113,7 @@ std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name
     if (wrong.empty()) mind.board().turn_selector(static_cast<int>(value));
   } else if (name == "batteryVoltage") {
     wrong = range(name, value, 3.0, 4.2, " V");
-    if (wrong.empty()) mind.board().set_battery(value, mind.now());
+    if (wrong.empty()) mind.board().power().set_voltage(value, mind.now());
   } else if (name == "proximityNoise") {
     wrong = range(name, value, 0, 1000, "");
     if (wrong.empty()) simulation.set_proximity_noise(robot, value);

@@ -433,7 +433,7 @@ void bind_robots(py::class_<Handle>& world) {
       .def("pin",
            [](Handle& h, int r, char port, int bit) {
              host::FirmwareMind& mind = h.world().mind(h.robot(r));
-             return (mind.board().port_read(port, board::Board::Register::Port, mind.now()) >> bit & 1) != 0;
+             return (mind.board().pins().read(port, board::Pins::Register::Port, mind.now()) >> bit & 1) != 0;
            })
       .def("proximity",
            [](Handle& h, int r, int sensor) {
@@ -443,7 +443,7 @@ void bind_robots(py::class_<Handle>& world) {
       .def("battery",
            [](Handle& h, int r) {
              host::FirmwareMind& mind = h.world().mind(h.robot(r));
-             return mind.board().battery().voltage(mind.now());
+             return mind.board().power().battery().voltage(mind.now());
            })
       .def("cycles", [](Handle& h, int r) { return h.world().mind(h.robot(r)).now(); })
       .def("load",

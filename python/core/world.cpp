@@ -231,7 +231,7 @@ void World::refresh(Arrays& arrays, bool poses, bool proximity, bool others) {
     arrays.steps[2 * r] = report.left_steps;
     arrays.steps[2 * r + 1] = report.right_steps;
     const auto& firmware = static_cast<const twin::Twin&>(twin()).mind(robot);
-    arrays.battery_v[r] = firmware.board().battery().voltage(firmware.now());
+    arrays.battery_v[r] = firmware.board().power().battery().voltage(firmware.now());
   }
 }
 

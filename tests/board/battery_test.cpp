@@ -13,7 +13,7 @@ using board::Battery;
 using board::Board;
 using board::Cycle;
 using board::Wheel;
-using Register = Board::Register;
+using Register = board::Pins::Register;
 
 constexpr Cycle kSecond = board::kFcyHz;
 constexpr double kIdleA = 0.050 + 0.060 + 0.020;  // processor, Bluetooth, board: battery_params.h
@@ -80,38 +80,38 @@ TEST(Power, starts_with_the_electronics_and_the_voltage_that_was_asked_for) {
   board::Setup setup;
   setup.battery_v = 3.7;
   Board robot(setup);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA, 1e-12);
-  EXPECT_NEAR(robot.battery().voltage(0), 3.7, 1e-12);
-  robot.switch_off();
-  EXPECT_EQ(robot.battery().amps(), 0);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA, 1e-12);
+  EXPECT_NEAR(robot.power().battery().voltage(0), 3.7, 1e-12);
+  robot.power().switch_off();
+  EXPECT_EQ(robot.power().battery().amps(), 0);
 }
 
 TEST(Power, leds_camera_and_codec_count_while_they_are_on) {
   Board robot{board::Setup{}};
-  robot.init_ports(0);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA, 1e-12);
-  robot.latch_bit('A', 6, true, 10);
-  robot.latch_bit('A', 7, true, 10);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.005, 1e-12);
-  robot.latch_bit('C', 2, true, 20);
-  robot.latch_bit('C', 1, true, 20);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.005 + 0.020 + 0.015, 1e-12);
-  robot.latch_bit('C', 13, true, 30);  // camera out of reset
-  robot.latch_bit('F', 0, true, 30);   // codec on
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.005 + 0.035 + 0.030 + 0.020, 1e-12);
+  robot.pins().init(0);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA, 1e-12);
+  robot.pins().write_bit('A', 6, true, 10);
+  robot.pins().write_bit('A', 7, true, 10);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.005, 1e-12);
+  robot.pins().write_bit('C', 2, true, 20);
+  robot.pins().write_bit('C', 1, true, 20);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.005 + 0.020 + 0.015, 1e-12);
+  robot.pins().write_bit('C', 13, true, 30);  // camera out of reset
+  robot.pins().write_bit('F', 0, true, 30);   // codec on
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.005 + 0.035 + 0.030 + 0.020, 1e-12);
   robot.processor_reset(40);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA, 1e-12);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA, 1e-12);
 }
 
 // 300 steps/s: 15 of 33 ticks with two coils; 700 steps/s: always; 0: never
 
 TEST(Power, coils_that_a_program_holds_count_one_by_one) {
   Board robot{board::Setup{}};
-  robot.init_ports(0);
-  robot.port_write('D', Register::Lat, 0x05, 10);  // two of the left motor
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.060, 1e-12);
-  robot.port_write('D', Register::Lat, 0x10, 20);  // one of the right motor
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 0.060, 1e-12);
+  robot.pins().init(0);
+  robot.pins().write('D', Register::Lat, 0x05, 10);  // two of the left motor
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.060, 1e-12);
+  robot.pins().write('D', Register::Lat, 0x10, 20);  // one of the right motor
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 0.060, 1e-12);
 }
 
 // the scan lights each of four lines of two emitters for 5 of 260 interrupts
@@ -128,12 +128,12 @@ TEST(Power, low_battery_pin_falls_by_itself_and_says_when) {
   setup.battery_v = 3.41;
   setup.battery_wh = 0.001;
   Board robot(setup);
-  robot.init_ports(0);
-  EXPECT_EQ(robot.port_read('F', Register::Port, 0) >> 1 & 1, 1);
-  const Cycle falls = robot.port_horizon('F', 0);
+  robot.pins().init(0);
+  EXPECT_EQ(robot.pins().read('F', Register::Port, 0) >> 1 & 1, 1);
+  const Cycle falls = robot.pins().horizon('F', 0);
   ASSERT_LT(falls, board::kNever);
-  EXPECT_EQ(robot.port_read('F', Register::Port, falls - 1) >> 1 & 1, 1);
-  EXPECT_EQ(robot.port_read('F', Register::Port, falls) >> 1 & 1, 0);
+  EXPECT_EQ(robot.pins().read('F', Register::Port, falls - 1) >> 1 & 1, 1);
+  EXPECT_EQ(robot.pins().read('F', Register::Port, falls) >> 1 & 1, 0);
 }
 
 TEST(Power, revision_1_3_measures_the_sag) {
@@ -141,11 +141,11 @@ TEST(Power, revision_1_3_measures_the_sag) {
   setup.revision = board::Revision::Rev13;
   setup.battery_v = 4.0;
   Board robot(setup);
-  robot.init_ports(0);
+  robot.pins().init(0);
   // 4.0 V: 2070 + 0.6 * 490 / 0.8 = 2437.5
-  EXPECT_NEAR(robot.battery_counts(0), 2437.5, 0.51);
-  robot.port_write('D', Register::Lat, 0x55, 10);  // four coils, 0.24 A: 48 mV less, 29.4 counts
-  EXPECT_NEAR(robot.battery_counts(10), 2437.5 - 29.4, 0.51);
+  EXPECT_NEAR(robot.convert(board::kBatteryChannel, 0), 2437.5, 0.51);
+  robot.pins().write('D', Register::Lat, 0x55, 10);  // four coils, 0.24 A: 48 mV less, 29.4 counts
+  EXPECT_NEAR(robot.convert(board::kBatteryChannel, 10), 2437.5 - 29.4, 0.51);
 }
 
 }  // namespace

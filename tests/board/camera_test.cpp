@@ -269,8 +269,8 @@ TEST_F(CameraBoard, the_reset_pin_forgets_the_settings_and_bytes_beyond_the_arra
   EXPECT_NE(wide[2 * 59], 0);
   EXPECT_EQ(wide[2 * 60], 0);
   EXPECT_EQ(camera().setup().sub_sampling, 4);
-  robot_->latch_bit('C', 13, true, at);
-  robot_->latch_bit('C', 13, false, at);
+  robot_->pins().write_bit('C', 13, true, at);
+  robot_->pins().write_bit('C', 13, false, at);
   EXPECT_EQ(camera().setup().sub_sampling, 1);
 }
 

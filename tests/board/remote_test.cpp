@@ -99,11 +99,11 @@ TEST(Remote, changes_are_seen_at_the_first_cycle_after_them_on_any_clock) {
 
 TEST(Remote, the_pin_is_rf6) {
   board::Board robot{board::Setup{}};
-  robot.init_ports(0);
+  robot.pins().init(0);
   robot.remote().press({3, 0.01, 0, 0});
-  const Cycle falls = robot.port_horizon('F', 0);
-  EXPECT_EQ(robot.port_read('F', board::Board::Register::Port, falls - 1) >> 6 & 1, 1);
-  EXPECT_EQ(robot.port_read('F', board::Board::Register::Port, falls) >> 6 & 1, 0);
+  const Cycle falls = robot.pins().horizon('F', 0);
+  EXPECT_EQ(robot.pins().read('F', board::Pins::Register::Port, falls - 1) >> 6 & 1, 1);
+  EXPECT_EQ(robot.pins().read('F', board::Pins::Register::Port, falls) >> 6 & 1, 0);
 }
 
 }  // namespace

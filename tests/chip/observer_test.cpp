@@ -150,7 +150,7 @@ TEST_F(Observers, see_a_pin_before_and_after_its_write) {
     void about_to_change(Cycle at) override {
       Course::about_to_change(at);
       // what was written last is in place, what comes is not
-      const bool is_lit = (board->leds(at - 1) & 1) != 0;
+      const bool is_lit = (board->pins().leds(at - 1) & 1) != 0;
       if (changes.empty() || changes.back().second != is_lit) changes.push_back({before, is_lit});
       before = at;
     }

@@ -68,7 +68,7 @@ class TickedScan {
     for (int half = 0; half < 2; ++half) {
       const Cycle when = at - (half ? scan_times::kFifth : scan_times::kFourth);
       const int sensor = pair_ + 4 * half;
-      into[sensor] = robot_.ir_counts(sensor, when, lit_at < 0 ? -1 : when - lit_at);
+      into[sensor] = robot_.ir().counts(sensor, when, lit_at < 0 ? -1 : when - lit_at);
     }
   }
   const Board& robot_;
@@ -320,19 +320,19 @@ TEST(IrCircuit, more_light_gives_lower_counts_and_the_ends_clamp) {
   setup.ir_gain[2] = 1.5;
   setup.ir_offset_counts[2] = 7;
   DrivenBoard robot(setup);
-  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095);  // darkness without a world
+  EXPECT_EQ(robot.ir().counts(0, 0, -1), 4095);  // darkness without a world
   scene.irradiance_w_m2 = 1.0;
   robot.look_at(&scene);
-  EXPECT_EQ(robot.ir_counts(0, 0, -1), 4095 - 400);
+  EXPECT_EQ(robot.ir().counts(0, 0, -1), 4095 - 400);
   scene.irradiance_w_m2 = 100;
-  EXPECT_EQ(robot.ir_counts(0, 0, -1), 0);
+  EXPECT_EQ(robot.ir().counts(0, 0, -1), 0);
   scene.irradiance_w_m2 = 0;
   scene.reflection = [](int, sim::Clicks) { return 1000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 4095 - 1507);
+  EXPECT_EQ(robot.ir().counts(2, 0, 1'000'000), 4095 - 1507);
   // a flash of 1 us has hardly begun to act
-  EXPECT_GT(robot.ir_counts(2, 0, 15), 4095 - 100);
+  EXPECT_GT(robot.ir().counts(2, 0, 15), 4095 - 100);
   scene.reflection = [](int, sim::Clicks) { return 5000.0; };
-  EXPECT_EQ(robot.ir_counts(2, 0, 1'000'000), 0);
+  EXPECT_EQ(robot.ir().counts(2, 0, 1'000'000), 0);
 }
 
 TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
@@ -346,7 +346,7 @@ TEST(IrCircuit, uniform_noise_fills_its_half_width_and_no_more) {
   double sum = 0, squares = 0, least = 4095, most = 0;
   constexpr int kCount = 4000;
   for (int i = 0; i < kCount; ++i) {
-    const double reading = 4095 - robot.ir_counts(0, i * board::kSlowNoiseQuantum, 1'000'000);
+    const double reading = 4095 - robot.ir().counts(0, i * board::kSlowNoiseQuantum, 1'000'000);
     sum += reading, squares += reading * reading;
     least = std::min(least, reading), most = std::max(most, reading);
   }
@@ -369,7 +369,7 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   setup.ir_offset_counts[3] = 10;
   DrivenBoard robot(setup);
   robot.look_at(&scene);
-  const board::IrConversion dark = robot.ir_conversion(3, 0, -1);
+  const board::IrConversion dark = robot.ir().conversion(3, 0, -1);
   EXPECT_EQ(dark.light_counts, 200);  // 0.5 W/m2 x 400
   EXPECT_EQ(dark.reflection_counts, 0);
   EXPECT_EQ(dark.counts(), 4095 - 200);
@@ -377,15 +377,15 @@ TEST(IrCircuit, a_conversion_taken_apart_adds_up_to_its_counts) {
   const board::Cycle flash = drivers::scan_flash_cycles(3);
   EXPECT_EQ(flash, 4841 - kLight - 349);
   EXPECT_EQ(drivers::scan_flash_cycles(4), 4841 - kLight - 169);
-  const board::IrConversion lit = robot.ir_conversion(3, 0, flash);
+  const board::IrConversion lit = robot.ir().conversion(3, 0, flash);
   EXPECT_EQ(lit.reflection_counts, 1200);
   EXPECT_EQ(lit.relative_noise, 0.1);  // told, and not drawn
   EXPECT_NEAR(lit.settled, 1, 2e-5);   // exp(-286 / 25)
   EXPECT_NEAR(lit.counts(), 4095 - 200 - 1210, 0.02);
   // one time constant: 63.2 % of it
-  EXPECT_NEAR(robot.ir_conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
+  EXPECT_NEAR(robot.ir().conversion(3, 0, board::kIrSettleCycles).counts(), 4095 - 200 - 0.6321 * 1210, 0.5);
   scene.relative_noise = 0;
-  EXPECT_EQ(robot.ir_counts(3, 0, flash), board::adc_counts(lit.counts()));
+  EXPECT_EQ(robot.ir().counts(3, 0, flash), board::adc_counts(lit.counts()));
 }
 
 }  // namespace

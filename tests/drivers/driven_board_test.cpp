@@ -14,14 +14,14 @@ namespace {
 using board::Board;
 using board::Cycle;
 using board::Wheel;
-using Register = Board::Register;
+using Register = board::Pins::Register;
 
 constexpr Cycle kSecond = board::kFcyHz;
 constexpr double kIdleA = 0.050 + 0.060 + 0.020;  // processor, Bluetooth, board: battery_params.h
 char left_motor, right_motor;
 
 void drive(DrivenBoard& robot, int left, int right, Cycle at) {
-  robot.init_ports(at);
+  robot.pins().init(at);
   robot.agendas().name_motor(Wheel::Left, &left_motor);
   robot.agendas().name_motor(Wheel::Right, &right_motor);
   robot.agendas().activate(&left_motor, 0, at);
@@ -33,45 +33,45 @@ void drive(DrivenBoard& robot, int left, int right, Cycle at) {
 
 TEST(Pins, a_pulse_of_the_scan_is_seen_but_not_latched) {
   DrivenBoard robot{board::Setup{}};
-  robot.init_ports(0);
+  robot.pins().init(0);
   robot.scan().start(false, false, 0);
   const auto calls = scan_times::calls(0, 70);
   const Cycle on = calls[63] + scan_times::kLight, off = calls[68] + scan_times::kLight;  // pair 1: RF8
-  EXPECT_EQ(robot.port_read('F', Register::Lat, on - 1) & 0x180, 0);
-  EXPECT_EQ(robot.port_read('F', Register::Lat, on) & 0x180, 0x100);
-  EXPECT_EQ(robot.port_horizon('F', on), off);
+  EXPECT_EQ(robot.pins().read('F', Register::Lat, on - 1) & 0x180, 0);
+  EXPECT_EQ(robot.pins().read('F', Register::Lat, on) & 0x180, 0x100);
+  EXPECT_EQ(robot.pins().horizon('F', on), off);
   // somebody switches the codec on meanwhile
-  robot.latch_bit('F', 0, true, on + 10);
-  EXPECT_EQ(robot.port_read('F', Register::Lat, off) & 0x181, 0x001);
+  robot.pins().write_bit('F', 0, true, on + 10);
+  EXPECT_EQ(robot.pins().read('F', Register::Lat, off) & 0x181, 0x001);
 }
 
 TEST(Pins, selector_10_flashes_body_and_front_led) {
   DrivenBoard robot{board::Setup{}};
-  robot.init_ports(0);
+  robot.pins().init(0);
   robot.scan().start(false, true, 0);
   bool seen = false;
-  for (Cycle at = 0; at < 600 * 900; at += 900) seen = seen || robot.leds(at) == 3u << 8;
+  for (Cycle at = 0; at < 600 * 900; at += 900) seen = seen || robot.pins().leds(at) == 3u << 8;
   EXPECT_TRUE(seen);
 }
 
 TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   DrivenBoard robot{board::Setup{}};
   drive(robot, 700, -700, 0);
-  robot.latch_bit('A', 6, true, 0);
+  robot.pins().write_bit('A', 6, true, 0);
   robot.scan().start(false, false, 0);
   robot.uart(1).switch_on(7, 0);
-  const std::int64_t left = robot.left_steps(kSecond), right = robot.right_steps(kSecond);
+  const std::int64_t left = robot.motors().left_steps(kSecond), right = robot.motors().right_steps(kSecond);
   robot.processor_reset(kSecond);
-  EXPECT_EQ(robot.leds(kSecond), 0u);
-  EXPECT_EQ(robot.left_steps(5 * kSecond), left);
-  EXPECT_EQ(robot.right_steps(5 * kSecond), right);
-  EXPECT_EQ(robot.coils(Wheel::Left, 5 * kSecond), 0u);
+  EXPECT_EQ(robot.pins().leds(kSecond), 0u);
+  EXPECT_EQ(robot.motors().left_steps(5 * kSecond), left);
+  EXPECT_EQ(robot.motors().right_steps(5 * kSecond), right);
+  EXPECT_EQ(robot.motors().coils(Wheel::Left, 5 * kSecond), 0u);
   EXPECT_EQ(robot.scan().interrupts(5 * kSecond), 0);
   EXPECT_FALSE(robot.uart(1).enabled());
   EXPECT_EQ(robot.agendas().next_interrupt(), board::kNever);
   // and it can be driven again; the driver's counter starts from 0
   drive(robot, 1000, 1000, 6 * kSecond);
-  EXPECT_NEAR(static_cast<double>(robot.left_steps(7 * kSecond) - left), 999, 3);
+  EXPECT_NEAR(static_cast<double>(robot.motors().left_steps(7 * kSecond) - left), 999, 3);
   EXPECT_NEAR(static_cast<double>(robot.agendas().commanded_steps(Wheel::Left, 7 * kSecond)), 999, 1);
 }
 
@@ -127,7 +127,7 @@ TEST(Board, a_thousand_boards_cost_little) {
     const double began = cpu_s();
     for (auto& robot : robots) {
       robot->exchange(at);
-      sum += robot->wheel_angle_rad(Wheel::Left, at) + robot->wheel_angle_rad(Wheel::Right, at);
+      sum += robot->motors().angle_rad(Wheel::Left, at) + robot->motors().angle_rad(Wheel::Right, at);
     }
     angle_s += cpu_s() - began;
   }
@@ -143,30 +143,30 @@ TEST(Board, a_thousand_boards_cost_little) {
 TEST(Power, coils_count_with_the_share_of_the_power_save_rhythm) {
   static const char left = 0, right = 0;
   DrivenBoard robot{board::Setup{}};
-  robot.init_ports(0);
+  robot.pins().init(0);
   robot.agendas().name_motor(Wheel::Left, &left);
   robot.agendas().name_motor(Wheel::Right, &right);
   robot.agendas().activate(&left, 0, 0);
   robot.agendas().activate(&right, 0, 0);
   robot.agendas().start(0);
   robot.agendas().set_speed(Wheel::Left, 300, 0);
-  robot.follow_power(0);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.060 * 15 / 33, 1e-12);
+  robot.pins().follow(0);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.060 * 15 / 33, 1e-12);
   robot.agendas().set_speed(Wheel::Right, -700, 100);
-  robot.follow_power(100);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 2 * 0.060 * 15 / 33 + 2 * 0.060, 1e-12);
+  robot.pins().follow(100);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.060 * 15 / 33 + 2 * 0.060, 1e-12);
   robot.agendas().set_speed(Wheel::Left, 0, 200);
   robot.agendas().set_speed(Wheel::Right, 0, 200);
-  robot.follow_power(200);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA, 1e-12);
+  robot.pins().follow(200);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA, 1e-12);
 }
 
 TEST(Power, infrared_flashes_count_with_their_mean) {
   DrivenBoard robot{board::Setup{}};
-  robot.init_ports(0);
+  robot.pins().init(0);
   robot.scan().start(false, false, 0);
-  robot.follow_power(0);
-  EXPECT_NEAR(robot.battery().amps(), kIdleA + 4 * 2 * 0.050 * 5 / 260, 1e-12);
+  robot.pins().follow(0);
+  EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 4 * 2 * 0.050 * 5 / 260, 1e-12);
 }
 
 TEST(Pins, port_d_shows_the_coils_of_the_running_driver) {
@@ -174,13 +174,13 @@ TEST(Pins, port_d_shows_the_coils_of_the_running_driver) {
   drive(robot, 100, 800, 0);
   bool off = false, on = false;
   for (Cycle at = 0; at < kSecond / 5; at += 700) {
-    const unsigned word = robot.port_read('D', Register::Port, at);
-    EXPECT_EQ(word & 15u, robot.coils(Wheel::Left, at));
-    EXPECT_EQ(word >> 4 & 15u, robot.coils(Wheel::Right, at));
+    const unsigned word = robot.pins().read('D', Register::Port, at);
+    EXPECT_EQ(word & 15u, robot.motors().coils(Wheel::Left, at));
+    EXPECT_EQ(word >> 4 & 15u, robot.motors().coils(Wheel::Right, at));
     if (at > 120 * 1475) (word & 15u) == 0 ? off = true : on = true;
-    const Cycle horizon = robot.port_horizon('D', at);
+    const Cycle horizon = robot.pins().horizon('D', at);
     EXPECT_GT(horizon, at);
-    EXPECT_EQ(robot.port_read('D', Register::Port, horizon - 1), word);
+    EXPECT_EQ(robot.pins().read('D', Register::Port, horizon - 1), word);
   }
   EXPECT_TRUE(off && on);
 }
@@ -190,10 +190,10 @@ TEST(Board, wheel_ratio_scales_the_angle_and_nothing_else) {
   setup.wheel_ratio = {1.02, 1.0};
   DrivenBoard robot(setup);
   drive(robot, 1000, 1000, 0);
-  EXPECT_EQ(robot.left_steps(kSecond), robot.right_steps(kSecond));
+  EXPECT_EQ(robot.motors().left_steps(kSecond), robot.motors().right_steps(kSecond));
   const double cycle_rad = 2 * 3.14159265358979323846 / kSecond;  // at 1000 steps/s
-  EXPECT_NEAR(robot.wheel_angle_rad(Wheel::Left, kSecond),
-              1.02 * robot.wheel_angle_rad(Wheel::Right, kSecond), 200 * cycle_rad);
+  EXPECT_NEAR(robot.motors().angle_rad(Wheel::Left, kSecond),
+              1.02 * robot.motors().angle_rad(Wheel::Right, kSecond), 200 * cycle_rad);
 }
 
 TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
@@ -204,8 +204,8 @@ TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
     robot.uart(1).load('x', 5);
     if (look)
       for (Cycle at = 0; at < kSecond; at += 12345) {
-        robot.wheel_angle_rad(Wheel::Left, at);
-        robot.coils(Wheel::Right, at);
+        robot.motors().angle_rad(Wheel::Left, at);
+        robot.motors().coils(Wheel::Right, at);
         robot.state_hash(at);
       }
     return robot.state_hash(kSecond);

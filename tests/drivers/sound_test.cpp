@@ -43,21 +43,23 @@ struct Microphones : ::testing::Test {
 TEST_F(Microphones, counts_follow_the_pressure_and_clip) {
   double pa = 0;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks) { return pa; };
-  EXPECT_EQ(robot.mic_counts(0, 0), 2048);
+  robot.look_at(&scene);
+  EXPECT_EQ(robot.ears().counts(0, 0), 2048);
   pa = 1;
-  EXPECT_EQ(robot.mic_counts(0, 0), 2147);  // 2048 + 98.6
+  EXPECT_EQ(robot.ears().counts(0, 0), 2147);  // 2048 + 98.6
   pa = -10;
-  EXPECT_EQ(robot.mic_counts(2, 0), 1062);  // 2048 - 985.5, to the nearest
+  EXPECT_EQ(robot.ears().counts(2, 0), 1062);  // 2048 - 985.5, to the nearest
   pa = 21;
-  EXPECT_EQ(robot.mic_counts(1, 0), 4095);
+  EXPECT_EQ(robot.ears().counts(1, 0), 4095);
   pa = -21;
-  EXPECT_EQ(robot.mic_counts(1, 0), 0);
+  EXPECT_EQ(robot.ears().counts(1, 0), 0);
 }
 
 TEST_F(Microphones, sit_right_left_and_behind) {
   std::vector<sim::Vec3> asked;
   scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks) { return asked.push_back(at), 0.0; };
-  for (int m = 0; m < 3; ++m) robot.mic_counts(m, 0);
+  robot.look_at(&scene);
+  for (int m = 0; m < 3; ++m) robot.ears().counts(m, 0);
   EXPECT_LT(asked[0].y, -0.03);
   EXPECT_GT(asked[1].y, 0.03);
   EXPECT_EQ(asked[0].y, -asked[1].y);
@@ -74,7 +76,7 @@ TEST_F(Microphones, noise_has_its_size_and_is_the_robots_own) {
   double sum = 0, squares = 0, product = 0;
   for (Cycle n = 0; n < 10000; ++n) {
     const Cycle at = n * 450;  // as fast as the library samples
-    const double a = one.mic_counts(0, at) - 2048, b = other.mic_counts(0, at) - 2048;
+    const double a = one.ears().counts(0, at) - 2048, b = other.ears().counts(0, at) - 2048;
     sum += a, squares += a * a, product += a * b;
   }
   EXPECT_NEAR(sum / 10000, 0, 0.8);
@@ -86,6 +88,7 @@ TEST_F(Microphones, noise_has_its_size_and_is_the_robots_own) {
 TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   std::vector<sim::Clicks> held;
   scene.sound_pa = [&](const sim::Vec3&, sim::Clicks at) { return held.push_back(at), 0.0; };
+  robot.look_at(&scene);
   now = 5000;
   robot.scan().start(false, false, now);
   const auto calls = scan_times::calls(5000, 65);
@@ -130,6 +133,7 @@ TEST_F(Microphones, samples_before_a_stop_keep_their_instants) {
 
 TEST_F(Microphones, single_conversions_hear_now) {
   scene.sound_pa = [&](const sim::Vec3& at, sim::Clicks when) { return when == 777 && at.y > 0 ? 2.0 : 0.0; };
+  robot.look_at(&scene);
   now = 777;
   EXPECT_EQ(robot.convert(2, now), 2048);
   EXPECT_EQ(robot.convert(3, now), 2245);  // left: 2048 + 197.1
@@ -143,8 +147,8 @@ struct Speaker : Microphones {
   drivers::SoundDriver driver{codec};
   const std::vector<std::int16_t>& bank = *board::sound_bank();
   void switch_on() {
-    robot.init_ports(now);
-    robot.latch_bit('F', 0, true, now);
+    robot.pins().init(now);
+    robot.pins().write_bit('F', 0, true, now);
     driver.start(now);
     codec.configure();
   }
@@ -194,7 +198,8 @@ TEST_F(Speaker, without_power_or_registers_it_is_silent) {
   driver.play(0, 2112, now);
   for (Cycle c = 0; c < 100000; c += 1000) EXPECT_EQ(codec.output(c), 0);
   EXPECT_FALSE(codec.has_news());
-  robot.latch_bit('F', 0, true, now);  // an input after reset: nothing happens before the direction is set
+  robot.pins().write_bit('F', 0, true,
+                         now);  // an input after reset: nothing happens before the direction is set
   codec.configure();
   driver.play(0, 2112, now);
   EXPECT_FALSE(codec.has_news());
@@ -211,7 +216,7 @@ TEST_F(Speaker, closing_is_heard_at_once_and_starting_again_replaces) {
   EXPECT_EQ(codec.output(106495), bank[7295 + (106495 - 8192) / 2048]);
   EXPECT_EQ(codec.output(106496), bank[11029]);
   now = 300000;
-  robot.latch_bit('F', 0, false, now);
+  robot.pins().write_bit('F', 0, false, now);
   EXPECT_EQ(codec.output(299999), bank[11029 + (299999 - 106496) / 2048]);
   EXPECT_EQ(codec.output(300000), 0);
   codec.forget(299000);

@@ -318,18 +318,18 @@ TEST_F(LisTest, sharp_gives_the_data_sheets_voltage_when_its_first_measurement_i
   add_part(r, "lis-turret");
   run_for(0.01);
   const board::Board& board = twin().mind(0).board();
-  EXPECT_EQ(board.part_analogue_v(4, r.cycles()), std::nullopt);
-  EXPECT_EQ(board.part_analogue_v(5, r.cycles()), 0.0);  // 10 of 28.7 ms
+  EXPECT_EQ(board.inputs().part_v(4, r.cycles()), std::nullopt);
+  EXPECT_EQ(board.inputs().part_v(5, r.cycles()), 0.0);  // 10 of 28.7 ms
   EXPECT_EQ(board.parts()[0]->shows(r.cycles()), "LEDs 00011");
   run_for(0.03);
-  ASSERT_TRUE(board.part_analogue_v(5, r.cycles()));
-  EXPECT_NEAR(*board.part_analogue_v(5, r.cycles()), 0.40, 0.003);
+  ASSERT_TRUE(board.inputs().part_v(5, r.cycles()));
+  EXPECT_NEAR(*board.inputs().part_v(5, r.cycles()), 0.40, 0.003);
   // 12 bits over 3.3 V: 0.40 V is 496 counts
   EXPECT_NEAR(twin().mind(0).board().convert(5, r.cycles()), 496, 4);
   // 4 cm before the sensor: 2.65 V; what moved is measured anew every 28.7 ms
   r.push_to(0.26, 0, 0);
   run_for(0.06);
-  EXPECT_NEAR(*board.part_analogue_v(5, r.cycles()), 2.65, 0.01);
+  EXPECT_NEAR(*board.inputs().part_v(5, r.cycles()), 2.65, 0.01);
   expect_no_traps();
 }
 
@@ -339,7 +339,7 @@ TEST_F(LisTest, sharp_without_supply_gives_nothing) {
   add_part(r, "lis-turret");
   run_for(0.1);
   const board::Board& board = twin().mind(0).board();
-  EXPECT_EQ(board.part_analogue_v(5, r.cycles()), 0.0);
+  EXPECT_EQ(board.inputs().part_v(5, r.cycles()), 0.0);
   EXPECT_EQ(board.parts()[0]->shows(r.cycles()), "LEDs 00000");
   EXPECT_TRUE(r.pin('B', 7));
 }

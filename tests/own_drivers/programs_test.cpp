@@ -250,7 +250,7 @@ int main(void)
   };
   // a standard deviation of 400 samples is known within 3.5 %; rounding and the converter add a little
   const board::Board& board = twin().mind(0).board();
-  const board::IrConversion lit = board.ir_conversion(0, board::kFcyHz, 100'000);
+  const board::IrConversion lit = board.ir().conversion(0, board::kFcyHz, 100'000);
   const double expected = lit.reflection_counts * lit.relative_noise;
   ASSERT_GT(expected, 4);
   EXPECT_NEAR(spread("reflected"), expected, 0.15 * expected);

@@ -64,7 +64,7 @@ std::int64_t Robot::right_steps() const { return mind().report().right_steps; }
 std::uint32_t Robot::leds() const { return mind().report().leds; }
 bool Robot::led(int number) const { return (leds() >> number & 1) != 0; }
 bool Robot::pin(char port, int bit) const {
-  return (mind().board().port_read(port, board::Board::Register::Port, mind().now()) >> bit & 1) != 0;
+  return (mind().board().pins().read(port, board::Pins::Register::Port, mind().now()) >> bit & 1) != 0;
 }
 int Robot::proximity(int sensor) const {
   return mind().proximity_counts(test_->twin().simulation().scene(), sensor);
@@ -111,7 +111,7 @@ void Robot::press_key(int key, double hold_s, int address) {
   test_->twin();
   mind().press_key({key, at_s, hold_s, address});
 }
-double Robot::battery_v() const { return mind().board().battery().voltage(mind().now()); }
+double Robot::battery_v() const { return mind().board().power().battery().voltage(mind().now()); }
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
 }

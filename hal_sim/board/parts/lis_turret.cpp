@@ -81,8 +81,8 @@ class LisTurret final : public Part, public I2cRegisters {
 
   bool drives_low(char port, int bit, Cycle at) const {
     const unsigned mask = 1u << bit;
-    return !(board().port_read(port, Board::Register::Tris, at) & mask) &&
-           !(board().port_read(port, Board::Register::Lat, at) & mask);
+    return !(board().pins().read(port, Pins::Register::Tris, at) & mask) &&
+           !(board().pins().read(port, Pins::Register::Lat, at) & mask);
   }
 
   double distance_m(Cycle at) const {
