@@ -14,7 +14,9 @@ ROOM = re.compile(r"(\S+?)/CMakeFiles/|(\S+)$")
 
 
 def say(line):
-    print(line, flush=True)
+    # in one piece: two may say something at once
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
 
 
 def brief(text):

@@ -4,7 +4,8 @@
 
     scripts/run_tests.py BUILD_FOLDER JOBS [--filter PART_OF_A_NAME] [--programs A,B,...]
 
-While one program runs, the next ones are built, so the first results come early. The filter selects programs or single
+While one program runs, the next ones are built, so the first results come early; when all are built, two run beside
+each other. The filter selects programs or single
 tests; a program that runs a list of tests, as firmware_register_test does, runs those of its list that match.
 Exit code: 0 all passed, 1 some failed or did not build, 5 nothing selected.
 """
@@ -101,26 +102,33 @@ def main():
             built.put((name, ninja(options.build, [target], options.jobs, "      ")))
         built.put(None)
 
-    threading.Thread(target=build_all, daemon=True).start()
-    passed = failed = 0
-    while True:
-        item = built.get()
-        if item is None:
-            break
-        name, status = item
-        if status != 0:
-            failed += 1
-            failures.append(f"{name}: does not build")
-            say(f"FAIL  {name}: does not build")
-            continue
-        tests = None
-        if options.filter and options.filter not in name:
-            tests = [t for t in listed(f"{options.build}/tests/{name}") if options.filter in t]
-            if not tests:
+    counts = []  # passed and failed, of each program
+
+    def run_built():
+        while (item := built.get()) is not None:
+            name, status = item
+            if status != 0:
+                counts.append((0, 1))
+                failures.append(f"{name}: does not build")
+                say(f"FAIL  {name}: does not build")
                 continue
-        p, f = run(options.build, name, tests)
-        passed += p
-        failed += f
+            tests = None
+            if options.filter and options.filter not in name:
+                tests = [t for t in listed(f"{options.build}/tests/{name}") if options.filter in t]
+                if not tests:
+                    continue
+            counts.append(run(options.build, name, tests))
+        built.put(None)  # for the other one
+
+    building = threading.Thread(target=build_all, daemon=True)
+    building.start()
+    first = threading.Thread(target=run_built, daemon=True)
+    first.start()
+    building.join()
+    if options.jobs > 1:
+        run_built()
+    first.join()
+    passed, failed = (sum(column) for column in zip(*counts)) if counts else (0, 0)
     if passed + failed == 0:
         print(f"make test: T: got '{options.filter}', expected a part of a test's or a program's name", file=sys.stderr)
         return 5
