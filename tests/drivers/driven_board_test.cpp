@@ -68,7 +68,7 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   EXPECT_EQ(robot.motors().left_steps(5 * kSecond), left);
   EXPECT_EQ(robot.motors().right_steps(5 * kSecond), right);
   EXPECT_EQ(robot.motors().coils(Wheel::Left, 5 * kSecond), 0u);
-  EXPECT_EQ(robot.scan().interrupts(5 * kSecond), 0);
+  EXPECT_EQ(robot.scan().clock().interrupts(5 * kSecond), 0);
   robot.uart(1).exchange(5 * kSecond);
   EXPECT_EQ(sent, "");  // cut off
   EXPECT_EQ(robot.agendas().next_interrupt(), board::kNever);
