@@ -21,7 +21,7 @@ bool ProfileOutputs::open(std::vector<std::string>& problems) {
                   problems);
   for (int i = 0; i < twin_.robots() && !a.budgets.empty(); ++i)
     if (const auto* runner = chip_runner(twin_, i))
-      for (std::string& line : budgets_.unknown(runner->file())) problems.push_back(std::move(line));
+      for (std::string& line : budgets_.unknown(runner->image()->file())) problems.push_back(std::move(line));
   return problems.size() == before;
 }
 

@@ -59,7 +59,8 @@ void Profiles::begin(const std::string& option, std::vector<std::string>& proble
     chip::ChipRunner* runner = chip_runner(twin_, i);
     if (!runner) continue;
     watched_.push_back(
-        {i, runner, std::make_unique<chip::Profile>(runner->file(), runner->processor(), runner->device())});
+        {i, runner,
+         std::make_unique<chip::Profile>(runner->image()->file(), runner->processor(), runner->device())});
     runner->watch_steps(watched_.back().profile.get(), true);
   }
   if (watched_.empty())
@@ -76,7 +77,7 @@ std::vector<Profiles::Named> Profiles::reports() const {
   std::vector<Named> all;
   for (const Watched& w : watched_)
     all.push_back({twin_.world().robots[static_cast<std::size_t>(w.robot)].name, w.profile->report(),
-                   &w.runner->file()});
+                   &w.runner->image()->file()});
   return all;
 }
 

@@ -93,7 +93,7 @@ void TerminalView::lay_ground() {
       if (p.x < layout.low_m.x || p.x > layout.high_m.x || p.y < layout.low_m.y || p.y > layout.high_m.y)
         continue;
       // a floor as bright as walls would hide them
-      const sim::Colour c = scene.floor(p).colour;
+      const sim::Colour c = sim::floor_at(scene.world(), p).colour;
       at(ground_, x, y) = {xterm({0.6 * c.r, 0.6 * c.g, 0.6 * c.b}),
                            (c.r + c.g + c.b) / 3 < kDark ? ':' : '.'};
     }

@@ -128,7 +128,7 @@ void Simulation::advance(Clicks at) {
   motion_->step(end, due_, rims_.data(), scene_->neighbours());
   scene_->advance_to(end);
   publish_motion();
-  if (scene_->leds_watched()) publish_leds();
+  if (scene_->leds.is_watched()) publish_leds();
   publish_sound();
   for (const auto& medium : media_) medium->exchange(*scene_, end);
   if (attendant_) attendant_->after_tick();
@@ -203,7 +203,7 @@ void Simulation::run_minds(Clicks end) {
 void Simulation::publish_leds() {
   leds_.resize(minds_.size());
   for (std::size_t r = 0; r < minds_.size(); ++r) leds_[r] = minds_[r]->report().leds;
-  scene_->publish_leds(leds_);
+  scene_->leds.publish(leds_);
 }
 
 /// Speed of the rims over the floor in a tick, noise and slip included.

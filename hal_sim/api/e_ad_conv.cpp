@@ -40,25 +40,25 @@ HostResult HostLibrary::e_init_ad_scan(const Call& call) {
     return HostResult::done(on - call.at + c.scan_all_return);
   }
   // the scan may have been stopped, or held off, by what came in between
-  if (!scan().is_on()) return HostResult::waits(board::kNever);
+  if (!scan().clock().is_on) return HostResult::waits(board::kNever);
   if (const Cycle full = scan().first_fill(call.at); full > call.at) return HostResult::waits(full);
   return HostResult::done(c.scan_filled_return);
 }
 
 HostResult HostLibrary::e_ad_is_array_filled(const Call& call) {
-  const std::int64_t count = scan().interrupts(call.at);
+  const std::int64_t count = scan().clock().interrupts(call.at);
   const bool filled = count > 0 && count % drivers::kMicSamples == 0;
   const std::int64_t next = filled ? count + 1 : count - count % drivers::kMicSamples + drivers::kMicSamples;
-  call.cpu.note_look(scan().held_since() >= 0 ? board::kNever : scan().interrupt_cycle(next));
+  call.cpu.note_look(scan().clock().held_since >= 0 ? board::kNever : scan().clock().interrupt_cycle(next));
   call.give(filled ? 1 : 0);
   return HostResult::done(cycles_.array_filled);
 }
 
 // the program never runs inside the handler, so after the first sample it always sees 1
 HostResult HostLibrary::e_ad_is_acquisition_completed(const Call& call) {
-  const std::int64_t count = scan().interrupts(call.at);
-  const bool stays = count > 0 || scan().held_since() >= 0;
-  call.cpu.note_look(stays ? board::kNever : scan().next_interrupt(call.at));
+  const std::int64_t count = scan().clock().interrupts(call.at);
+  const bool stays = count > 0 || scan().clock().held_since >= 0;
+  call.cpu.note_look(stays ? board::kNever : scan().clock().next_interrupt(call.at));
   call.give(count > 0 ? 1 : 0);
   return HostResult::done(cycles_.completed);
 }

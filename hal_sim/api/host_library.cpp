@@ -100,7 +100,7 @@ void HostLibrary::effect(const Call& call) {
 /// How the two handlers are in each other's way may be other than before; a hair's breadth is not worth a
 /// look at all samples.
 void HostLibrary::follow_ticks(Cycle at) {
-  const Cycle round = rhythm_.round(agendas().tick_cycles()), old = scan().full_round();
+  const Cycle round = rhythm_.round(agendas().tick_cycles()), old = scan().clock().full_round;
   if (std::abs(round - old) > old / 1000) scan().set_round(round, at);
 }
 
@@ -158,11 +158,12 @@ Cycle HostLibrary::due() const {
 }
 
 Cycle HostLibrary::source_event(int handler, Cycle after) const {
-  return handler == kAgendaHandler ? agendas().tick_after(after) : scan().interrupt_after(after);
+  return handler == kAgendaHandler ? agendas().tick_after(after) : scan().clock().interrupt_after(after);
 }
 
 Cycle HostLibrary::pending_cycles() const {
-  return scan().micro_only() ? cycles_.share_scan_micro : cycles_.share_scan_round / drivers::kScanPeriod;
+  return scan().clock().run.micro_only ? cycles_.share_scan_micro
+                                       : cycles_.share_scan_round / drivers::kScanPeriod;
 }
 
 std::uint64_t HostLibrary::share_q32() const {

@@ -50,10 +50,10 @@ void ScanVariables::started(int selector) {
 }
 
 std::uint64_t ScanVariables::share_q32() const {
-  if (!scan_.is_on()) return 0;
-  const bool micro = scan_.micro_only();
+  if (!scan_.clock().is_on) return 0;
+  const bool micro = scan_.clock().run.micro_only;
   const Cycle taken = micro ? cycles_.share_scan_micro : cycles_.share_scan_round,
-              of = micro ? drivers::kScanMicroFrameCycles : scan_.round();
+              of = micro ? drivers::kScanMicroFrameCycles : scan_.clock().run.round;
   if (share_.taken != taken || share_.of != of)
     share_ = {taken, of, (static_cast<std::uint64_t>(taken) << 32) / static_cast<std::uint64_t>(of)};
   return share_.q32;
@@ -61,7 +61,9 @@ std::uint64_t ScanVariables::share_q32() const {
 
 // --- samples
 
-std::int64_t ScanVariables::filed(Cycle at) const { return scan_.interrupts(at - cycles_.scan_files); }
+std::int64_t ScanVariables::filed(Cycle at) const {
+  return scan_.clock().interrupts(at - cycles_.scan_files);
+}
 
 std::int64_t ScanVariables::newest(std::int64_t count, std::int64_t offset, unsigned index, int ring) {
   // number n lies at (n + offset) mod ring
@@ -104,7 +106,7 @@ std::int64_t ScanVariables::number_of(Place place, Cycle at) const {
       return newest(filed(at), mic_offset_, place.index % drivers::kMicSamples, drivers::kMicSamples);
     default:
       // sample n of the accelerometer lies at n + 1
-      return newest(scan_.acc_samples(at), acc_offset_ + 1, place.index % drivers::kAccSamples,
+      return newest(scan_.clock().acc_samples(at), acc_offset_ + 1, place.index % drivers::kAccSamples,
                     drivers::kAccSamples);
   }
 }
@@ -147,14 +149,15 @@ std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const 
     case HostVariable::e_last_mic_scan_id:
       return ring_index(filed(at), mic_offset_, drivers::kMicSamples);
     case HostVariable::e_last_acc_scan_id:
-      return ring_index(scan_.acc_samples(at), acc_offset_, drivers::kAccSamples);
+      return ring_index(scan_.clock().acc_samples(at), acc_offset_, drivers::kAccSamples);
     case HostVariable::selector:
       return selector_;
     case HostVariable::tickAdcIsr:
-      return ticks_.at(scan_.interrupts(at - cycles_.scan_counts), kMostTicks);
-    case HostVariable::updateAccI2CCounter:
-      return static_cast<std::uint16_t>(
-          acc_refresh_.at(scan_.interrupts(at - cycles_.scan_counts), kMostRefresh) | beside_refresh_ << 8);
+      return ticks_.at(scan_.clock().interrupts(at - cycles_.scan_counts), kMostTicks);
+    case HostVariable::updateAccI2CCounter: {
+      const std::int64_t counted = scan_.clock().interrupts(at - cycles_.scan_counts);
+      return static_cast<std::uint16_t>(acc_refresh_.at(counted, kMostRefresh) | beside_refresh_ << 8);
+    }
     case HostVariable::hal_starts:
       return starts_;
     case HostVariable::Count:
@@ -171,10 +174,11 @@ std::uint16_t ScanVariables::peek(unsigned address, Cycle at) const { return val
 void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle at) {
   const Place place = place_of(address);
   // start-up code clears arrays that are empty, byte by byte
-  if (!(value & lanes) && !overlay_ && !scan_.is_on() && scan_.starts() == 0 && is_array(place.which)) return;
+  if (!(value & lanes) && !overlay_ && !scan_.clock().is_on && scan_.starts() == 0 && is_array(place.which))
+    return;
   const std::uint16_t old = read(address, at);
   value = static_cast<std::uint16_t>((old & ~lanes) | (value & lanes));
-  const std::int64_t interrupts = scan_.interrupts(at - cycles_.scan_counts);
+  const std::int64_t interrupts = scan_.clock().interrupts(at - cycles_.scan_counts);
   // a ring that goes on elsewhere keeps what it holds
   const auto move_ring = [&](HostVariable ring, int words) {
     const unsigned start = served_address(ring);
@@ -195,10 +199,10 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
     case HostVariable::e_last_acc_scan_id:
       if (value == old) return;
       if (scan_.starts() > 0) move_ring(HostVariable::e_acc_scan, kAccWords);
-      acc_offset_ = value % drivers::kAccSamples - scan_.acc_samples(at);
+      acc_offset_ = value % drivers::kAccSamples - scan_.clock().acc_samples(at);
       if (overlay_)
         for (Written& w : overlay_->acc)
-          if (w.number != kNobody) w.number = scan_.acc_samples(at) - 1;
+          if (w.number != kNobody) w.number = scan_.clock().acc_samples(at) - 1;
       return;
     case HostVariable::selector:
       selector_ = value;
@@ -229,10 +233,10 @@ void ScanVariables::write(unsigned address, std::uint16_t value, std::uint16_t l
 Cycle ScanVariables::horizon(unsigned address, Cycle at) {
   const Place place = place_of(address);
   // nothing is filed while the handler is held off, but what was under way
-  if (const Cycle since = scan_.held_since(); since >= 0)
+  if (const Cycle since = scan_.clock().held_since; since >= 0)
     return at < since + kLongestFiling ? since + kLongestFiling : board::kNever;
   const auto after = [&](std::int64_t count, Cycle delay) {
-    const Cycle when = scan_.interrupt_cycle(count);
+    const Cycle when = scan_.clock().interrupt_cycle(count);
     return when >= board::kNever ? board::kNever : when + delay;
   };
   switch (place.which) {
@@ -240,7 +244,7 @@ Cycle ScanVariables::horizon(unsigned address, Cycle at) {
       return after(filed(at) + 1, cycles_.scan_files);
     case HostVariable::tickAdcIsr:
     case HostVariable::updateAccI2CCounter:
-      return after(scan_.interrupts(at - cycles_.scan_counts) + 1, cycles_.scan_counts);
+      return after(scan_.clock().interrupts(at - cycles_.scan_counts) + 1, cycles_.scan_counts);
     case HostVariable::e_mic_scan:
       return after(number_of(place, at) + drivers::kMicSamples + 1, cycles_.scan_files);
     case HostVariable::e_last_acc_scan_id:
@@ -248,7 +252,7 @@ Cycle ScanVariables::horizon(unsigned address, Cycle at) {
       return scan_.acc_until(at);
     case HostVariable::e_ambient_ir:
     case HostVariable::e_ambient_and_reflected_ir:
-      return is_left_out(place) ? board::kNever : scan_.horizon(static_cast<int>(place.index), at);
+      return is_left_out(place) ? board::kNever : scan_.pair(static_cast<int>(place.index), at).until;
     default:
       return board::kNever;
   }

@@ -37,7 +37,6 @@ inline constexpr double kBatteryRawAt4V2 = 2560;  // counts [lib: utility/utilit
 inline constexpr int kUartBitsPerByte = 10;          // 8N1 [lib: uart/e_init_uart1.s]
 inline constexpr int kUartCyclesPerBrg = 16;         // bit = 16 (BRG + 1) cycles [DS70143 18.4]
 inline constexpr int kUart1Brg = 7;                  // 115,200 baud exactly [lib: uart/e_init_uart1.s]
-inline constexpr int kUartFifoBytes = 4;             // transmit buffer [DS70143 18.3]
 inline constexpr std::size_t kPacketBytes = 330;     // [assumed: Bluetooth serial profile's usual frame]
 inline constexpr Cycle kPacketCycles = kFcyHz / 50;  // [assumed: 20 ms, a module's latency]
 

@@ -8,12 +8,6 @@
 
 namespace board {
 
-void Uart::switch_on(int brg, Cycle at) {
-  settle(at);
-  enabled_ = true;
-  brg_ = brg & 0xFFFF;
-}
-
 void Uart::cut_off(Cycle at) {
   while (!out_ends_.empty() && out_ends_.back() > at) {
     out_ends_.pop_back();
@@ -21,22 +15,11 @@ void Uart::cut_off(Cycle at) {
   }
 }
 
-void Uart::send_break(Cycle cycles, Cycle at) {
-  first_use.note();
-  settle(at);
-  cut_off(at);
-  enabled_ = false;
-  starts_.fill(at);
-  last_start_ = free_at_ = break_until_ = at + cycles;
-  hash_ = sim::mix64(hash_ ^ static_cast<std::uint64_t>(at));
-}
-
 void Uart::reset(Cycle at) {
-  settle(at);
+  lose_untaken(at);
   cut_off(at);  // a byte cut off by the reset never arrives
   enabled_ = false;
-  starts_.fill(at);
-  last_start_ = free_at_ = at;
+  free_at_ = at;
 }
 
 void Uart::begin_again(Cycle at) {
@@ -49,63 +32,26 @@ void Uart::begin_again(Cycle at) {
   if (end_) end_->begin_again();
 }
 
-int Uart::waiting(Cycle at) const {
-  int count = 0;
-  for (Cycle start : starts_) count += start > at ? 1 : 0;
-  return count;
-}
-
-bool Uart::load(std::uint8_t byte, Cycle at) {
-  if (!enabled_ || buffer_full(at)) return false;
-  first_use.note();
-  last_start_ = std::max(at, free_at_);
-  free_at_ = last_start_ + byte_cycles();
-  newest_ = (newest_ + 1) % kUartFifoBytes;
-  starts_[static_cast<std::size_t>(newest_)] = last_start_;
-  out_bytes_.push_back(byte);
-  out_ends_.push_back(free_at_);
-  if (watch_) watch_->frame(number_, true, byte, last_start_, free_at_);
-  ++sent_;
-  hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(free_at_) << 8));
-  return true;
-}
-
-Cycle Uart::load_when_room(std::uint8_t byte, Cycle at) {
-  enabled_ = true;
-  // the oldest of four waiting bytes moves on first
-  if (buffer_full(at)) at = *std::min_element(starts_.begin(), starts_.end());
-  load(byte, at);
-  return at;
-}
-
-void Uart::settle(Cycle at) {
+void Uart::lose_untaken(Cycle at) {
   while (!on_wire_.empty() && on_wire_.front().at <= at) {
     const Arrival arrival = on_wire_.front();
     on_wire_.pop_front();
     if (!enabled_) continue;
-    ++received_;
     hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
-    if (receiver_) receiver_->take(arrival.byte);
   }
 }
 
 Cycle Uart::next_arrival(Cycle at) {
-  settle(at);
+  lose_untaken(at);
   return on_wire_.empty() ? kNever : on_wire_.front().at;
-}
-
-std::int64_t Uart::received(Cycle at) {
-  settle(at);
-  return received_;
 }
 
 void Uart::put_on_wire(std::uint8_t byte, Cycle start, Cycle end) {
   first_use.note();
-  last_start_ = start;
   free_at_ = end;
   out_bytes_.push_back(byte);
   out_ends_.push_back(end);
-  if (watch_) watch_->frame(number_, true, byte, last_start_, end);
+  if (watch_) watch_->frame(number_, true, byte, start, end);
   ++sent_;
   hash_ = sim::mix64(hash_ ^ (byte | static_cast<std::uint64_t>(end) << 8));
 }
@@ -122,7 +68,6 @@ bool Uart::take_from_wire(std::uint8_t& byte, Cycle& start) {
   on_wire_.pop_front();
   byte = arrival.byte;
   start = arrival.at - byte_cycles();
-  ++received_;
   hash_ = sim::mix64(hash_ ^ (arrival.byte | static_cast<std::uint64_t>(arrival.at) << 8 | 1ull << 63));
   return true;
 }
@@ -165,7 +110,7 @@ void Uart::exchange(Cycle at) {
     break_until_ = -1;
   }
   hand_out(at);
-  settle(at);
+  lose_untaken(at);
   // before the program has set the UART up, nobody outside is made to talk to a deaf robot
   if (!enabled_) return;
   // only what the wire can carry soon is taken; the rest waits outside

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// One UART of the processor.
+// The two lines between one UART of the processor and the world, byte by byte.
 //
-//   program -> TXREG -> [ 4 bytes ] -> shift register -> wire      one byte = 10 bits = 160 (BRG + 1) cycles
-//   wire -> shift register -> UartReceiver: whoever takes each byte as its interrupt comes
+//   the chip's transmitter -> put_on_wire() -> [ on its way ] -> UartEnd
+//   UartEnd, inject() -> [ on its way ] -> take_from_wire() -> the chip's receiver
 //
-// A byte's start is known when it is loaded: the end of the byte before, or now. So nothing is ticked.
-// Modelled: transmit buffer, break, times, bytes lost while disabled. Not modelled: the transmitter's wait
-// for the next edge of its bit clock (below one bit), framing, parity. Source: [DS70143 18].
+// One byte is 10 bits, of 16 (BRG + 1) cycles each.
+// A byte's beginning and end are known when it begins. So nothing is ticked. Modelled: times, break, damage
+// of the lines, bytes that come while the UART is off or that nobody takes: they are lost. Buffers, framing
+// and interrupts are the chip's own (dspic30/periph/uart.h). Source: [DS70143 18].
 #pragma once
-#include <array>
 #include <cstdint>
 #include <deque>
 #include <list>
@@ -32,49 +32,20 @@ class UartWatch {
   virtual void frame(int uart, bool sent, std::uint8_t byte, Cycle start, Cycle end) = 0;
 };
 
-/// Takes every byte that an enabled UART receives, in their order; told when somebody looks.
-class UartReceiver {
- public:
-  virtual ~UartReceiver() = default;
-  virtual void take(std::uint8_t byte) = 0;
-};
-
 class Uart {
  public:
   /// First byte or break that is sent, or an end that may send.
   FirstUse first_use;
 
-  /// Enabled at BRG `brg` from `at` on.
-  void switch_on(int brg, Cycle at);
   void reset(Cycle at);
   /// Behind reset(): nothing is on the wire.
   void begin_again(Cycle at);
 
-  bool enabled() const { return enabled_; }
   Cycle byte_cycles() const { return Cycle{kUartBitsPerByte} * kUartCyclesPerBrg * (brg_ + 1); }
 
-  // --- transmitter
-  /// Write to TXREG. False: lost, because the buffer is full or the UART is disabled.
-  bool load(std::uint8_t byte, Cycle at);
-  bool buffer_full(Cycle at) const { return waiting(at) >= kUartFifoBytes; }
-  /// Cycle at which the last loaded byte moves into the shift register: the transmit interrupt (UTXISEL 1).
-  Cycle buffer_empty_at() const { return last_start_; }
-  /// Cycle at which the wire falls idle (TRMT).
-  Cycle idle_at() const { return free_at_; }
-  /// The transmitter is switched off, bytes that have not left are lost, and the line is low for `cycles`.
-  void send_break(Cycle cycles, Cycle at);
-  /// For programs that wait on the buffer: loads as soon as there is room, and says when that is.
-  Cycle load_when_room(std::uint8_t byte, Cycle at);
-
-  // --- receiver
-  /// Null: what comes is counted and lost. The receiver outlives the UART or is taken away.
-  void set_receiver(UartReceiver* receiver) { receiver_ = receiver; }
-  /// Bytes that have come by `at` have been given to the receiver.
-  void settle(Cycle at);
-  /// End of the next byte known to be on its way; kNever if none.
+  /// End of the next byte known to be on its way to the chip; kNever if none. What nobody has taken by `at`
+  /// is lost.
   Cycle next_arrival(Cycle at);
-  /// Bytes received since power-up.
-  std::int64_t received(Cycle at);
 
   // --- outside
   void connect(std::shared_ptr<UartEnd> end) {
@@ -138,8 +109,9 @@ class Uart {
   std::uint64_t state_hash() const { return hash_; }
 
  private:
-  int waiting(Cycle at) const;
   void cut_off(Cycle at);
+  /// What should have been taken by `at` and was not.
+  void lose_untaken(Cycle at);
   void hand_out(Cycle at);
   void begin_on_wire(std::uint8_t byte, Cycle at);
 
@@ -151,11 +123,8 @@ class Uart {
   bool enabled_ = false;
   int brg_ = kUart1Brg;
 
-  std::array<Cycle, kUartFifoBytes> starts_{};  // of the last four bytes loaded
-  int newest_ = 0;
-  Cycle last_start_ = 0;
   Cycle free_at_ = 0;
-  std::vector<std::uint8_t> out_bytes_;  // loaded, not yet handed out
+  std::vector<std::uint8_t> out_bytes_;  // begun, not yet handed out
   std::vector<Cycle> out_ends_;
   std::int64_t sent_ = 0;
 
@@ -164,8 +133,6 @@ class Uart {
   std::int64_t injected_count_ = 0, came_ = 0;
   std::list<Arrival> on_wire_;
   Cycle wire_free_at_ = 0;
-  std::int64_t received_ = 0;
-  UartReceiver* receiver_ = nullptr;
 
   std::shared_ptr<UartEnd> end_;
   UartWatch* watch_ = nullptr;

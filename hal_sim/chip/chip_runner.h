@@ -82,9 +82,7 @@ class ChipRunner final : public host::Runner,
   const dspic::Processor& processor() const { return *processor_; }
   /// For tests, which change how it runs and not what it does.
   dspic::Processor& processor() { return *processor_; }
-  const dspic::ProgramMemory& program() const { return program_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
-  const dspic::FirmwareFile& file() const { return file_; }
   const std::shared_ptr<const ChipImage>& image() const { return image_; }
   const drivers::Drivers* closed_drivers() const override {
     return library_ ? &library_->drivers() : nullptr;

@@ -23,12 +23,12 @@ inline constexpr Address kAddressMask = 0xFFFF;  ///< of data
 class Machine {
  public:
   /// `runner` outlives it.
-  explicit Machine(chip::ChipRunner& runner) : runner_(runner), code_(runner.file()) {}
+  explicit Machine(chip::ChipRunner& runner) : runner_(runner), code_(runner.image()->file()) {}
 
   chip::ChipRunner& runner() const { return runner_; }
   const std::string& name() const { return runner_.name(); }
   /// Words, functions, lines, names and types.
-  const dspic::FirmwareFile& file() const { return runner_.file(); }
+  const dspic::FirmwareFile& file() const { return runner_.image()->file(); }
   Code& code() { return code_; }
 
   /// `watcher` sees each step from now on, or no longer. It outlives the machine or is taken away. Between

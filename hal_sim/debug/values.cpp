@@ -76,8 +76,8 @@ bool Values::find_other(const std::string& name, CValue& value) const {
     value.data = some;
     return true;
   }
-  const auto code = runner_.file().functions.find(name);
-  return code != runner_.file().functions.end() &&
+  const auto code = runner_.image()->file().functions.find(name);
+  return code != runner_.image()->file().functions.end() &&
          known(CType::Kind::Unsigned, code->second > 0xFFFF ? 32 : 16, code->second);
 }
 
@@ -215,7 +215,7 @@ std::optional<Data> Values::find_data(const std::string& name) const {
 }
 
 std::optional<Data> Values::find_untyped(const std::string& name) const {
-  const auto& file = runner_.file();
+  const auto& file = runner_.image()->file();
   if (const auto object = file.objects.find(name); object != file.objects.end()) {
     const auto bytes = file.object_bytes.find(name);
     return Data{object->second, bytes == file.object_bytes.end() ? 2u : bytes->second};

@@ -51,18 +51,19 @@ void AdcScan::settle(Cycle at) {
   // samples so far must not depend on frame times that are about to be forgotten
   for (int sensor = 0; sensor < kRingSensors; ++sensor) {
     const auto i = static_cast<std::size_t>(sensor);
-    const std::int64_t count = full_interrupts(at);
+    const std::int64_t count = clock_.full_interrupts(at);
     keep(dark_[i], sensor, newest(count, kScanDarkSlot, 1, pair_of_sensor(sensor)), false);
     keep(lit_[i], sensor, newest(count, kScanLitSlot, 0, pair_of_sensor(sensor)), true);
   }
-  fill_acc(acc_samples_of(full_interrupts(at)));
-  const std::int64_t passed = frames(at);
+  fill_acc(ScanClock::acc_samples_of(clock_.full_interrupts(at)));
+  const std::int64_t passed = clock_.frames(at);
   if (passed > 0) {
-    runs_.push_back(run_);
-    while (runs_.size() > 1 && runs_[1].first <= run_.first + passed - kMicSamples)
+    runs_.push_back(clock_.run);
+    while (runs_.size() > 1 && runs_[1].first <= clock_.run.first + passed - kMicSamples)
       runs_.erase(runs_.begin());
   }
-  run_ = {run_.first + passed, full_interrupts(at), at + kScanStartCycles, run_.micro_only, run_.round};
+  clock_.run = {clock_.run.first + passed, clock_.full_interrupts(at), at + kScanStartCycles,
+                clock_.run.micro_only, clock_.run.round};
   for (Samples* samples : {&dark_, &lit_})
     for (Sample& s : *samples) s.until = 0, s.is_regular = false;
   regular_dark_ = 0;
@@ -70,53 +71,46 @@ void AdcScan::settle(Cycle at) {
 
 void AdcScan::start(bool micro_only, bool five_pairs, Cycle at) {
   settle(at);
-  const std::int64_t period = (run_.full + kScanPeriod - 1 - kScanLitSlot) / kScanPeriod;
+  const std::int64_t period = (clock_.run.full + kScanPeriod - 1 - kScanLitSlot) / kScanPeriod;
   pair_base_ = pair_of_lit(period);
   period_base_ = period;
   pairs_ = five_pairs ? 5 : 4;
   pair_base_ %= pairs_;
-  run_.micro_only = micro_only;
-  run_.round = micro_only ? kScanPeriod * kScanMicroFrameCycles : full_round_;
-  on_ = true;
+  clock_.run.micro_only = micro_only;
+  clock_.run.round = micro_only ? kScanPeriod * kScanMicroFrameCycles : clock_.full_round;
+  clock_.is_on = true;
   ++starts_;
 }
 
 // the frame under way keeps its end
 void AdcScan::set_round(Cycle round, Cycle at) {
-  if (round == full_round_) return;
-  full_round_ = round;
-  if (run_.micro_only) return;
-  if (on_) {
-    const Cycle end = run_.cycle_of(run_.first + frames(at));
+  if (round == clock_.full_round) return;
+  clock_.full_round = round;
+  if (clock_.run.micro_only) return;
+  if (clock_.is_on) {
+    const Cycle end = clock_.run.cycle_of(clock_.run.first + clock_.frames(at));
     settle(at);
-    run_.origin = end - run_.sequence();
+    clock_.run.origin = end - clock_.run.sequence();
   }
-  run_.round = round;
+  clock_.run.round = round;
 }
 
 // The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes
 // now and begins a new sequence.
 void AdcScan::release(Cycle at) {
-  const Cycle since = std::exchange(held_since_, -1);
-  if (since < 0 || !on_) return;
-  const Cycle first = run_.cycle_of(run_.first + frames(since));
-  const std::int64_t lost = at < first ? 0 : (at - first) / run_.sequence();
+  const Cycle since = std::exchange(clock_.held_since, -1);
+  if (since < 0 || !clock_.is_on) return;
+  const Cycle first = clock_.run.cycle_of(clock_.run.first + clock_.frames(since));
+  const std::int64_t lost = at < first ? 0 : (at - first) / clock_.run.sequence();
   if (lost <= 0) return;
   settle(since);
-  run_.origin = at - run_.sequence();
-  lost_ += lost;
-}
-
-Cycle AdcScan::interrupt_after(Cycle after) const {
-  const Cycle next = next_interrupt(after);
-  if (held_since_ < 0 || !on_ || next > after) return next;
-  return next + ((after - next) / run_.sequence() + 1) * run_.sequence();
+  clock_.run.origin = at - clock_.run.sequence();
 }
 
 void AdcScan::switch_converter(bool on, Cycle at) {
-  if (on == on_) return;
+  if (on == clock_.is_on) return;
   settle(at);
-  on_ = on;
+  clock_.is_on = on;
 }
 
 void AdcScan::reset(Cycle at) {
@@ -125,15 +119,14 @@ void AdcScan::reset(Cycle at) {
   acc_kept_ = 0;
   acc_used_ = false;
   acc_.reset();
-  on_ = false;
-  held_since_ = -1;
-  lost_ = 0;
+  clock_.is_on = false;
+  clock_.held_since = -1;
   starts_ = 0;
   pairs_ = 4;
   period_base_ = 0;
   pair_base_ = 0;
-  run_ = Run{};
-  run_.round = full_round_;
+  clock_.run = ScanClock::Run{};
+  clock_.run.round = clock_.full_round;
   dark_.fill(Sample{});
   lit_.fill(Sample{});
   regular_dark_ = 0;
@@ -144,11 +137,11 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
 }
 
 Cycle AdcScan::first_fill(Cycle at) const {
-  if (!on_ || run_.micro_only) return at;
-  const std::int64_t have = acc_samples(at);
+  if (!clock_.is_on || clock_.run.micro_only) return at;
+  const std::int64_t have = clock_.acc_samples(at);
   const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
   if (missing == 0) return at;
-  return full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) + kScanAccIsrCycles;
+  return clock_.full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) + kScanAccIsrCycles;
 }
 
 /// Newest period whose interrupt in `slot` has come and that serves `pair`; a value below 0 if none.
@@ -160,17 +153,17 @@ std::int64_t AdcScan::newest(std::int64_t interrupts, int slot, int shift, int p
 }
 
 std::int64_t AdcScan::dark_number(int sensor, Cycle at) const {
-  return newest(full_interrupts(at - kScanFileCycles), kScanDarkSlot, 1, pair_of_sensor(sensor));
+  return newest(clock_.full_interrupts(at - kScanFileCycles), kScanDarkSlot, 1, pair_of_sensor(sensor));
 }
 
 std::int64_t AdcScan::lit_number(int sensor, Cycle at) const {
-  return newest(full_interrupts(at - kScanFileCycles), kScanLitSlot, 0, pair_of_sensor(sensor));
+  return newest(clock_.full_interrupts(at - kScanFileCycles), kScanLitSlot, 0, pair_of_sensor(sensor));
 }
 
 int AdcScan::evaluate(int sensor, std::int64_t period, bool lit_sample) const {
   if (sensor >= kRingSensors) return 0;
   const std::int64_t interrupt = period * kScanPeriod + (lit_sample ? kScanLitSlot : kScanDarkSlot);
-  const Cycle at = full_cycle(interrupt) - hold_to_end(sensor);
+  const Cycle at = clock_.full_cycle(interrupt) - hold_to_end(sensor);
   // the LED was switched on at the dark interrupt of the period before; in the very first period nobody did
   const Cycle lit_for = lit_sample && period > 0 ? scan_flash_cycles(sensor) : -1;
   return ir_.counts(sensor, at, lit_for);
@@ -184,9 +177,9 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
 
 inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
   if (at < kept.until) return kept.counts;
-  if (!kept.is_regular || held_since_ >= 0) return read_anew(kept, sensor, at, lit_sample);
+  if (!kept.is_regular || clock_.held_since >= 0) return read_anew(kept, sensor, at, lit_sample);
   // whole turns take whole cycles: the new sample's frame ends a turn before the next one's
-  const Cycle turn = pairs_ * run_.round;
+  const Cycle turn = pairs_ * clock_.run.round;
   const std::int64_t turns = 1 + quotient(at - kept.until, turn);
   kept.until += turns * turn;
   kept.number += static_cast<std::int32_t>(turns * pairs_);
@@ -198,20 +191,20 @@ inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
 }
 
 int AdcScan::read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample) {
-  const std::int64_t filed = full_interrupts(at - kScanFileCycles);
+  const std::int64_t filed = clock_.full_interrupts(at - kScanFileCycles);
   const int slot = lit_sample ? kScanLitSlot : kScanDarkSlot, shift = lit_sample ? 0 : 1;
   const std::int64_t number = newest(filed, slot, shift, pair_of_sensor(sensor));
   keep(kept, sensor, number, lit_sample);
   // a pair's turn comes round every so many periods; before its first time it has to be looked for
-  kept.is_regular = number >= 0 && number >= period_base_ && on_ && !run_.micro_only;
-  kept.until = kept.is_regular ? full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
+  kept.is_regular = number >= 0 && number >= period_base_ && clock_.is_on && !clock_.run.micro_only;
+  kept.until = kept.is_regular ? clock_.full_cycle((number + pairs_) * kScanPeriod + slot) + kScanFileCycles
                                : next_sample(filed, slot, shift, pair_of_sensor(sensor));
   return kept.counts;
 }
 
 // in darkness, once there is a dark sample, the others are the same
 bool AdcScan::stays_dark(int sensor) const {
-  return (regular_dark_ >> sensor & 1) && held_since_ < 0 && sensor < kRingSensors && ir_.is_dark();
+  return (regular_dark_ >> sensor & 1) && clock_.held_since < 0 && sensor < kRingSensors && ir_.is_dark();
 }
 
 int AdcScan::dark(int sensor, Cycle at) {
@@ -253,7 +246,7 @@ int AdcScan::peek_lit(int sensor, Cycle at) const {
 }
 
 Cycle AdcScan::mic_hold(int microphone, std::int64_t number) const {
-  Run run = run_;
+  ScanClock::Run run = clock_.run;
   for (std::size_t i = runs_.size(); number < run.first && i-- > 0;) run = runs_[i];
   const int slot = static_cast<int>((run.full + number - run.first) % kScanPeriod);
   return run.cycle_of(number) - hold_to_end(run.micro_only ? kMicroFrame : frame_of(slot), microphone);
@@ -264,15 +257,15 @@ int AdcScan::mic_sample(int microphone, std::int64_t number) const {
 }
 
 Cycle AdcScan::next_sample(std::int64_t filed, int slot, int shift, int pair) const {
-  if (!on_ || run_.micro_only) return kNever;
+  if (!clock_.is_on || clock_.run.micro_only) return kNever;
   // first period whose interrupt in this slot is still to come, then on to the one that serves the pair
   std::int64_t period = (filed + kScanPeriod - 1 - slot) / kScanPeriod;
   period += (pair - pair_of_lit(period + shift) + pairs_) % pairs_;
-  return full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
+  return clock_.full_cycle(period * kScanPeriod + slot) + kScanFileCycles;
 }
 
 int AdcScan::evaluate_acc(int axis, std::int64_t sample) const {
-  const Cycle end = full_cycle(sample * kScanPeriod + kScanAccSlot);
+  const Cycle end = clock_.full_cycle(sample * kScanPeriod + kScanAccSlot);
   const Cycle hold = end - hold_to_end(frame_of(kScanAccSlot), 3 + axis);
   return inputs_.counts(kAccChannel + axis, hold);
 }
@@ -288,7 +281,7 @@ void AdcScan::fill_acc(std::int64_t count) {
 }
 
 int AdcScan::peek_acc(int axis, int index, Cycle at) const {
-  const std::int64_t count = acc_samples(at), newest = count - 1;
+  const std::int64_t count = clock_.acc_samples(at), newest = count - 1;
   // the newest sample of that index
   const std::int64_t ago = ((newest + 1 - index) % kAccSamples + kAccSamples) % kAccSamples;
   const std::int64_t sample = newest - ago;
@@ -299,18 +292,18 @@ int AdcScan::peek_acc(int axis, int index, Cycle at) const {
 
 const AdcScan::AccRing& AdcScan::acc_scan(Cycle at) {
   acc_used_ = true;
-  fill_acc(acc_samples(at));
+  fill_acc(clock_.acc_samples(at));
   if (!acc_) acc_ = std::make_unique<AccRing>();
   return *acc_;
 }
 
 Cycle AdcScan::acc_until(Cycle at) const {
-  if (!on_ || run_.micro_only) return kNever;
-  return full_cycle(kScanPeriod * acc_samples(at) + kScanAccSlot) + kScanFileCycles;
+  if (!clock_.is_on || clock_.run.micro_only) return kNever;
+  return clock_.full_cycle(kScanPeriod * clock_.acc_samples(at) + kScanAccSlot) + kScanFileCycles;
 }
 
 unsigned AdcScan::pulses(Cycle at) const {
-  const std::int64_t count = full_interrupts(at - kScanLightCycles);
+  const std::int64_t count = clock_.full_interrupts(at - kScanLightCycles);
   if (count <= kScanDarkSlot) return 0;
   const std::int64_t last = count - 1;
   const int slot = static_cast<int>(last % kScanPeriod);
@@ -321,13 +314,13 @@ unsigned AdcScan::pulses(Cycle at) const {
 }
 
 Cycle AdcScan::pulses_horizon(Cycle at) const {
-  if (!on_ || run_.micro_only) return kNever;
-  const std::int64_t count = full_interrupts(at - kScanLightCycles);
+  if (!clock_.is_on || clock_.run.micro_only) return kNever;
+  const std::int64_t count = clock_.full_interrupts(at - kScanLightCycles);
   const int slot = static_cast<int>(count % kScanPeriod);  // of the next interrupt
   const int wait = slot <= kScanLitSlot    ? kScanLitSlot - slot
                    : slot <= kScanDarkSlot ? kScanDarkSlot - slot
                                            : kScanPeriod - slot + kScanLitSlot;
-  return full_cycle(count + wait) + kScanLightCycles;
+  return clock_.full_cycle(count + wait) + kScanLightCycles;
 }
 
 }  // namespace drivers

@@ -23,7 +23,7 @@
 #include <memory>
 #include <vector>
 
-#include "hal_sim/drivers/driver_params.h"
+#include "hal_sim/drivers/scan_clock.h"
 
 namespace board {
 class AnalogueInputs;
@@ -44,8 +44,6 @@ class AdcScan {
   void start(bool micro_only, bool five_pairs, Cycle at);
   /// What 65 frames take from `at` on; of MICRO_ONLY they take what they take.
   void set_round(Cycle round, Cycle at);
-  Cycle round() const { return run_.round; }
-  Cycle full_round() const { return full_round_; }
   /// ADON bit. Off: the frame under way is lost; on: a full frame begins.
   void switch_converter(bool on, Cycle at);
   /// The driver's statics and arrays return to their start values.
@@ -53,31 +51,17 @@ class AdcScan {
 
   /// From `at` on the handler is not called, because the program masks it; and is again.
   void hold(Cycle at) {
-    if (held_since_ < 0) held_since_ = at;
+    if (clock_.held_since < 0) clock_.held_since = at;
   }
   void release(Cycle at);
-  /// -1: it is not held.
-  Cycle held_since() const { return held_since_; }
-  /// The first interrupt after `after`, also of a converter that nobody serves; kNever: it is off.
-  Cycle interrupt_after(Cycle after) const;
-  /// Frames that were lost so since the reset.
-  std::int64_t lost_frames() const { return lost_; }
 
   /// Calls of start() since the last reset.
   int starts() const { return starts_; }
-  bool is_on() const { return on_; }
-  bool micro_only() const { return run_.micro_only; }
   /// Does it take the turret's pair, too?
   bool five_pairs() const { return pairs_ == 5; }
 
-  /// Interrupts so far, in both modes.
-  std::int64_t interrupts(Cycle at) const { return run_.first + frames(at); }
-  /// Accelerometer samples so far.
-  std::int64_t acc_samples(Cycle at) const { return acc_samples_of(full_interrupts(at - kScanFileCycles)); }
-  /// Cycle of the next interrupt; kNever when the converter is off.
-  Cycle next_interrupt(Cycle at) const { return interrupt_cycle(interrupts(at) + 1); }
-  /// Cycle of the interrupt that completes the `count`-th microphone sample from power-up on.
-  Cycle interrupt_cycle(std::int64_t count) const { return on_ ? run_.cycle_of(count - 1) : kNever; }
+  /// When its interrupts come, and have come.
+  const ScanClock& clock() const { return clock_; }
 
   /// When a program sees first, from `at` on, that the accelerometer index is 49: e_init_ad_scan() returns.
   Cycle first_fill(Cycle at) const;
@@ -97,8 +81,6 @@ class AdcScan {
   /// The same without keeping anything.
   int peek_dark(int sensor, Cycle at) const;
   int peek_lit(int sensor, Cycle at) const;
-  /// Cycle before which neither of the two changes.
-  Cycle horizon(int sensor, Cycle at) { return pair(sensor, at).until; }
 
   /// Counts of the `number`-th microphone sample since reset (from 0), which is one of the last 100. Nothing
   /// is kept: its instant is known, and the air's pressure at an instant does not change.
@@ -116,7 +98,7 @@ class AdcScan {
   bool keeps_acc() const { return acc_used_; }
   /// Works out the samples so far, if a program has asked for any before.
   void keep_acc(Cycle at) {
-    if (acc_used_) fill_acc(acc_samples(at));
+    if (acc_used_) fill_acc(clock_.acc_samples(at));
   }
 
   /// IR emitter lines that the scan holds on: bit = pair; bit 4 the turret's (body and front LED).
@@ -141,45 +123,8 @@ class AdcScan {
   static_assert(sizeof(Sample) == 16);
   using Samples = std::array<Sample, 10>;
 
-  static std::int64_t floor_quotient(std::int64_t a, std::int64_t b) {
-    const std::int64_t q = a / b;
-    return a % b < 0 ? q - 1 : q;
-  }
-  /// A run of frames without a break.
-  struct Run {
-    std::int64_t first = 0;  // number of its first interrupt
-    std::int64_t full = 0;   // ALL_ADC interrupts before it: the driver's slot counter
-    Cycle origin = 0;        // its first sequence begins
-    bool micro_only = false;
-
-    Cycle round = kScanRoundCycles;  // 65 frames
-    Cycle sequence() const { return micro_only ? kScanMicroFrameCycles : kScanSequenceCycles; }
-    /// When interrupt `number` comes.
-    Cycle cycle_of(std::int64_t number) const { return origin + sequence() + take(number - first); }
-    /// What so many frames take on average.
-    Cycle take(std::int64_t frames) const { return floor_quotient(frames * round, kScanPeriod); }
-  };
-
-  Cycle seen(Cycle at) const { return held_since_ >= 0 && at > held_since_ ? held_since_ : at; }
-  /// Of the present run.
-  std::int64_t frames(Cycle at) const {
-    at = seen(at);
-    const Cycle first = run_.origin + run_.sequence();
-    if (!on_ || at < first) return 0;
-    // the last one that has come by then: cycle_of() is a floor
-    return 1 + static_cast<std::int64_t>(static_cast<std::uint64_t>((at - first + 1) * kScanPeriod - 1) /
-                                         static_cast<std::uint64_t>(run_.round));
-  }
-  static std::int64_t acc_samples_of(std::int64_t full_interrupts) {
-    return (full_interrupts + kScanPeriod - 1 - kScanAccSlot) / kScanPeriod;
-  }
-  std::int64_t full_interrupts(Cycle at) const { return run_.full + (run_.micro_only ? 0 : frames(at)); }
   int pair_of_lit(std::int64_t period) const;  // pair whose lit sample arrives in this period
   std::int64_t newest(std::int64_t interrupts, int slot, int shift, int pair) const;
-  /// Of ALL_ADC interrupt number (from 0).
-  Cycle full_cycle(std::int64_t interrupt) const {
-    return run_.origin + kScanSequenceCycles + run_.take(interrupt - run_.full);
-  }
   /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
@@ -193,21 +138,17 @@ class AdcScan {
   Samples lit_{};
   const board::IrCircuit& ir_;
   const board::AnalogueInputs& inputs_;
-  bool on_ = false;
+  ScanClock clock_;
   bool acc_used_ = false;
   std::uint16_t regular_dark_ = 0;  // bit i: dark_[i].is_regular
   int pairs_ = 4;
-  Cycle held_since_ = -1;                // -1: not held
-  Run run_;                              // the present one
-  Cycle full_round_ = kScanRoundCycles;  // of its frames when they are not MICRO_ONLY's
-  Samples dark_{};                       // in darkness nobody looks at them
+  Samples dark_{};  // in darkness nobody looks at them
   int starts_ = 0;
-  std::int64_t lost_ = 0;
-  std::int64_t period_base_ = 0;  // from this period on ...
-  int pair_base_ = 0;             // ... pairs count from here
-  std::vector<Run> runs_;         // those over that the last 100 microphone samples come from
-  std::unique_ptr<AccRing> acc_;  // null: all are 0
-  std::int64_t acc_kept_ = 0;     // samples in acc_
+  std::int64_t period_base_ = 0;      // from this period on ...
+  int pair_base_ = 0;                 // ... pairs count from here
+  std::vector<ScanClock::Run> runs_;  // those over that the last 100 microphone samples come from
+  std::unique_ptr<AccRing> acc_;      // null: all are 0
+  std::int64_t acc_kept_ = 0;         // samples in acc_
 };
 
 }  // namespace drivers

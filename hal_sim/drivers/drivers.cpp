@@ -26,12 +26,13 @@ std::optional<double> Drivers::coil_duty(Wheel wheel) const {
 }
 
 double Drivers::mean_pulses() const {
-  if (!scan_.is_on() || scan_.micro_only()) return 0;
+  if (!scan_.clock().is_on || scan_.clock().run.micro_only) return 0;
   return static_cast<double>(kScanLitInterrupts) / kScanPeriod;
 }
 
 std::optional<int> Drivers::proximity_counts(int sensor, Cycle at) const {
-  if (scan_.is_on() && !scan_.micro_only()) return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
+  if (scan_.clock().is_on && !scan_.clock().run.micro_only)
+    return scan_.peek_dark(sensor, at) - scan_.peek_lit(sensor, at);
   return std::nullopt;
 }
 
@@ -41,7 +42,8 @@ void Drivers::processor_reset(Cycle at) {
 }
 
 std::uint64_t Drivers::state_sum(Cycle at) const {
-  return agendas_.state_sum(at) + static_cast<std::uint64_t>(scan_.interrupts(at)) * 0x9E3779B97F4A7C15u;
+  return agendas_.state_sum(at) +
+         static_cast<std::uint64_t>(scan_.clock().interrupts(at)) * 0x9E3779B97F4A7C15u;
 }
 
 }  // namespace drivers

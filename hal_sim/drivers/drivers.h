@@ -42,7 +42,7 @@ class Drivers final : public board::PinDriver {
   unsigned pulses(Cycle at) const override { return scan_.pulses(at); }
   Cycle pulses_horizon(Cycle at) const override { return scan_.pulses_horizon(at); }
   double mean_pulses() const override;
-  bool owns_emitters() const override { return scan_.is_on(); }
+  bool owns_emitters() const override { return scan_.clock().is_on; }
   std::optional<int> proximity_counts(int sensor, Cycle at) const override;
   void exchange(Cycle at) override { scan_.keep_acc(at); }
   Cycle horizon(Cycle at) const override { return scan_.keeps_acc() ? at + kAccKeepCycles : kNever; }

@@ -87,14 +87,19 @@ std::string name_text(const Signal& s) {
 using T = const twin::Twin&;
 constexpr int kRing = board::kRingSensors;
 
-}  // namespace
+// --- the table, a subject each
 
-const std::vector<Signal>& all() {
-  static const std::vector<Signal> kAll{
+std::vector<Signal> of_world() {
+  return {
       {"time_s", 0, "s", 0, kMost, "simulated time since the world began", true,
        [](T t, int, int) { return sim::to_seconds(t.simulation().now()); }},
       {"robots", 0, "", 0, kMostRobots, "robots of the world", true,
        [](T t, int, int) { return double(t.robots()); }},
+  };
+}
+
+std::vector<Signal> of_way() {
+  return {
       {"x_m", 0, "m", -kFar, kFar, "place of the robot's middle", false,
        [](T t, int r, int) { return t.simulation().pose(r).x_m; }, "x", "m", 1},
       {"y_m", 0, "m", -kFar, kFar, "the same, to the north", false,
@@ -108,6 +113,11 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return sim::degrees(t.simulation().state(r).spin_rad_s); }, "spin", "deg/s", 1},
       {"distance_m", 0, "m", 0, kFar, "way over the floor since the world began; moves by hand do not count",
        false, [](T t, int r, int) { return t.simulation().distance_m(r); }, "distance", "m", 1},
+  };
+}
+
+std::vector<Signal> of_touch() {
+  return {
       {"collisions", 0, "", 0, kMost, "touches begun, whatever was touched", false,
        [](T t, int r, int) { return double(t.simulation().touches(r).collisions); }, "collisions", "", 1},
       {"wall_touch_s", 0, "s", 0, kMost, "length of the touch of something fixed that lasts now", false,
@@ -121,6 +131,11 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return nearest_wall_m(t, r); }},
       {"nearest_robot_m", 0, "m", -1, kNothingNearM, "gap between its body and the nearest robot's", false,
        [](T t, int r, int) { return nearest_robot_m(t, r); }},
+  };
+}
+
+std::vector<Signal> of_light() {
+  return {
       {"proximity", kRing, "counts", -board::kAdcMax, board::kAdcMax,
        "what e_get_prox() would give: dark less lit", false,
        [](T t, int r, int i) {
@@ -133,6 +148,11 @@ const std::vector<Signal>& all() {
          return sim::sense_irradiance_w_m2(t.simulation().scene(), r, i, t.simulation().now());
        },
        "light", "W/m2", 1},
+  };
+}
+
+std::vector<Signal> of_sound() {
+  return {
       {"mic", board::kMicrophones, "counts", 0, board::kAdcMax, "a sample of a microphone: right, left, back",
        false, [](T t, int r, int i) { return converted(t, r, board::kMicChannel + i); }, "mic", "counts", 1},
       {"mic_level", board::kMicrophones, "counts", 0, board::kAdcMax,
@@ -149,12 +169,22 @@ const std::vector<Signal>& all() {
        "sound_bearing", "deg", 1},
       {"speaker", 0, "%", 0, 100, "what the loudspeaker gets, root mean square of full scale", false,
        [](T t, int r, int) { return speaker_level(mind(t, r)); }, "speaker", "%", 1},
+  };
+}
+
+std::vector<Signal> of_tilt() {
+  return {
       {"acc_x", 0, "counts", 0, board::kAdcMax, "a sample of the accelerometer: to the left", false,
        [](T t, int r, int) { return converted(t, r, board::kAccChannel); }, "acc_x", "counts", 1},
       {"acc_y", 0, "counts", 0, board::kAdcMax, "the same: forward", false,
        [](T t, int r, int) { return converted(t, r, board::kAccChannel + 1); }, "acc_y", "counts", 1},
       {"acc_z", 0, "counts", 0, board::kAdcMax, "the same: up", false,
        [](T t, int r, int) { return converted(t, r, board::kAccChannel + 2); }, "acc_z", "counts", 1},
+  };
+}
+
+std::vector<Signal> of_wheels() {
+  return {
       {"left_steps", 0, "steps", -kMost, kMost, "full steps of the left wheel, forward positive", false,
        [](T t, int r, int) { return double(mind(t, r).report().left_steps); }, "left_steps", "steps", 1},
       {"right_steps", 0, "steps", -kMost, kMost, "the same, right", false,
@@ -163,6 +193,11 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return step_rate(t, r, board::Wheel::Left); }},
       {"right_steps_s", 0, "steps/s", -kFar, kFar, "the same, right", false,
        [](T t, int r, int) { return step_rate(t, r, board::Wheel::Right); }},
+  };
+}
+
+std::vector<Signal> of_lamps() {
+  return {
       {"led", 10, "", 0, 1, "is it lit? 0 to 7 the ring, 8 body, 9 front", false,
        [](T t, int r, int i) { return double(mind(t, r).report().leds >> i & 1); }, "led", "", 1},
       {"body_led", 0, "", 0, 1, "is it lit?", false,
@@ -173,6 +208,11 @@ const std::vector<Signal>& all() {
        [](T t, int r, int) { return double(__builtin_popcount(mind(t, r).report().leds & 0xFFu)); }},
       {"selector", 0, "", 0, 15, "its position", false,
        [](T t, int r, int) { return double(mind(t, r).board().selector()); }, "selector", "", 1},
+  };
+}
+
+std::vector<Signal> of_battery() {
+  return {
       {"battery_v", 0, "V", 0, 5, "voltage at the battery's terminals", false,
        [](T t, int r, int) { return mind(t, r).board().power().battery().voltage(mind(t, r).now()); },
        "battery", "V", 1},
@@ -181,6 +221,11 @@ const std::vector<Signal>& all() {
        "charge", "%", 100},
       {"current_a", 0, "A", 0, 10, "what flows out of it", false,
        [](T t, int r, int) { return mind(t, r).board().power().battery().amps(); }, "current", "mA", 1000},
+  };
+}
+
+std::vector<Signal> of_program() {
+  return {
       {"load", 0, "", 0, 1, "share of processor time not spent waiting, since power-up", false,
        [](T t, int r, int) {
          const auto* robot = program(t, r);
@@ -213,6 +258,11 @@ const std::vector<Signal>& all() {
          const auto* robot = program(t, r);
          return robot ? double(robot->diagnoses().size()) : 0.0;
        }},
+  };
+}
+
+std::vector<Signal> of_lines() {
+  return {
       {"uart1_bytes", 0, "bytes", 0, kMost, "sent over UART 1 since power-up", false,
        [](T t, int r, int) { return double(mind(t, r).board().uart(1).sent()); }},
       {"uart2_bytes", 0, "bytes", 0, kMost, "sent over UART 2", false,
@@ -222,6 +272,18 @@ const std::vector<Signal>& all() {
       {"uart2_received", 0, "bytes", 0, kMost, "that have begun to come over UART 2", false,
        [](T t, int r, int) { return double(mind(t, r).board().uart(2).came()); }},
   };
+}
+
+}  // namespace
+
+const std::vector<Signal>& all() {
+  static const std::vector<Signal> kAll = [] {
+    std::vector<Signal> joined;
+    for (const auto subject : {of_world, of_way, of_touch, of_light, of_sound, of_tilt, of_wheels, of_lamps,
+                               of_battery, of_program, of_lines})
+      for (const Signal& s : subject()) joined.push_back(s);
+    return joined;
+  }();
   return kAll;
 }
 

@@ -69,7 +69,7 @@ bool write_whole(int file, const std::string& text) {
 
 struct CoverageRun::Counted {
   explicit Counted(chip::ChipRunner& runner)
-      : image(runner.image()), counts(runner.file()), watched(&runner) {}
+      : image(runner.image()), counts(runner.image()->file()), watched(&runner) {}
   const std::shared_ptr<const chip::ChipImage> image;
   chip::StepCounts counts;
   chip::ChipRunner* watched;

@@ -540,7 +540,7 @@ sim::Vec3 Puck::acceleration(Cycle at) {
   }
   drivers::AdcScan& scan = drivers_.scan();
   const drivers::AdcScan::AccRing& ring = scan.acc_scan(at);
-  const std::int64_t samples = scan.acc_samples(at);
+  const std::int64_t samples = scan.clock().acc_samples(at);
   const auto mean = [&](std::size_t axis) {
     if (samples == 0)
       return static_cast<double>(board_.convert(board::kAccChannel + static_cast<int>(axis), at));
@@ -566,7 +566,7 @@ sim::Vec3 Puck::rates(Cycle at) {
 
 void Puck::take_sound(int microphone, std::int64_t tag, Cycle at, link_packet& to) {
   const drivers::AdcScan& scan = drivers_.scan();
-  const std::int64_t count = scan.interrupts(at),
+  const std::int64_t count = scan.clock().interrupts(at),
                      first = std::max<std::int64_t>(0, count - drivers::kMicSamples);
   std::vector<std::int16_t> samples;
   for (std::int64_t n = first; n < count; ++n)

@@ -552,7 +552,7 @@ bool Bodies::colour(int id, sim::Colour& colour) const {
   const sim::Scene& scene = twin_.simulation().scene();
   const TreeNode& n = tree_.node(id);
   if (n.is == Is::Robot) {
-    colour = scene.surface({n.number, true}).colour;
+    colour = sim::surface_of(scene.layout(), {n.number, true}).colour;
     return true;
   }
   const auto piece = pieces_.find(id);

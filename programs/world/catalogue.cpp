@@ -46,8 +46,8 @@ struct KindRow {
   std::string fields;
 };
 
-const std::vector<KindRow>& kinds() {
-  static const std::vector<KindRow> all{
+std::vector<KindRow> bodies() {
+  return {
       {"Group", "Group", "children N*"},
       {"Transform", "Transform", kPlaced},
       {"Pose", "Pose", kPlaced},
@@ -65,6 +65,11 @@ const std::vector<KindRow>& kinds() {
                 "1|distance_sensor_numberOfRays I 1|"
                 "kinematic B 0|max_velocity F 6.28|turretSlot N*|groundSensorsSlot N*"},
       {"Charger", "Charger", kSolid + "|battery F*|radius F 0.04|emissiveColor C 0 1 0|gradual B 1"},
+  };
+}
+
+std::vector<KindRow> shapes() {
+  return {
       {"Shape", "Shape", "appearance N|geometry N|castShadows B 1|isPickable B 1"},
       {"Appearance", "Appearance", "material N|texture N|textureTransform N|name S appearance"},
       {"PBRAppearance", "PBRAppearance",
@@ -91,6 +96,11 @@ const std::vector<KindRow>& kinds() {
       {"ElevationGrid", "ElevationGrid",
        "height F*|xDimension I 0|xSpacing F 1|zDimension I 0|zSpacing F 1|yDimension I 0|ySpacing F "
        "1|thickness F 1"},
+  };
+}
+
+std::vector<KindRow> surroundings() {
+  return {
       {"Physics", "Physics", "density F 1000|mass F -1|centerOfMass V*|inertiaMatrix V*|damping N"},
       {"WorldInfo", "WorldInfo",
        "info S*|title S|window S|gravity F 9.81|CFM F 0.00001|ERP F 0.2|physics S|basicTimeStep F 32|FPS F "
@@ -113,6 +123,11 @@ const std::vector<KindRow>& kinds() {
                 "0.785398|radius F "
                 "100"},
       {"DirectionalLight", "DirectionalLight", kLight + "direction V 0 0 -1"},
+  };
+}
+
+std::vector<KindRow> joints() {
+  return {
       {"HingeJoint", "HingeJoint", "device N*|jointParameters N|endPoint N"},
       {"SliderJoint", "SliderJoint", "device N*|jointParameters N|endPoint N"},
       {"HingeJointParameters", "HingeJointParameters",
@@ -125,6 +140,11 @@ const std::vector<KindRow>& kinds() {
        "name S linear motor|maxVelocity F 10|maxForce F 10|minPosition F 0|maxPosition F 0|controlPID V 10 0 "
        "0"},
       {"PositionSensor", "PositionSensor", "name S position sensor|noise F 0|resolution F -1"},
+  };
+}
+
+std::vector<KindRow> devices() {
+  return {
       {"Emitter", "Emitter",
        named("emitter") +
            "|type S radio|range F -1|maxRange F -1|aperture F -1|channel I 0|baudRate I -1|byteSize I "
@@ -158,6 +178,11 @@ const std::vector<KindRow>& kinds() {
       {"Pen", "Pen",
        named("pen") + "|inkColor C 0 0 0|inkDensity F 0.5|leadSize F 0.002|maxDistance F 0|write B 1"},
       {"Speaker", "Speaker", named("speaker")},
+  };
+}
+
+std::vector<KindRow> furniture() {
+  return {
       {"RectangleArena", "Solid", kArena},
       {"CircleArena", "Solid",
        kPlaced + "|name S circle arena|radius F 1|subdivision I 48|floorAppearance N|wallThickness F "
@@ -178,6 +203,15 @@ const std::vector<KindRow>& kinds() {
       {"SoccerBall", "Solid", kBlock + "|radius F 0.1"},
       {"Ball", "Solid", kBlock + "|radius F 0.1"},
   };
+}
+
+const std::vector<KindRow>& kinds() {
+  static const std::vector<KindRow> all = [] {
+    std::vector<KindRow> joined;
+    for (const auto subject : {bodies, shapes, surroundings, joints, devices, furniture})
+      for (const KindRow& row : subject()) joined.push_back(row);
+    return joined;
+  }();
   return all;
 }
 

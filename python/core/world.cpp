@@ -77,7 +77,7 @@ void World::listen() {
     auto* const runner = is_measured ? dynamic_cast<chip::ChipRunner*>(mind.runner()) : nullptr;
     if (!runner) continue;
     auto& profile = profiles_[robot] =
-        std::make_unique<chip::Profile>(runner->file(), runner->processor(), runner->device());
+        std::make_unique<chip::Profile>(runner->image()->file(), runner->processor(), runner->device());
     runner->watch_steps(profile.get(), true);
   }
 }

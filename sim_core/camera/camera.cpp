@@ -273,7 +273,7 @@ class Renderer {
 
   /// What lit LEDs add where they are seen on a robot's body.
   void add_leds(const Item& item, const Vec3& point, Light& light) const {
-    const std::uint32_t lit = scene_.leds(item.robot);
+    const std::uint32_t lit = scene_.leds.of(item.robot);
     if (lit == 0) return;
     const RobotModel& model =
         *scene_.world().model_of(scene_.world().robots[static_cast<std::size_t>(item.robot)]);
@@ -336,12 +336,12 @@ class Renderer {
             continue;
           }
           const Vec3 point = point_of(pixel, row, column);
-          const Colour colour = picture ? scene_.floor({point.x, point.y}).colour : world.floor.colour;
+          const Colour colour = picture ? floor_at(world, {point.x, point.y}).colour : world.floor.colour;
           out[i] = times(colour, lamps ? light_on(point, {0, 0, 1}) : Colour{k, k, k});
           continue;
         }
         const Item& item = items_[static_cast<std::size_t>(pixel.item)];
-        const bool glows = item.robot >= 0 && scene_.leds(item.robot) != 0;
+        const bool glows = item.robot >= 0 && scene_.leds.of(item.robot) != 0;
         const bool is_upright =
             pixel.face >= 0 || (pixel.face == kCurved && item.placed.solid->kind == SolidKind::Cylinder);
         if (!lamps && is_upright && !glows) {
@@ -406,6 +406,6 @@ void render_camera(const Scene& scene, int robot, const Vec3& eye_m, Clicks at,
   Renderer(scene, robot, eye_m, at, right, up).run(out);
 }
 
-void watch_leds(const Scene& scene) { scene.watch_leds(); }
+void watch_leds(const Scene& scene) { scene.leds.watch(); }
 
 }  // namespace sim

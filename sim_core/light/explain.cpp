@@ -29,7 +29,7 @@ Met met_at(const Scene& scene, const Ray& ray, double distance_m, int skip_robot
     const Placed placed = c.moving ? scene.placed(c.index, at) : layout.fixed[i];
     if (!cast_ray(ray, placed, best)) continue;
     met.name = c.moving ? layout.moving_name[i] : layout.fixed_name[i];
-    met.surface = scene.surface(c);
+    met.surface = surface_of(scene.layout(), c);
     met.bottom_m = placed.z_m + placed.solid->z0_m;
     met.top_m = placed.z_m + placed.solid->z1_m;
   }
@@ -40,7 +40,8 @@ Met met_at(const Scene& scene, const Ray& ray, double distance_m, int skip_robot
       met = {fmt::format("ramp {}", ramp + 1), surface_of(desc.material), 0, desc.high_m};
     }
   }
-  if (ray.dir.z < -1e-9 && -ray.from.z / ray.dir.z < best) met = {"the floor", scene.floor(there), 0, 0};
+  if (ray.dir.z < -1e-9 && -ray.from.z / ray.dir.z < best)
+    met = {"the floor", floor_at(scene.world(), there), 0, 0};
   return met;
 }
 

@@ -81,7 +81,8 @@ void look_around(const Scene& scene, int robot, Surroundings& s) {
   const double reach = scene.optics()->robots[static_cast<std::size_t>(robot)].reach_m;
   const auto add = [&](const Candidate& c, const Placed& placed) {
     if (is_beyond(s.frame.at, reach, placed)) return;
-    Surroundings::Item& item = s.items.emplace_back(Surroundings::Item{placed, &scene.surface(c)});
+    Surroundings::Item& item =
+        s.items.emplace_back(Surroundings::Item{placed, &surface_of(scene.layout(), c)});
     if (!is_tilting) item.placed.frame = s.frame.to_local(placed.frame);
   };
   const Neighbours& near = scene.neighbours();
@@ -159,7 +160,8 @@ bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, cons
     }
     if (ray.dir.z < -1e-9 && from.z < -ray.dir.z * end.distance_m) {
       const double d = -from.z / ray.dir.z;
-      end = {d, colour_factor(s.config, scene.floor({from.x + d * ray.dir.x, from.y + d * ray.dir.y}))};
+      end = {d, colour_factor(s.config,
+                              floor_at(scene.world(), {from.x + d * ray.dir.x, from.y + d * ray.dir.y}))};
     }
     const int ramp = scene.layout().ground.cast(ray, end.distance_m);
     if (ramp >= 0) {
@@ -185,7 +187,7 @@ bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundi
     if (dir.z > -1e-9 || from.z >= -dir.z * ends[i].distance_m) continue;
     const double d = -from.z / dir.z;
     const Vec2 there = around.frame.to_world(Vec2{from.x, from.y} + d * Vec2{dir.x, dir.y});
-    ends[i] = {d, colour_factor(s.config, scene.floor(there))};
+    ends[i] = {d, colour_factor(s.config, floor_at(scene.world(), there))};
     any = true;
   }
   return any;

@@ -14,6 +14,37 @@
 
 namespace sim {
 
+namespace {
+
+/// What the solid did in the tick before is where this one begins.
+void begin_with(const FixedPush& before, FixedContact& contact) {
+  contact.blow_m_s = contact.rub_m_s = 0;
+  for (std::size_t k = 0; k < before.count; ++k) {
+    if (before.contacts[k].solid != contact.solid) continue;
+    contact.blow_m_s = before.contacts[k].blow_m_s;
+    contact.rub_m_s = before.contacts[k].rub_m_s;
+  }
+}
+
+/// A solid rubs, by as much as its blow lets it, and gives the blow that keeps a robot of that radius out.
+/// `turn_per_rub`: rad/s for 1 m/s. False: it did all that before.
+bool press(FixedContact& c, double bound_m, double turn_per_rub, Vec2& velocity, double& spin) {
+  const Vec2 along{-c.normal.y, c.normal.x};
+  const double most = c.friction * c.blow_m_s;
+  const double sliding = dot(velocity, along) - bound_m * spin;
+  const double rub = std::clamp(c.rub_m_s - sliding / (1 + bound_m * turn_per_rub), -most, most);
+  velocity = velocity + (rub - c.rub_m_s) * along;
+  spin -= turn_per_rub * (rub - c.rub_m_s);
+  const double blow = std::max(0.0, c.blow_m_s + c.least_m_s - dot(velocity, c.normal));
+  velocity = velocity + (blow - c.blow_m_s) * c.normal;
+  const bool is_news = rub != c.rub_m_s || blow != c.blow_m_s;
+  c.rub_m_s = rub;
+  c.blow_m_s = blow;
+  return is_news;
+}
+
+}  // namespace
+
 void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
   const RobotBody& body = desc_.robots[static_cast<std::size_t>(robot)];
   BodyState& b = bodies_[static_cast<std::size_t>(robot)];
@@ -43,13 +74,7 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
       contact.least_m_s = surface.restitution * approach;
     contact.friction = std::sqrt(body.side_friction * surface.friction);
     contact.solid = c->index;
-    contact.blow_m_s = contact.rub_m_s = 0;
-    // What the solid did in the tick before is where this one begins.
-    for (std::size_t k = 0; k < before.count; ++k) {
-      if (before.contacts[k].solid != c->index) continue;
-      contact.blow_m_s = before.contacts[k].blow_m_s;
-      contact.rub_m_s = before.contacts[k].rub_m_s;
-    }
+    begin_with(before, contact);
     ++count;
   }
 
@@ -82,22 +107,9 @@ void Motion::meet_fixed(int robot, const Neighbours& neighbours) {
     velocity = velocity + pushed - push;
     push = pushed;
     bool is_hit = false;
-    // Each solid rubs, by as much as its blow lets it, and gives the blow that keeps the robot out.
     for (std::size_t k = 0; k < count; ++k) {
-      FixedContact* const c = &contacts[k];
-      const Vec2 along{-c->normal.y, c->normal.x};
-      const double most = c->friction * c->blow_m_s;
-      const double sliding = dot(velocity, along) - me.bound_m * spin;
-      const double rub = std::clamp(c->rub_m_s - sliding / (1 + me.bound_m * turn_per_rub), -most, most);
-      velocity = velocity + (rub - c->rub_m_s) * along;
-      spin -= turn_per_rub * (rub - c->rub_m_s);
-      is_settled = is_settled && rub == c->rub_m_s;
-      c->rub_m_s = rub;
-      const double blow = std::max(0.0, c->blow_m_s + c->least_m_s - dot(velocity, c->normal));
-      velocity = velocity + (blow - c->blow_m_s) * c->normal;
-      is_settled = is_settled && blow == c->blow_m_s;
-      c->blow_m_s = blow;
-      is_hit = is_hit || blow > 0;
+      if (press(contacts[k], me.bound_m, turn_per_rub, velocity, spin)) is_settled = false;
+      is_hit = is_hit || contacts[k].blow_m_s > 0;
     }
     if (!is_hit && !is_inside) {
       drive_freely(robot, want);  // nothing was met: the closed form holds exactly

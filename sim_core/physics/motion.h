@@ -8,13 +8,13 @@
 // grip allows (dynamic), way along it is shortened in plan, heights follow. Not modelled: tipping, wheels
 // that leave the floor, suspension; a rolling ball's spin is there only as inertia.
 #pragma once
-#include <array>
 #include <memory>
 #include <vector>
 
 #include "sim_core/geometry/ground.h"
 #include "sim_core/geometry/neighbours.h"
 #include "sim_core/geometry/solid.h"
+#include "sim_core/physics/fixed_push.h"
 #include "sim_core/physics/leg.h"
 #include "sim_core/physics/physics_params.h"
 
@@ -216,23 +216,6 @@ class Motion {
   struct Limits {
     double speed_m_s = 0;   // change of speed
     double spin_rad_s = 0;  // change of spin
-  };
-  /// A fixed solid within a tick's reach of a robot. Blows are changes of the robot's speed.
-  struct FixedContact {
-    int solid = 0;
-    Vec2 normal;           // out of the solid
-    double least_m_s = 0;  // speed along the normal that must be kept; negative while there is room
-    double friction = 0;
-    double blow_m_s = 0, rub_m_s = 0;
-  };
-  static constexpr std::size_t kMostFixedContacts = 4;  // a robot in a corner meets two
-  /// What pushed a robot at fixed solids in a tick.
-  struct FixedPush {
-    Clicks end = -1;
-    Vec2 push_m_s;  // by the wheels
-    double twist_rad_s = 0;
-    std::size_t count = 0;
-    std::array<FixedContact, kMostFixedContacts> contacts;
   };
   std::vector<FixedPush> fixed_pushes_;  // per robot
   struct Drive {

@@ -239,4 +239,23 @@ Layout build_layout(const WorldDesc& world) {
   return out;
 }
 
+Surface floor_at(const WorldDesc& world, Vec2 point_m) {
+  const FloorDesc& f = world.floor;
+  Surface out;
+  out.colour = f.colour;
+  out.ir_reflectance = f.ir_reflectance < 0 ? f.colour.r : f.ir_reflectance;
+  if (f.image_rgb.empty() || !world.arena) return out;
+  const ArenaDesc& arena = *world.arena;
+  const double u = (point_m.x - arena.centre_m.x) / arena.size_m.x + 0.5;
+  const double v = 0.5 - (point_m.y - arena.centre_m.y) / arena.size_m.y;
+  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return out;
+  const int column = std::min(f.image_width - 1, static_cast<int>(u * f.image_width));
+  const int row = std::min(f.image_height - 1, static_cast<int>(v * f.image_height));
+  const std::uint8_t* pixel =
+      f.image_rgb.data() + 3 * (static_cast<std::size_t>(row) * f.image_width + column);
+  out.colour = {pixel[0] / 255.0, pixel[1] / 255.0, pixel[2] / 255.0};
+  if (f.ir_reflectance < 0) out.ir_reflectance = out.colour.r;
+  return out;
+}
+
 }  // namespace sim

@@ -22,6 +22,8 @@ struct Surface {
 };
 
 Surface surface_of(const Material& material);
+/// Look of the floor at a point; the image's pixel where there is one.
+Surface floor_at(const WorldDesc& world, Vec2 point_m);
 
 /// Everything solid. Fixed ones first come from the arena, then walls, then objects in order.
 struct Layout {

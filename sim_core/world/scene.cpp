@@ -92,25 +92,6 @@ Placed Scene::placed(int body, Clicks at) const {
   return placed_at(*layout_.moving[i].solid, pose(body, at), heights_[i].z_m);
 }
 
-Surface Scene::floor(Vec2 point_m) const {
-  const FloorDesc& f = world_.floor;
-  Surface out;
-  out.colour = f.colour;
-  out.ir_reflectance = f.ir_reflectance < 0 ? f.colour.r : f.ir_reflectance;
-  if (f.image_rgb.empty() || !world_.arena) return out;
-  const ArenaDesc& arena = *world_.arena;
-  const double u = (point_m.x - arena.centre_m.x) / arena.size_m.x + 0.5;
-  const double v = 0.5 - (point_m.y - arena.centre_m.y) / arena.size_m.y;
-  if (!(u >= 0 && u < 1 && v >= 0 && v < 1)) return out;
-  const int column = std::min(f.image_width - 1, static_cast<int>(u * f.image_width));
-  const int row = std::min(f.image_height - 1, static_cast<int>(v * f.image_height));
-  const std::uint8_t* pixel =
-      f.image_rgb.data() + 3 * (static_cast<std::size_t>(row) * f.image_width + column);
-  out.colour = {pixel[0] / 255.0, pixel[1] / 255.0, pixel[2] / 255.0};
-  if (f.ir_reflectance < 0) out.ir_reflectance = out.colour.r;
-  return out;
-}
-
 bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, SceneHit* hit) const {
   // The nearest body, with the unit vector out of its surface.
   Vec3 best;
@@ -166,9 +147,9 @@ bool Scene::cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, Scen
                   ray.from.z + hit->distance_m * ray.dir.z};
   hit->floor = on_floor;
   hit->normal = on_floor ? floor_normal : best;
-  hit->surface = !on_floor   ? surface(what)
+  hit->surface = !on_floor   ? surface_of(layout_, what)
                  : ramp >= 0 ? surface_of(world_.ramps[static_cast<std::size_t>(ramp)].material)
-                             : floor({hit->point_m.x, hit->point_m.y});
+                             : floor_at(world_, {hit->point_m.x, hit->point_m.y});
   hit->robot = !on_floor && what.moving && what.index < robots_ ? what.index : -1;
   return true;
 }
@@ -201,7 +182,7 @@ void Scene::forget_history() {
     relocate(i, leg, s.z_m);
     begin_leg(i, leg, s.z_m, s.climb_m_s);
   }
-  std::fill(leds_.begin(), leds_.end(), 0);
+  leds.forget();
 }
 
 void Scene::refurnish(const WorldDesc& world, const std::vector<int>& before, std::vector<double> reach_m) {

@@ -4,7 +4,6 @@
 // near whom. All const methods are safe from any thread while nobody publishes. Heights of falling bodies are
 // those of the last tick.
 #pragma once
-#include <atomic>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -13,6 +12,7 @@
 #include "sim_core/geometry/neighbours.h"
 #include "sim_core/physics/leg.h"
 #include "sim_core/world/layout.h"
+#include "sim_core/world/lit_leds.h"
 #include "sim_core/world/world_desc.h"
 
 namespace sim {
@@ -33,8 +33,16 @@ struct SceneHit {
   bool floor = false;
 };
 
+/// Look of a fixed solid or of a moving body.
+inline const Surface& surface_of(const Layout& layout, const Candidate& c) {
+  return (c.moving ? layout.moving_surface : layout.fixed_surface)[static_cast<std::size_t>(c.index)];
+}
+
 class Scene {
  public:
+  /// The robots' LEDs as cameras see them.
+  LitLeds leds;
+
   /// `reach_m[r]`: how far from its centre robot r's proximity rays can end.
   Scene(const WorldDesc& world, std::vector<double> reach_m);
   Scene(const Scene&) = delete;
@@ -67,12 +75,6 @@ class Scene {
   Placed placed(int body, Clicks at) const;
 
   const Neighbours& neighbours() const { return *neighbours_; }
-  /// Look of a fixed solid or of a moving body.
-  const Surface& surface(const Candidate& c) const {
-    return (c.moving ? layout_.moving_surface : layout_.fixed_surface)[static_cast<std::size_t>(c.index)];
-  }
-  /// Look of the floor at a point; the image's pixel where there is one.
-  Surface floor(Vec2 point_m) const;
 
   /// First thing a ray of any length meets at an instant: solids and the floor. skip_robot -1: none.
   bool cast(const Ray& ray, double limit_m, int skip_robot, Clicks at, SceneHit* hit) const;
@@ -81,12 +83,6 @@ class Scene {
   const ProximityOptics* optics() const { return optics_.get(); }
   void attach_optics(std::shared_ptr<const ProximityOptics> optics) { optics_ = std::move(optics); }
 
-  /// LEDs of a robot at the last tick, bits as in MindReport; 0 as long as nobody watches.
-  std::uint32_t leds(int robot) const { return leds_.empty() ? 0 : leds_[static_cast<std::size_t>(robot)]; }
-  /// From the next tick on LEDs are published. Safe from any thread at any time.
-  void watch_leds() const { leds_watched_.store(true, std::memory_order_relaxed); }
-  bool leds_watched() const { return leds_watched_.load(std::memory_order_relaxed); }
-  void publish_leds(const std::vector<std::uint32_t>& leds) { leds_ = leds; }
   /// The air between sources of sound and ears; null: silence. Set once, as the optics; outlives the scene.
   const SoundField* sound() const { return sound_; }
   void attach_sound(const SoundField* sound) { sound_ = sound; }
@@ -137,8 +133,6 @@ class Scene {
     double z_m = 0, climb_m_s = 0;
   };
   std::vector<Height> heights_;
-  std::vector<std::uint32_t> leds_;  // per robot; empty until somebody watches
-  mutable std::atomic<bool> leds_watched_{false};
   std::vector<Placed> moving_;
   std::optional<Neighbours> neighbours_;
   std::shared_ptr<const ProximityOptics> optics_;

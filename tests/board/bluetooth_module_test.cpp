@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "hal_sim/board/uart.h"
 #include "tests/support/memory_end.h"
 
@@ -19,13 +21,13 @@ constexpr Cycle kMs = 14746;
 
 std::string operator""_b(const char* s, std::size_t n) { return std::string(s, n); }
 
-struct Wired final : board::UartReceiver {
+struct Wired {
   board::RobotClock clock;
   board::Uart uart;
-  std::string bytes;  // heard since heard() was asked last
+  std::deque<std::pair<Cycle, char>> coming;  // to the robot, and when each has come
   MemoryEnd* computer = nullptr;
   std::shared_ptr<BluetoothModule> module;
-  Cycle at = 0;
+  Cycle at = 0, said_until = 0;
 
   explicit Wired(bool with_computer, const BluetoothSetup& setup = {}) {
     std::unique_ptr<MemoryEnd> end;
@@ -35,19 +37,28 @@ struct Wired final : board::UartReceiver {
     }
     module = std::make_shared<BluetoothModule>(setup, clock, 0, std::move(end));
     uart.connect(module);
-    uart.set_receiver(this);
-    uart.switch_on(7, 0);
+    uart.follow_chip(true, 7);
   }
-  void take(std::uint8_t byte) override { bytes += static_cast<char>(byte); }
   void say(const std::string& bytes) {
-    for (char c : bytes) at = uart.load_when_room(static_cast<std::uint8_t>(c), at);
+    for (char c : bytes) {
+      at = std::max(at, said_until);
+      said_until = at + uart.byte_cycles();
+      uart.put_on_wire(static_cast<std::uint8_t>(c), at, said_until);
+    }
   }
   void run_ms(int ms) {
-    for (int i = 0; i < ms; ++i) uart.exchange(at += kMs);
+    for (int i = 0; i < ms; ++i) {
+      uart.exchange(at += kMs);
+      std::uint8_t byte = 0;
+      for (Cycle start = 0; uart.take_from_wire(byte, start);)
+        coming.emplace_back(start + uart.byte_cycles(), static_cast<char>(byte));
+    }
   }
+  /// What has come since this was asked last.
   std::string heard() {
-    uart.settle(at);
-    return std::exchange(bytes, "");
+    std::string bytes;
+    for (; !coming.empty() && coming.front().first <= at; coming.pop_front()) bytes += coming.front().second;
+    return bytes;
   }
 };
 
@@ -94,10 +105,8 @@ TEST(BluetoothModule, a_break_leaves_transparent_mode_and_the_computer_stays) {
   Wired w(true);
   w.say("a");
   w.run_ms(2);
-  w.say("bb");
-  w.uart.send_break(2 * kMs, w.at);  // cuts off what has not left
+  w.uart.break_on_wire(w.at + 2 * kMs);
   w.run_ms(3);
-  w.uart.switch_on(7, w.at);
   EXPECT_EQ(w.computer->text().substr(0, 1), "a");
   w.say("\x02R\x4F\0\0\xA1\x03"_b);
   w.computer->inject("hi", 0);

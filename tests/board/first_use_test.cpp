@@ -33,15 +33,13 @@ Change after(const std::function<void(Board&)>& use) {
 }
 
 TEST(FirstUse, each_device_is_looked_at_from_then_on) {
-  const Change byte = after([](Board& b) {
-    b.uart(2).switch_on(7, 0);
-    ASSERT_TRUE(b.uart(2).load('a', 0));
+  const Change line_low = after([](Board& b) {
+    b.uart(1).connect(std::make_shared<firmware_test::MemoryEnd>());
+    b.uart(1).break_on_wire(100);
   });
-  EXPECT_TRUE(byte.of_hash && byte.of_horizon);
-  const Change line_low = after([](Board& b) { b.uart(1).send_break(100, 0); });
   EXPECT_TRUE(line_low.of_hash);
-  const Change chips_byte = after([](Board& b) { b.uart(1).put_on_wire('a', 20, 100); });
-  EXPECT_TRUE(chips_byte.of_hash && chips_byte.of_horizon);
+  const Change byte = after([](Board& b) { b.uart(1).put_on_wire('a', 20, 100); });
+  EXPECT_TRUE(byte.of_hash && byte.of_horizon);
   const Change sound = after([](Board& b) { b.codec().start_frames(0); });
   EXPECT_TRUE(sound.of_hash && sound.of_horizon);
   const Change word = after([](Board& b) { b.codec().line().word(1, 100); });
@@ -56,7 +54,7 @@ TEST(FirstUse, an_end_that_was_idle_is_heard) {
   Board robot{board::Setup{}};
   auto end = std::make_shared<firmware_test::MemoryEnd>();
   robot.uart(1).connect(end);
-  robot.uart(1).switch_on(7, 0);
+  robot.uart(1).follow_chip(true, 7);
   robot.exchange(kAt);
   EXPECT_EQ(robot.horizon(kAt), board::kNever);
   end->inject("x", kAt);

@@ -258,9 +258,7 @@ TEST(UartPackets, bytes_without_a_pause_arrive_together) {
   auto own = std::make_unique<PacketEnd>();
   PacketEnd* end = own.get();
   uart.connect(std::move(own));
-  uart.switch_on(7, 0);
-  Cycle at = 0;
-  for (int i = 0; i < 100; ++i) at = uart.load_when_room('x', at);
+  for (int i = 0; i < 100; ++i) uart.put_on_wire('x', i * kByte, (i + 1) * kByte);
   for (Cycle tick = 28800; tick <= 6 * 28800; tick += 28800) uart.exchange(tick);
   EXPECT_EQ(end->packets, std::vector<std::size_t>{100});
 }
@@ -271,12 +269,12 @@ TEST(UartPackets, a_long_stream_arrives_in_pieces) {
   auto own = std::make_unique<PacketEnd>();
   PacketEnd* end = own.get();
   uart.connect(std::move(own));
-  uart.switch_on(7, 0);
   Cycle at = 0;
   std::size_t total = 0;
   for (int i = 0; i < 1000; ++i) {
-    at = uart.load_when_room('x', at);
+    uart.put_on_wire('x', at, at + kByte);
     if (i % 20 == 19) uart.exchange(at);
+    at += kByte;
   }
   uart.exchange(at + 10 * kByte);
   for (std::size_t packet : end->packets) {

@@ -14,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <sstream>
+#include <vector>
 
 #include "tests/support/memory_end.h"
 
@@ -25,31 +26,29 @@ using firmware_test::MemoryEnd;
 
 constexpr Cycle kByte = 1280;  // 10 bits of 128 cycles at 115,200 baud
 
-struct Heard final : board::UartReceiver {
+/// What the chip takes from the wire now. `starts` gets when each byte begins.
+std::string taken(Uart& uart, std::vector<Cycle>* starts = nullptr) {
   std::string text;
-  void take(std::uint8_t byte) override { text += static_cast<char>(byte); }
-};
+  std::uint8_t byte = 0;
+  for (Cycle start = 0; uart.take_from_wire(byte, start);) {
+    text += static_cast<char>(byte);
+    if (starts) starts->push_back(start);
+  }
+  return text;
+}
 
 struct Wired {
   Uart uart;
   MemoryEnd* end;
-  Heard heard;
-  Wired() : end(new MemoryEnd) {
-    uart.connect(std::unique_ptr<MemoryEnd>(end));
-    uart.set_receiver(&heard);
-  }
-  std::string heard_by(Cycle at) {
-    uart.settle(at);
-    return heard.text;
-  }
+  Wired() : end(new MemoryEnd) { uart.connect(std::unique_ptr<MemoryEnd>(end)); }
 };
 
 TEST(Uart, a_byte_takes_ten_bits_at_115200_baud) {
   Wired w;
-  w.uart.switch_on(7, 0);
+  w.uart.follow_chip(true, 7);
   EXPECT_EQ(w.uart.byte_cycles(), kByte);
   EXPECT_NEAR(14'745'600.0 / static_cast<double>(w.uart.byte_cycles()), 11520, 1e-9);  // bytes/s
-  EXPECT_TRUE(w.uart.load('a', 100));
+  w.uart.put_on_wire('a', 100, 100 + kByte);
   w.uart.exchange(100 + kByte - 1);
   EXPECT_EQ(w.end->text(), "");
   w.uart.exchange(100 + kByte);
@@ -57,77 +56,67 @@ TEST(Uart, a_byte_takes_ten_bits_at_115200_baud) {
   EXPECT_EQ(w.end->ended_at(0), 100 + kByte);
 }
 
-TEST(Uart, four_bytes_wait_and_a_sixth_is_lost) {
+TEST(Uart, disabled_lets_the_outside_wait) {
   Wired w;
-  w.uart.switch_on(7, 0);
-  for (char c : {'a', 'b', 'c', 'd', 'e'}) EXPECT_TRUE(w.uart.load(static_cast<std::uint8_t>(c), 0));
-  EXPECT_TRUE(w.uart.buffer_full(0));
-  EXPECT_FALSE(w.uart.load('f', 0));
-  EXPECT_FALSE(w.uart.buffer_full(kByte));  // b has moved on
-  EXPECT_EQ(w.uart.buffer_empty_at(), 4 * kByte);
-  EXPECT_EQ(w.uart.idle_at(), 5 * kByte);
-  w.uart.exchange(5 * kByte);
-  EXPECT_EQ(w.end->text(), "abcde");
-}
-
-TEST(Uart, waiting_for_room_keeps_the_line_busy) {
-  Wired w;
-  Cycle at = 0;
-  for (int i = 0; i < 100; ++i) at = w.uart.load_when_room(static_cast<std::uint8_t>(i), at);
-  EXPECT_EQ(w.uart.idle_at(), 100 * kByte);
-  EXPECT_EQ(at, 95 * kByte);  // the last one was accepted when the fifth from the end moved on
-}
-
-TEST(Uart, disabled_sends_nothing_and_lets_the_outside_wait) {
-  Wired w;
-  EXPECT_FALSE(w.uart.load('x', 0));
   w.end->inject("hi", 0);
   w.uart.exchange(0);
-  EXPECT_EQ(w.uart.received(10 * kByte), 0);
-  w.uart.switch_on(7, 10 * kByte);
+  EXPECT_EQ(w.uart.next_arrival(0), board::kNever);
+  w.uart.follow_chip(true, 7);
   w.uart.exchange(11 * kByte);
-  EXPECT_EQ(w.heard_by(12 * kByte), "h");
-  EXPECT_EQ(w.heard_by(13 * kByte), "hi");
+  std::vector<Cycle> starts;
+  EXPECT_EQ(taken(w.uart, &starts), "hi");
+  EXPECT_EQ(starts, (std::vector<Cycle>{11 * kByte, 12 * kByte}));
+  EXPECT_EQ(w.uart.came(), 2);
 }
 
-TEST(Uart, bytes_on_the_wire_are_lost_on_a_reset_processor) {
+TEST(Uart, bytes_that_nobody_takes_are_lost) {
   Wired w;
-  w.uart.switch_on(7, 0);
+  w.uart.follow_chip(true, 7);
   w.end->inject("lost", 0);
   w.uart.exchange(0);
-  w.uart.reset(10);
-  EXPECT_EQ(w.uart.received(10 * kByte), 0);
+  EXPECT_TRUE(w.uart.has_on_wire());
+  EXPECT_EQ(w.uart.next_arrival(2 * kByte), 3 * kByte);
+  EXPECT_EQ(taken(w.uart), "st");
+  w.end->inject("lost", 10 * kByte);
+  w.uart.exchange(10 * kByte);
+  EXPECT_EQ(w.uart.next_arrival(20 * kByte), board::kNever);
+  EXPECT_EQ(taken(w.uart), "");
 }
 
 TEST(Uart, bytes_arrive_one_after_another) {
   Wired w;
-  w.uart.switch_on(7, 0);
+  w.uart.follow_chip(true, 7);
   w.end->inject("abc", 28800);
   w.uart.exchange(28799);
   EXPECT_EQ(w.uart.next_arrival(28799), board::kNever);
   w.uart.exchange(28800);
   EXPECT_EQ(w.uart.next_arrival(28800), 28800 + kByte);
-  EXPECT_EQ(w.heard_by(28800 + kByte - 1), "");
-  EXPECT_EQ(w.heard_by(28800 + kByte), "a");
-  EXPECT_EQ(w.heard_by(28800 + 3 * kByte), "abc");
+  std::vector<Cycle> starts;
+  EXPECT_EQ(taken(w.uart, &starts), "abc");
+  EXPECT_EQ(starts, (std::vector<Cycle>{28800, 28800 + kByte, 28800 + 2 * kByte}));
 }
 
 TEST(Uart, other_rates) {
   Uart uart;
-  uart.switch_on(0, 0);
+  uart.follow_chip(true, 0);
   EXPECT_EQ(uart.byte_cycles(), 160);  // 921,600 baud
-  uart.switch_on(3, 0);
+  uart.follow_chip(true, 3);
   EXPECT_EQ(uart.byte_cycles(), 640);
 }
 
 TEST(Uart, a_reset_cuts_off_what_has_not_left) {
   Wired w;
-  w.uart.switch_on(7, 0);
-  for (char c : {'a', 'b', 'c'}) w.uart.load(static_cast<std::uint8_t>(c), 0);
+  w.uart.follow_chip(true, 7);
+  Cycle at = 0;
+  for (char c : {'a', 'b', 'c'})
+    w.uart.put_on_wire(static_cast<std::uint8_t>(c), at, at + kByte), at += kByte;
   w.uart.reset(kByte + 10);
   w.uart.exchange(10 * kByte);
   EXPECT_EQ(w.end->text(), "a");
-  EXPECT_FALSE(w.uart.enabled());
+  // and it is off
+  w.end->inject("x", 10 * kByte);
+  w.uart.exchange(11 * kByte);
+  EXPECT_FALSE(w.uart.has_on_wire());
 }
 
 // --- ends
@@ -272,16 +261,13 @@ TEST(UartEnd, file_takes_the_output_and_gives_the_input) {
   std::string error;
   {
     Uart uart;
-    Heard heard;
-    uart.set_receiver(&heard);
     auto end = board::open_uart_end("file:" + base + ".out," + base + ".in", "", error);
     ASSERT_TRUE(end) << error;
     uart.connect(std::move(end));
-    uart.switch_on(7, 0);
-    uart.load('!', 0);
+    uart.follow_chip(true, 7);
+    uart.put_on_wire('!', 0, kByte);
     uart.exchange(2 * kByte);
-    uart.settle(4 * kByte);
-    EXPECT_EQ(heard.text, "go");
+    EXPECT_EQ(taken(uart), "go");
   }
   std::stringstream text;
   text << std::ifstream(base + ".out").rdbuf();

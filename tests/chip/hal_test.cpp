@@ -106,7 +106,8 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
       dspic(world_of({"maze", "braitenberg"}), "dspic", "", kLong);
   ASSERT_TRUE(sim.is_there() && dspic.is_there());
   host::Runner& runner = *sim.twin().mind(0).runner();
-  const auto frames = static_cast<double>(runner.closed_drivers()->scan().interrupts(runner.cycles()));
+  const auto frames =
+      static_cast<double>(runner.closed_drivers()->scan().clock().interrupts(runner.cycles()));
   const auto served =
       static_cast<double>(dynamic_cast<chip::ChipRunner&>(*dspic.twin().mind(0).runner())
                               .device()

@@ -119,7 +119,7 @@ TEST(AccScan, samples_are_taken_every_65_interrupts_in_a_six_channel_frame) {
   EXPECT_EQ(robot.scan().acc_until(0), first);
   const Cycle after = first + 3 * 65 * scan_times::kFrame + 5;
   const drivers::AdcScan::AccRing ring = robot.scan().acc_scan(after);
-  EXPECT_EQ(robot.scan().acc_samples(after), 4);
+  EXPECT_EQ(robot.scan().clock().acc_samples(after), 4);
   for (int k = 0; k < 4; ++k) {
     const std::size_t slot = static_cast<std::size_t>(k + 1);
     EXPECT_NEAR(ring[0][slot], expected(k, 3, 350), 0.51) << k;

@@ -84,8 +84,8 @@ void expect_equal(DrivenBoard& robot, const TickedScan& want, Cycle at) {
     ASSERT_EQ(robot.scan().peek_lit(sensor, at), want.lit[sensor]) << sensor << " at " << at;
   }
   ASSERT_EQ(robot.scan().pulses(at), want.pulses) << at;
-  ASSERT_EQ(robot.scan().interrupts(at) % 100, want.mic_index);
-  ASSERT_EQ(robot.scan().acc_samples(at) % 50, want.acc_index);
+  ASSERT_EQ(robot.scan().clock().interrupts(at) % 100, want.mic_index);
+  ASSERT_EQ(robot.scan().clock().acc_samples(at) % 50, want.acc_index);
 }
 
 class Scan : public ::testing::TestWithParam<bool> {};
@@ -110,7 +110,7 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
     // just before the interrupt nothing has changed yet
     expect_equal(robot, want, at - 1);
     if (HasFatalFailure()) return;
-    ASSERT_EQ(robot.scan().next_interrupt(at - 1), at);
+    ASSERT_EQ(robot.scan().clock().next_interrupt(at - 1), at);
     want.interrupt(at);
     const Cycle seen = at + kSettled;
     expect_equal(robot, want, seen);
@@ -122,7 +122,7 @@ TEST_P(Scan, closed_form_equals_the_ticked_interrupt) {
       ASSERT_EQ(reader.scan().lit(sensor, seen), want.lit[sensor]);
       ASSERT_EQ(program.scan().dark_less_lit(sensor, seen, seen + 5), want.dark[sensor] - want.lit[sensor]);
       // and the horizon never lies beyond the next change
-      const Cycle horizon = reader.scan().horizon(sensor, seen);
+      const Cycle horizon = reader.scan().pair(sensor, seen).until;
       ASSERT_GT(horizon, seen);
       ASSERT_EQ(reader.scan().peek_dark(sensor, horizon - 1), want.dark[sensor]);
       ASSERT_EQ(reader.scan().peek_lit(sensor, horizon - 1), want.lit[sensor]);
@@ -214,8 +214,8 @@ TEST(AdcScan, refreshes_each_sensor_59_times_a_second) {
   const Cycle second = 14'745'600;
   for (int sensor = 0; sensor < 8; ++sensor) {
     int changes = 0;
-    for (Cycle at = robot.scan().horizon(sensor, 2 * second); at <= 3 * second;
-         at = robot.scan().horizon(sensor, at))
+    for (Cycle at = robot.scan().pair(sensor, 2 * second).until; at <= 3 * second;
+         at = robot.scan().pair(sensor, at).until)
       changes += robot.scan().lit_number(sensor, at) != robot.scan().lit_number(sensor, at - 1);
     EXPECT_NEAR(changes, 59, 1);
   }
@@ -252,8 +252,8 @@ TEST(AdcScan, initialisation_takes_209_ms) {
   const Cycle filled = robot.scan().first_fill(0);
   EXPECT_NEAR(static_cast<double>(filled) / 14745.6, 208.3, 0.1);
   // at the end of the handler, which takes 161 cycles
-  EXPECT_EQ(robot.scan().acc_samples(filled - 161 + kFiled - 1), 48);
-  EXPECT_EQ(robot.scan().acc_samples(filled - 161 + kFiled), 49);
+  EXPECT_EQ(robot.scan().clock().acc_samples(filled - 161 + kFiled - 1), 48);
+  EXPECT_EQ(robot.scan().clock().acc_samples(filled - 161 + kFiled), 49);
   EXPECT_EQ(robot.scan().first_fill(filled), filled);
 }
 
@@ -263,10 +263,10 @@ TEST(AdcScan, microphones_alone_run_twice_as_fast) {
   DrivenBoard robot{board::Setup{}};
   robot.look_at(&scene);
   robot.scan().start(true, false, 0);
-  EXPECT_EQ(robot.scan().interrupts(14'745'600 + 14), 32767);
-  EXPECT_EQ(robot.scan().interrupts(14'745'600 + 15), 32768);
+  EXPECT_EQ(robot.scan().clock().interrupts(14'745'600 + 14), 32767);
+  EXPECT_EQ(robot.scan().clock().interrupts(14'745'600 + 15), 32768);
   EXPECT_EQ(robot.scan().dark(0, 14'745'600), 0);
-  EXPECT_EQ(robot.scan().acc_samples(14'745'600), 0);
+  EXPECT_EQ(robot.scan().clock().acc_samples(14'745'600), 0);
   EXPECT_EQ(robot.scan().first_fill(500), 500);  // returns at once
 }
 

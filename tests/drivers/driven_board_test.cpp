@@ -59,15 +59,18 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   drive(robot, 700, -700, 0);
   robot.pins().write_bit('A', 6, true, 0);
   robot.scan().start(false, false, 0);
-  robot.uart(1).switch_on(7, 0);
+  std::string sent;
+  robot.uart(1).listen(&sent);
+  robot.uart(1).put_on_wire('x', kSecond - 10, kSecond + 1270);
   const std::int64_t left = robot.motors().left_steps(kSecond), right = robot.motors().right_steps(kSecond);
   robot.processor_reset(kSecond);
   EXPECT_EQ(robot.pins().leds(kSecond), 0u);
   EXPECT_EQ(robot.motors().left_steps(5 * kSecond), left);
   EXPECT_EQ(robot.motors().right_steps(5 * kSecond), right);
   EXPECT_EQ(robot.motors().coils(Wheel::Left, 5 * kSecond), 0u);
-  EXPECT_EQ(robot.scan().interrupts(5 * kSecond), 0);
-  EXPECT_FALSE(robot.uart(1).enabled());
+  EXPECT_EQ(robot.scan().clock().interrupts(5 * kSecond), 0);
+  robot.uart(1).exchange(5 * kSecond);
+  EXPECT_EQ(sent, "");  // cut off
   EXPECT_EQ(robot.agendas().next_interrupt(), board::kNever);
   // and it can be driven again; the driver's counter starts from 0
   drive(robot, 1000, 1000, 6 * kSecond);
@@ -200,8 +203,7 @@ TEST(Board, equal_programs_give_equal_hashes_and_different_ones_do_not) {
   auto run = [](int speed, bool look) {
     DrivenBoard robot{board::Setup{}};
     drive(robot, speed, 300, 0);
-    robot.uart(1).switch_on(7, 0);
-    robot.uart(1).load('x', 5);
+    robot.uart(1).put_on_wire('x', 5, 1285);
     if (look)
       for (Cycle at = 0; at < kSecond; at += 12345) {
         robot.motors().angle_rad(Wheel::Left, at);

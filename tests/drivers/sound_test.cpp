@@ -32,7 +32,7 @@ struct Microphones : ::testing::Test {
   Microphones() { robot.look_at(&scene); }
   /// Samples of all three from number `from` on, those that a buffer still holds; how many there are so far.
   std::int64_t hear(std::int64_t from) {
-    const std::int64_t count = robot.scan().interrupts(now);
+    const std::int64_t count = robot.scan().clock().interrupts(now);
     for (std::int64_t n = std::max<std::int64_t>(from, count - 100); n < count; ++n)
       for (int m = 0; m < 3; ++m) robot.scan().mic_sample(m, n);
     return count;
@@ -94,7 +94,7 @@ TEST_F(Microphones, samples_are_held_at_the_converters_instants) {
   const auto calls = scan_times::calls(5000, 65);
   now = calls[2];
   EXPECT_EQ(hear(0), 3);
-  EXPECT_EQ(robot.scan().next_interrupt(now), calls[3]);
+  EXPECT_EQ(robot.scan().clock().next_interrupt(now), calls[3]);
   // three channels of 15 TAD of 20, held after the first; the flag a cycle after the end
   EXPECT_EQ(held, (std::vector<sim::Clicks>{5034, 5334, 5634, 5999, 6299, 6599, 6964, 7264, 7564}));
   // interrupt 3 delivers five channels (TAD 12), 62 six (TAD 10), 63 five again; 10 three

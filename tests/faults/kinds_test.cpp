@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Each kind changes what the program, or the world, gets, and by what its meaning says. One table: a bench
-// with the fault from 1.0 to 2.0 s beside the same bench without it. Expectations by hand.
+// Each kind changes what the program, or the world, gets, and by what its meaning says. A table for each
+// subject: a bench with the fault from 1.0 to 2.0 s beside the same bench without it. Expectations by hand.
 #include "hal_sim/faults/kinds.h"
 
 #include <cmath>
@@ -33,8 +33,8 @@ void in_the_open(Bench&) {}
 
 double moved_m(Bench& b) { return std::hypot(b.puck().x_m(), b.puck().y_m()); }
 
-const std::vector<Row>& rows() {
-  static const std::vector<Row> kRows{
+std::vector<Row> of_sensors() {
+  return {
       {"sensor_blocked sensor=2", in_the_open,
        [](Bench& with, Bench& without) {
          EXPECT_LT(without.look("prox", 2), 50);
@@ -74,6 +74,11 @@ const std::vector<Row>& rows() {
          EXPECT_EQ(with.look("ambient", 5), 4095 - 3200);
          EXPECT_EQ(with.look("ambient", 4), 4095);
        }},
+  };
+}
+
+std::vector<Row> of_wheels() {
+  return {
       {"wheel_stuck wheel=left", in_the_open,
        [](Bench& with, Bench& without) {
          // it turns to the left, and its own counter tells it nothing
@@ -97,6 +102,11 @@ const std::vector<Row>& rows() {
          EXPECT_NEAR(moved_m(without) - moved_m(with), 0.5 * 0.9 * 400 * 0.1288e-3, 0.002);
          EXPECT_EQ(with.puck().left_steps(), without.puck().left_steps());
        }},
+  };
+}
+
+std::vector<Row> of_lines() {
+  return {
       {"bytes_lost share=1 direction=rx", in_the_open,
        [](Bench& with, Bench& without) {
          EXPECT_EQ(without.look("received"), 20);
@@ -117,6 +127,11 @@ const std::vector<Row>& rows() {
          EXPECT_NEAR(static_cast<double>(after.size()) / static_cast<double>(before.size()), 1.0 / 1.9, 0.1);
          EXPECT_EQ(with.look("received"), 20);
        }},
+  };
+}
+
+std::vector<Row> of_body() {
+  return {
       {"battery_sag drop_v=0.9", in_the_open,
        [](Bench& with, Bench& without) {
          EXPECT_EQ(without.look("battery_good"), 1);
@@ -165,6 +180,11 @@ const std::vector<Row>& rows() {
          EXPECT_TRUE(without.puck().led(3));
          EXPECT_FALSE(with.puck().led(3));
        }},
+  };
+}
+
+std::vector<Row> of_hands() {
+  return {
       {"bytes_sent bytes=hello", in_the_open,
        [](Bench& with, Bench& without) {
          EXPECT_EQ(with.look("received"), without.look("received") + 5);
@@ -187,6 +207,11 @@ const std::vector<Row>& rows() {
          EXPECT_NEAR(with.puck().y_m(), 2 + 0.9 * 400 * 0.1288e-3, 0.002);
          EXPECT_NEAR(with.puck().distance_m(), without.puck().distance_m(), 0.002);
        }},
+  };
+}
+
+std::vector<Row> of_chip() {
+  return {
       {"pin_forced pin=G7 level=1", in_the_open,
        [](Bench& with, Bench& without) {
          EXPECT_EQ(without.look("selector"), 0);
@@ -208,6 +233,15 @@ const std::vector<Row>& rows() {
          EXPECT_GT(without.look("beats"), with.look("beats") + 90);
        }},
   };
+}
+
+const std::vector<Row>& rows() {
+  static const std::vector<Row> kRows = [] {
+    std::vector<Row> joined;
+    for (const auto subject : {of_sensors, of_wheels, of_lines, of_body, of_hands, of_chip})
+      for (const Row& row : subject()) joined.push_back(row);
+    return joined;
+  }();
   return kRows;
 }
 

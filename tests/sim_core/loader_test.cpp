@@ -22,8 +22,8 @@ std::string report_of(const std::string& text) {
   return sim::parse_world(text, "w.toml", {puck(), one_eyed()}).report("w.toml");
 }
 
-TEST(Loader, a_full_world_arrives_in_si_units) {
-  const auto w = world_of(R"(twinpuck = 1
+/// Something of every kind.
+constexpr const char* kFullWorld = R"(twinpuck = 1
 title = "all of it"
 [world]
 physics_hz = 256
@@ -98,7 +98,10 @@ code = 63
 time = 0.5
 hold = 2
 address = 8
-)");
+)";
+
+TEST(Loader, a_full_world_arrives_in_si_units) {
+  const auto w = world_of(kFullWorld);
   EXPECT_EQ(w.robots[0].battery_wh, 2.5);
   ASSERT_EQ(w.robots[0].keys.size(), 2u);
   EXPECT_EQ(w.robots[0].keys[0].code, 5);

@@ -86,7 +86,7 @@ Cost Robot::cost_of(const std::string& function, Caller caller) const {
   const auto* const runner = dynamic_cast<const chip::ChipRunner*>(test_->twin().mind(index_).runner());
   Cost cost;
   std::string error = "no function '" + function + "' in the firmware";
-  if (!runner || !chip::cost_of_call(runner->file(), profile_.get(), function, cost, error))
+  if (!runner || !chip::cost_of_call(runner->image()->file(), profile_.get(), function, cost, error))
     ADD_FAILURE_AT(caller.file, caller.line) << error;
   return cost;
 }
@@ -218,7 +218,8 @@ void FirmwareTest::start(const Caller& caller) {
   for (auto& r : robots_) {
     auto* const runner = r->is_measured_ ? dynamic_cast<chip::ChipRunner*>(r->mind().runner()) : nullptr;
     if (!runner) continue;
-    r->profile_ = std::make_shared<chip::Profile>(runner->file(), runner->processor(), runner->device());
+    r->profile_ =
+        std::make_shared<chip::Profile>(runner->image()->file(), runner->processor(), runner->device());
     runner->watch_steps(r->profile_.get(), true);
   }
   for (auto& r : robots_) {

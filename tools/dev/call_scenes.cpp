@@ -234,7 +234,7 @@ std::string source() {
 class Watch final : public chip::StepWatch {
  public:
   explicit Watch(chip::ChipRunner& runner) : runner_(runner), scenes_(std::size(kScenes) + 1) {
-    const auto& file = runner.file();
+    const auto& file = runner.image()->file();
     for (const auto& row : api::kHostFunctions)
       if (const auto found = file.functions.find(row.name); found != file.functions.end())
         functions_.insert(found->second);
@@ -308,7 +308,7 @@ class Watch final : public chip::StepWatch {
       walked_ = false;
       return;
     }
-    const std::uint32_t instruction = runner_.program().read(step.pc);
+    const std::uint32_t instruction = runner_.image()->program().read(step.pc);
     if (depth_ == 0 && t.walk.empty()) note_push(t, instruction);
     // CALL Wn of a list's function: its frame is all that lies above
     if (depth_ == 0 && (instruction & 0xFFFFF0) == 0x010000) {

@@ -39,7 +39,7 @@ class FloorColour final : public Part, public I2cRegisters {
   std::uint8_t read_register(std::uint8_t number, Cycle at) override {
     if (number == 3) return static_cast<std::uint8_t>(gain_);
     if (number > 3 || !board().scene()) return 0;
-    const sim::Colour seen = board().scene()->floor(to_world({forward_m_, 0}, at)).colour;
+    const sim::Colour seen = sim::floor_at(board().scene()->world(), to_world({forward_m_, 0}, at)).colour;
     double level = 255 * gain_ * (number == 0 ? seen.r : number == 1 ? seen.g : seen.b);
     level += noise_ * sim::random_gaussian(random(number), static_cast<std::uint64_t>(since_begin(at)));
     return static_cast<std::uint8_t>(std::clamp(std::floor(level + 0.5), 0.0, 255.0));

@@ -66,7 +66,8 @@ class GroundSensors final : public Part, public I2cRegisters {
     constexpr sim::Vec2 kSpot[] = {
         {0, 0}, {kGroundSpotM, 0}, {-kGroundSpotM, 0}, {0, kGroundSpotM}, {0, -kGroundSpotM}};
     double sum = 0;
-    for (sim::Vec2 offset : kSpot) sum += scene->floor(to_world(place_m + offset, at)).ir_reflectance;
+    for (sim::Vec2 offset : kSpot)
+      sum += sim::floor_at(scene->world(), to_world(place_m + offset, at)).ir_reflectance;
     return sum / 5;
   }
 

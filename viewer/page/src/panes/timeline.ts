@@ -424,6 +424,53 @@ export class TimeLine {
     c.stroke();
   }
 
+  /** A signal's levels as a curve, a register's values between the instants of its changes. */
+  private drawChanges(
+    c: CanvasRenderingContext2D,
+    row: Row,
+    top: number,
+    tall: number,
+    clip: (t: number) => number,
+    left: number,
+    right: number,
+  ) {
+    const changes = row.changes ?? [];
+    if (!changes.length) return;
+    const low = top + tall,
+      most = row.bits === 1 ? 1 : 0;
+    c.strokeStyle = row.colour;
+    c.fillStyle = css("--text");
+    c.lineWidth = 1.4;
+    c.beginPath();
+    // the last before the picture, then those in it
+    let from = 0;
+    for (let a = 0, b = changes.length - 1; a <= b;) {
+      const m = (a + b) >> 1;
+      if (changes[m][0] <= left) {
+        from = m;
+        a = m + 1;
+      } else b = m - 1;
+    }
+    for (let k = from; k < changes.length && changes[k][0] <= right; ++k) {
+      const a = clip(changes[k][0]),
+        b = clip(k + 1 < changes.length ? changes[k + 1][0] : this.end),
+        y = most ? low - tall * changes[k][1] : low;
+      if (most) {
+        c.lineTo(a, y);
+        c.lineTo(b, y);
+      } else {
+        c.moveTo(a, low);
+        c.lineTo(a, top);
+        c.moveTo(a, low);
+        c.lineTo(b, low);
+        c.moveTo(a, top);
+        c.lineTo(b, top);
+        if (b - a > 26) c.fillText(`0x${changes[k][1].toString(16)}`, a + 3, low - 3, b - a - 4);
+      }
+    }
+    c.stroke();
+  }
+
   draw() {
     if (!this.shown || !this.canvas.parentElement?.clientWidth) return;
     const rows = this.rows(),
@@ -447,8 +494,7 @@ export class TimeLine {
     const said = `Time line of ${this.robot || "no robot"}, ${rows.length} rows, ${timeText(Math.max(0, left))} to ${timeText(right)}. Arrows move the cursor and choose a row, plus and minus zoom, A and B set markers`;
     if (this.canvas.getAttribute("aria-label") !== said) this.canvas.setAttribute("aria-label", said);
     const dim = css("--dim"),
-      line = css("--line"),
-      text = css("--text");
+      line = css("--line");
     const step = 10 ** Math.floor(Math.log10(this.span / 3)),
       every = this.span / step > 12 ? 5 * step : this.span / step > 6 ? 2 * step : step;
     for (let i = Math.ceil(left / every); i * every <= right; ++i) {
@@ -472,43 +518,8 @@ export class TimeLine {
         if (s[0] === Kind.Waiting) c.fillRect(from, top + tall / 2 - 1, wide, 2);
         else c.fillRect(from, top, wide, tall);
       }
-      const changes = row.changes ?? [];
       if (row.decoder) this.drawDecoded(c, row, top, tall, x, left, right);
-      else if (changes.length) {
-        const low = top + tall,
-          most = row.bits === 1 ? 1 : 0;
-        c.strokeStyle = row.colour;
-        c.fillStyle = text;
-        c.lineWidth = 1.4;
-        c.beginPath();
-        // the last before the picture, then those in it
-        let from = 0;
-        for (let a = 0, b = changes.length - 1; a <= b;) {
-          const m = (a + b) >> 1;
-          if (changes[m][0] <= left) {
-            from = m;
-            a = m + 1;
-          } else b = m - 1;
-        }
-        for (let k = from; k < changes.length && changes[k][0] <= right; ++k) {
-          const a = clip(changes[k][0]),
-            b = clip(k + 1 < changes.length ? changes[k + 1][0] : this.end),
-            y = most ? low - tall * changes[k][1] : low;
-          if (most) {
-            c.lineTo(a, y);
-            c.lineTo(b, y);
-          } else {
-            c.moveTo(a, low);
-            c.lineTo(a, top);
-            c.moveTo(a, low);
-            c.lineTo(b, low);
-            c.moveTo(a, top);
-            c.lineTo(b, top);
-            if (b - a > 26) c.fillText(`0x${changes[k][1].toString(16)}`, a + 3, low - 3, b - a - 4);
-          }
-        }
-        c.stroke();
-      }
+      else this.drawChanges(c, row, top, tall, clip, left, right);
       c.fillStyle = css("--panel");
       c.fillRect(0, top - 3, kNames, kRow);
       c.fillStyle = line;
