@@ -84,6 +84,8 @@ class ChipRunner final : public host::Runner,
   dspic::Processor& processor() { return *processor_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const std::shared_ptr<const ChipImage>& image() const { return image_; }
+  /// Its flash as it is now: programs write it, the image stays.
+  const dspic::ProgramMemory& program() const { return program_; }
   const drivers::Drivers* closed_drivers() const override {
     return library_ ? &library_->drivers() : nullptr;
   }

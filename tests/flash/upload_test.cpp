@@ -123,7 +123,7 @@ class UploadTest : public chip_test::ChipTest {
   flash::Upload upload(Line& line, char name, flash::UploadSettings settings = {}) {
     return flash::upload(line, plan(name), settings, [](const char*, int, int) {});
   }
-  std::uint32_t flash(std::uint32_t address) { return runner().image()->program().read(address); }
+  std::uint32_t flash(std::uint32_t address) { return runner().program().read(address); }
   bool holds(const flash::UploadPlan& plan) {
     for (const auto& [address, row] : plan.rows)
       for (std::uint32_t i = 0; i < 32; ++i) {
