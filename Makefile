@@ -144,7 +144,7 @@ check: tool
 	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
-	@$(NINJA) twinpuck-dev
+	@$(NINJA) twinpuck-dev bench_steps
 	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
 
