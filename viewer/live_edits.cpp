@@ -23,13 +23,6 @@ std::set<std::string> differing_keys(const Text& from, const Text& to, int id) {
   return keys;
 }
 
-std::vector<int> ids_of(const Text& text, const std::string& path) {
-  std::vector<int> ids;
-  for (const auto& e : text.elements())
-    if (e.path == path) ids.push_back(e.id);
-  return ids;
-}
-
 /// What a running robot can take, and what not.
 void robot_edit(const Text& from, const Text& to, int id, int index, const sim::RobotDesc& robot,
                 LiveEdit& edit) {
@@ -62,8 +55,8 @@ void robot_edit(const Text& from, const Text& to, int id, int index, const sim::
 
 LiveEdit live_edit(const Text& from, const Text& to, const sim::WorldDesc& world) {
   LiveEdit edit;
-  const std::vector<int> robots = ids_of(to, "robot");
-  if (robots != ids_of(from, "robot")) {
+  const std::vector<int> robots = to.ids_of("robot");
+  if (robots != from.ids_of("robot")) {
     edit.why_not = "robots come and go only when a run begins";
     return edit;
   }
@@ -71,7 +64,7 @@ LiveEdit live_edit(const Text& from, const Text& to, const sim::WorldDesc& world
     if (from.text_of(robots[i]) != to.text_of(robots[i]))
       robot_edit(from, to, robots[i], static_cast<int>(i), world.robots[i], edit);
   for (const char* path : {"world", "supervisor", "radio", "link", "webots"}) {
-    const std::vector<int> before = ids_of(from, path), after = ids_of(to, path);
+    const std::vector<int> before = from.ids_of(path), after = to.ids_of(path);
     bool is_other = before != after;
     for (std::size_t i = 0; i < after.size() && !is_other; ++i) {
       std::set<std::string> keys = differing_keys(from, to, after[i]);

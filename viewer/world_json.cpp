@@ -8,6 +8,7 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
+#include "sim_core/base/common_ends.h"
 #include "sim_core/load/schema.h"
 #include "sim_core/sound/sound_source.h"
 #include "viewer/base64.h"
@@ -25,13 +26,6 @@ Json point(const sim::Vec3& p) { return {p.x, p.y, p.z}; }
 int id_at(const sim::WorldText& text, int line) {
   const auto* element = text.at_line(line);
   return element ? element->id : 0;
-}
-
-std::vector<int> ids_of(const sim::WorldText& text, const char* path) {
-  std::vector<int> ids;
-  for (const auto& e : text.elements())
-    if (e.path == path) ids.push_back(e.id);
-  return ids;
 }
 
 /// Pieces that stand for themselves: nothing else is another where one of them is.
@@ -291,10 +285,7 @@ class Teller {
 /// Of a text that is split at line breaks: how many lines above stay, how many behind them go, and the lines
 /// that come in their place.
 Json changed_lines(const std::string& before, const std::string& after) {
-  const std::size_t shorter = std::min(before.size(), after.size());
-  std::size_t head = 0, tail = 0;
-  while (head < shorter && before[head] == after[head]) ++head;
-  while (tail < shorter - head && before[before.size() - 1 - tail] == after[after.size() - 1 - tail]) ++tail;
+  auto [head, tail] = sim::common_ends(before, after);
   // whole lines of both
   head = head == 0 ? 0 : before.rfind('\n', head - 1) + 1;
   const std::size_t line_break = after.find('\n', after.size() - tail);
@@ -345,7 +336,7 @@ std::optional<Json> world_changes(const Told& told, const sim::LoadedWorld& load
   for (const auto& e : told.text.elements())
     if (!is_drawn(e.path) && !text.find(e.id)) return std::nullopt;
   // bodies have numbers by the robots' order
-  if (ids_of(text, "robot") != ids_of(told.text, "robot")) return std::nullopt;
+  if (text.ids_of("robot") != told.text.ids_of("robot")) return std::nullopt;
   if (movable != told.movable) fresh.insert(movable.begin(), movable.end());
   Teller teller(loaded, text, twin, movable, &fresh);
   Json out{{"head", teller.head(base)}};

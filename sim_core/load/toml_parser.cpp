@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "sim_core/base/common_ends.h"
+
 namespace sim {
 namespace {
 constexpr int kMostDots = 7;  // in one key; the longest of ours has one
@@ -27,11 +29,8 @@ const toml::table* TomlTree::take(std::string_view text, std::optional<toml::par
 /// False, with nothing changed, where it takes more than that.
 bool TomlTree::take_one_table(std::string_view text) {
   const std::string_view before = text_;
-  const std::size_t shorter = std::min(before.size(), text.size());
-  std::size_t head = 0, tail = 0;
-  while (head < shorter && before[head] == text[head]) ++head;
-  if (head == before.size() && head == text.size()) return true;
-  while (tail < shorter - head && before[before.size() - 1 - tail] == text[text.size() - 1 - tail]) ++tail;
+  if (before == text) return true;
+  const auto [head, tail] = common_ends(before, text);
   // from its heading, which stays as it is, up to the next heading of any kind
   const std::size_t break_above = text.rfind("\n[[", head);
   if (break_above == std::string_view::npos) return false;
@@ -57,8 +56,7 @@ bool TomlTree::take_one_table(std::string_view text) {
     const toml::table* table = known->get_as<toml::table>(i);
     if (!table || table->source().begin.line != first) continue;
     for (const auto& [key, value] : *table)
-      if (value.source().begin.line < first || value.source().begin.line > first + breaks(lines))
-        return false;
+      if (value.source().begin.line < first || value.source().end.line > first + breaks(lines)) return false;
     known->replace(known->cbegin() + static_cast<std::ptrdiff_t>(i),
                    std::move(*fresh->get_as<toml::table>(0)));
     return true;

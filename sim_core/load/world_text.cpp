@@ -334,6 +334,13 @@ std::string WorldText::text_of(int id, bool commented) const {
   return out;
 }
 
+std::vector<int> WorldText::ids_of(const std::string& path) const {
+  std::vector<int> ids;
+  for (const Element& e : elements_)
+    if (e.path == path) ids.push_back(e.id);
+  return ids;
+}
+
 std::vector<int> WorldText::differing(const WorldText& before) const {
   // each element's texts lie one behind another
   const auto texts_of = [](const WorldText& text) {

@@ -40,6 +40,8 @@ class WorldText {
   Values values(int id) const;
   /// All of an element as it is written; `commented`: with the comment above it.
   std::string text_of(int id, bool commented = false) const;
+  /// Ids of the elements of that path, in their order.
+  std::vector<int> ids_of(const std::string& path) const;
   /// Ids of elements that `before` has not, or has with another text, in their order.
   std::vector<int> differing(const WorldText& before) const;
   /// Its tables below its own, likewise.

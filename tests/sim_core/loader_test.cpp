@@ -170,6 +170,17 @@ std::string tree_told(sim::TomlTree& tree, const std::string& text) {
   return out;
 }
 
+// what was a text's line is a heading then, which nobody closes
+TEST(TomlTree, a_text_that_ended_further_down_is_not_taken_for_one_table) {
+  const std::string before = "a = 1\n[[box]]\nname = \"\"\"two\n[x]\nlines = \"\"\"\n";
+  for (const char* line : {"\"two\"", "\"\"\"2\"\"\"", "2"}) {
+    sim::TomlTree kept, fresh;
+    tree_told(kept, before);
+    const std::string after = std::string("a = 1\n[[box]]\nname = ") + line + "\n[x]\nlines = \"\"\"\n";
+    EXPECT_EQ(tree_told(kept, after), tree_told(fresh, after)) << after;
+  }
+}
+
 TEST(TomlTree, is_what_a_fresh_one_is_after_edits_of_all_kinds) {
   const std::string begin = R"(twinpuck = 1
 [arena]
