@@ -73,7 +73,7 @@ test("an earlier time of the server's is a new run: nothing of the old one stays
   const state = { ...store.state, time_s: 5 };
   link.event("state", { state });
   hear(link, frame(1, 5, 1, []));
-  store.traps.push({ robot: "puck", kind: "math error", text: "", place: "", time_s: 1 });
+  store.traps.push({ robot: "puck", kind: "math error", text: "", place: "", file: "", line: 0, time_s: 1 });
   link.event("state", { state: { ...state, time_s: 0 } });
   assert.equal(store.past.frames.length, 0);
   assert.deepEqual(store.traps, []);

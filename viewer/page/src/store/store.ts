@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one place of what the page knows: world, state, programs, selection, values, what was seen. Panes look at it
 // and are told of changes by topic; none of them knows another. All state that counts is the server's.
+import type { Trap } from "../link/protocol_types";
 import { readFrame } from "../link/protocol";
 import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "../link/protocol";
 import type { Buffer } from "./buffer";
@@ -16,13 +17,7 @@ export interface Diagnosis {
   text: string;
   hint: string;
 }
-export interface Trap {
-  robot: string;
-  kind: string;
-  text: string;
-  place: string;
-  time_s: number;
-}
+export type { Trap };
 /** A line of a controller's source. */
 export interface SourceLine {
   program: string;
