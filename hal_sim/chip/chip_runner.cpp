@@ -357,7 +357,7 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
             all.end());
   for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
-  return dated(std::move(all), board_.diagnoses(lived_cycles()));
+  return dated(std::move(all), board_.diagnoses(cycles()));
 }
 
 /// For what no code can set any more. A loop that looks at nothing is none, but the end of a program.

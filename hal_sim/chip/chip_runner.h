@@ -65,7 +65,6 @@ class ChipRunner final : public host::Runner,
   void begin_again() override;
 
   Cycle cycles() const override { return end_; }
-  Cycle lived_cycles() const override { return end_; }
   Cycle idle_cycles() const override { return processor_->idle(end_); }
   Cycle waiting_since() const override { return processor_->waiting_since(); }
   bool has_stopped() const override { return !has_clock_; }
