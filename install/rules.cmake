@@ -89,7 +89,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS OFF)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_NAME twinpuck)
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SECTION science)
 # what is linked, dpkg-shlibdeps finds; these are loaded when they are needed (LAZY_LIBRARY), or started
-set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libjpeg62-turbo, libsndfile1, libvpx7, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-pytest, python3-websocket")
+set(CPACK_DEBIAN_TWINPUCK_PACKAGE_DEPENDS "binutils, libllvm14, libcairo2, libcivetweb1, libdw1, libjpeg62-turbo, libmuparser2v5, libsndfile1, libvpx7, python3 (>= 3.11), python3 (<< 3.12), python3-numpy, python3-pytest, python3-websocket")
 # programs of the PC: compiled, or run by Python; `new` makes a Makefile
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_RECOMMENDS "g++, make, python3-pytest-xdist, bubblewrap, bash-completion")
 set(CPACK_DEBIAN_TWINPUCK_PACKAGE_SUGGESTS "default-jdk-headless, gdb, python3-pandas")

@@ -70,7 +70,7 @@ bool is_agenda(const std::string& function, const fs::path& folder) {
   const sim::Pattern given("\\be_activate_agenda\\s*\\(\\s*&?\\s*" + function + "\\b");
   for (const fs::path& file : sources_in(folder))
     for (const std::string& line : lines_of(file.string()))
-      if (std::regex_search(line, given)) return true;
+      if (line.find(function) != std::string::npos && std::regex_search(line, given)) return true;
   return false;
 }
 
@@ -147,7 +147,8 @@ std::vector<Writer> writers_of(const std::string& variable, const host::Place& p
         if (!names.empty()) function = names.back();
       }
       const bool is_inside = depth > 0 || body != std::string::npos;
-      if (is_inside && !function.empty() && std::regex_search(line, writes))
+      if (is_inside && !function.empty() && line.find(variable) != std::string::npos &&
+          std::regex_search(line, writes))
         writers.push_back({function, file.filename().string() + ":" + std::to_string(number), ""});
       depth += static_cast<int>(std::count(line.begin(), line.end(), '{') -
                                 std::count(line.begin(), line.end(), '}'));

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <muParser.h>
+#include <muParserDLL.h>
 
 #include <algorithm>
 #include <cctype>
@@ -41,7 +41,10 @@ bool is_in_word(char c) { return std::isalnum(static_cast<unsigned char>(c)) || 
 }  // namespace
 
 struct Condition::Formula {
-  mu::Parser parser;
+  struct Release {
+    void operator()(void* parser) const { mupRelease(parser); }
+  };
+  std::unique_ptr<void, Release> parser{mupCreate(muBASETYPE_FLOAT)};
   std::vector<std::string> names;  // as written, with the robot's
   std::vector<Named> signals;
   mutable std::deque<double> values;  // muParser keeps their places
@@ -270,22 +273,20 @@ Condition::Condition(const std::string& text, twin::Twin& twin, int robot)
   formula_->names = translation.names;
   formula_->signals = translation.signals;
   formula_->values.resize(translation.names.size());
-  mu::Parser& parser = formula_->parser;
-  try {
-    parser.DefineInfixOprt("!", not_of);
-    parser.DefineFun("floor", floor_of);
-    parser.DefineFun("ceil", ceil_of);
-    parser.DefineFun("round", round_of);
-    parser.DefineFun("mod", mod_of);
-    parser.DefineFun("hypot", hypot_of);
-    for (std::size_t i = 0; i < formula_->values.size(); ++i)
-      parser.DefineVar("s" + std::to_string(i), &formula_->values[i]);
-    parser.SetExpr(translation.made);
-    int results = 0;
-    parser.Eval(results);
-    if (results != 1) throw std::runtime_error("got '" + text + "', expected one condition, without a comma");
-  } catch (const mu::ParserError& e) {
-    std::string what = e.GetMsg();
+  void* const parser = formula_->parser.get();
+  mupDefineInfixOprt(parser, "!", not_of, true);
+  mupDefineFun1(parser, "floor", floor_of, true);
+  mupDefineFun1(parser, "ceil", ceil_of, true);
+  mupDefineFun1(parser, "round", round_of, true);
+  mupDefineFun2(parser, "mod", mod_of, true);
+  mupDefineFun2(parser, "hypot", hypot_of, true);
+  for (std::size_t i = 0; i < formula_->values.size(); ++i)
+    mupDefineVar(parser, ("s" + std::to_string(i)).c_str(), &formula_->values[i]);
+  mupSetExpr(parser, translation.made.c_str());
+  int results = 1;
+  mupEvalMulti(parser, &results);
+  if (mupError(parser)) {
+    std::string what = mupGetErrorMsg(parser);
     for (std::size_t i = formula_->names.size(); i-- > 0;) {
       const std::string ours = "\"s" + std::to_string(i);
       if (const std::size_t at = what.find(ours); at != std::string::npos)
@@ -296,6 +297,7 @@ Condition::Condition(const std::string& text, twin::Twin& twin, int robot)
     if (!what.empty()) what[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(what[0])));
     throw std::runtime_error("got '" + text + "', expected a condition such as x_m > 0.2 && led0: " + what);
   }
+  if (results != 1) throw std::runtime_error("got '" + text + "', expected one condition, without a comma");
 }
 
 Condition::~Condition() = default;
@@ -305,7 +307,7 @@ Condition& Condition::operator=(Condition&&) noexcept = default;
 double Condition::value(twin::Twin& twin) const {
   for (std::size_t i = 0; i < formula_->signals.size(); ++i)
     formula_->values[i] = formula_->signals[i].value(twin);
-  return formula_->parser.Eval();
+  return mupEval(formula_->parser.get());
 }
 
 bool Condition::holds(twin::Twin& twin) const {
