@@ -262,8 +262,8 @@ unsigned Cpu::pop_slowly() {
 
 void Cpu::trap(Trap which) {
   settle();
-  const int level = parts.interrupts.level(), own_level = trap_level(static_cast<int>(which));
-  if (level < own_level && parts.interrupts.has_trap(which))
+  const int level = parts.interrupts.cpu().level(), own_level = trap_level(static_cast<int>(which));
+  if (level < own_level && parts.interrupts.control().has_trap(which))
     return;                                               // of this instruction, or as it is entered
   if (which == Trap::StackError && level == own_level) {  // its handler works above the limit: the flag alone
     parts.interrupts.raise_trap(which, now);
@@ -271,7 +271,7 @@ void Cpu::trap(Trap which) {
     return;
   }
   // beyond the limit and beyond RAM at once: the limit is what the program was to keep
-  const bool follows = which == Trap::AddressError && parts.interrupts.has_trap(Trap::StackError) &&
+  const bool follows = which == Trap::AddressError && parts.interrupts.control().has_trap(Trap::StackError) &&
                        latest_trap && latest_trap->pc == address_of(at);
   if (!follows) latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
   const char* name = vector_name(static_cast<int>(which));
@@ -354,7 +354,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
 
 unsigned Cpu::sr_low() const {
   return static_cast<unsigned>(flag_c()) | flag_z() << 1 | flag_ov() << 2 | flag_n() << 3 | repeating << 4 |
-         (static_cast<unsigned>(parts.interrupts.level()) & 7) << 5;
+         (static_cast<unsigned>(parts.interrupts.cpu().level()) & 7) << 5;
 }
 
 unsigned Cpu::sr() const {
@@ -374,7 +374,7 @@ void Cpu::set_sr(unsigned value, unsigned lanes) {
   if (lanes & 0xFF) {
     settle();
     set_flags(value);
-    parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.level() & 8), now);
+    parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.cpu().level() & 8), now);
     deadline = 0;
   }
   if (!(lanes & 0xFF00)) return;
@@ -420,7 +420,7 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
     case kSr:
       return static_cast<std::uint16_t>(sr());
     case kCorcon:
-      return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) |
+      return static_cast<std::uint16_t>(corcon | (parts.interrupts.cpu().level() > 7 ? kIpl3 : 0) |
                                         loop_depth << kDl.lowest);
     case kModcon:
       return modcon;
@@ -428,14 +428,14 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
       return xbrev;
     case kDisicnt:
       return static_cast<std::uint16_t>(
-          std::clamp<Cycle>(parts.interrupts.disi_until() - when, 0, kMostDisi));
+          std::clamp<Cycle>(parts.interrupts.cpu().disi_until() - when, 0, kMostDisi));
     default:
       return 0;
   }
 }
 
 Cycle Cpu::horizon(unsigned address, Cycle when) const {
-  return address == kDisicnt && parts.interrupts.disi_active(when) ? when + 1 : kNever;
+  return address == kDisicnt && parts.interrupts.cpu().disi_active(when) ? when + 1 : kNever;
 }
 
 void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle when) {
@@ -493,8 +493,8 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kCorcon:
       corcon = wanted & kCorconKept;
       window_words = nullptr;
-      if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.level() > 7)
-        parts.interrupts.set_level(parts.interrupts.level() & 7, when);
+      if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.cpu().level() > 7)
+        parts.interrupts.set_level(parts.interrupts.cpu().level() & 7, when);
       end_loop |= (value & kEdt) && loop_depth > 0;
       deadline = 0;
       break;

@@ -660,7 +660,10 @@ class Cpu final : public SfrOwner {
     std::array<std::uint16_t, 4> w{};
     unsigned flags = 0;  // SR<8>, SR<3:0>
   } shadow;
-  std::optional<TrapRecord> latest_trap;  ///< resets do not forget it
+  /// What led to the last trap that was told (Cause::CpuTrap), through all resets. Of a stack error, the
+  /// instruction that went beyond the limit, also where that was beyond RAM and so an address error as well. A
+  /// store to a frame beyond RAM is an address error with the stack pointer above the limit.
+  std::optional<TrapRecord> latest_trap;
   /// The host hears which handlers known by heart the program holds off by now.
   std::function<void()> follow_host;
   KnownWaits known_waits;

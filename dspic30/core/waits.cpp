@@ -110,15 +110,16 @@ bool Waits::passes(Cpu& cpu, const Decoded* head) {
 // a wait, where another may come that is not known yet, and by look_by_.
 Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {
   const Cycle later = look_beside_heads(cpu, now);
-  if (cpu.parts.interrupts.nesting() > 0) return later;
+  if (cpu.parts.interrupts.cpu().nesting() > 0) return later;
   const unsigned n = cpu.count_end(head);
   const bool is_due = n < kStepsBehind || (n & (n - 1)) == 0;
   return is_due ? now + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
 }
 
 Cycle Waits::look_beside_heads(const Cpu& cpu, Cycle now) const {
-  return cpu.parts.interrupts.nesting() > 0 ? now + kRarestLooks
-                                            : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
+  return cpu.parts.interrupts.cpu().nesting() > 0
+             ? now + kRarestLooks
+             : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
 }
 
 bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
@@ -364,7 +365,7 @@ void Waits::cut(Cpu& cpu) {
 // Handlers seldom wait, so they may work on for a while first; one in sixteen for less, as a wait in a short
 // one would never be found. One that comes into another goes by that one's time.
 void Waits::begin_handler(const Cpu& cpu, Cycle at) {
-  if (cpu.parts.interrupts.nesting() > 0) return;
+  if (cpu.parts.interrupts.cpu().nesting() > 0) return;
   constexpr unsigned kMix = 0x9E3779B1u, kFourBits = 28;  // evenly, whatever the handlers' rhythm
   const bool is_soon = ++handlers_ * kMix >> kFourBits == 0;
   const Cycle first = is_soon ? kSoonInHandler : kFirstInHandler;

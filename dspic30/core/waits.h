@@ -102,9 +102,9 @@ class Waits {
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
-    return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0];
+    return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0];
   }
-  Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0]; }
+  Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0]; }
   void begin(Cpu& cpu);
   void begin_round(Cpu& cpu);
   void look(Cpu& cpu);

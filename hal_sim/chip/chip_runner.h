@@ -100,7 +100,7 @@ class ChipRunner final : public host::Runner,
   }
   void handler_begins(int vector, Cycle entry, Cycle first) override;
   void handler_ends(Cycle at) override;
-  void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().nesting()); }
+  void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().interrupts().nesting()); }
   void program_eeprom();
   void fill_ram();
   void run_watched(Cycle end);

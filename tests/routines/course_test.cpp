@@ -100,7 +100,7 @@ TEST(Course, is_the_same_by_heart_whatever_interrupts_come) {
     ASSERT_EQ(by_heart.cpu->state_hash(), plain.cpu->state_hash()) << "at " << until;
     ASSERT_EQ(by_heart.device->state_hash(until), plain.device->state_hash(until)) << "at " << until;
   }
-  EXPECT_GT(by_heart.device->served_interrupts(dspic::kFirstIrqVector + dspic::irq::T1), 1900);
+  EXPECT_GT(by_heart.device->interrupts().served(dspic::kFirstIrqVector + dspic::irq::T1), 1900);
 }
 
 TEST(Course, does_not_depend_on_windows) {
