@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "dspic30/core/memory_check_each.h"
 #include "dspic30/core/waits.h"
@@ -34,7 +35,7 @@ constexpr unsigned kNoPointer = 15;  // as XWM, YWM or BWM: none is chosen [DS70
 
 // a wait is known to begin here
 const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
-  if (!cpu.stops_at(d)) return cpu.beside_wait(d)(cpu, d);
+  if (!cpu.stops_at(d)) return cpu.table().beside_wait(d)(cpu, d);
   cpu.now -= d->cycles;
   return d;
 }
@@ -104,8 +105,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   if (!address_of_host_place(next) && !is_decoded(next)) decode(next);
   known_waits.forget();
   known_counts.forget();
-  own_heads_ = {};
-  has_heads_ = false;
+  heads.reset(words);
   find_loop_end();
   code_is_stale = false;
 }
@@ -115,11 +115,11 @@ Run Cpu::looked_at(const Decoded* d) {
   const bool is_of_host = address_of_host_place(d) != 0;
   if (!is_of_host && !is_decoded(d)) decode(d);
   if (memory_check) memory_check->begins(*this, d);
-  if (is_of_host) return plain(d);
-  const WordRegisters& registers = registers_of(d);
+  if (is_of_host) return table_->plain(d);
+  const WordRegisters& registers = table_->registers(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
-  if (!table_->tells(d)) return plain(d);
+  if (!table_->tells(d)) return table_->plain(d);
   const Run beside =
       table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
   return beside ? beside : d->run.load(std::memory_order_acquire);
@@ -129,7 +129,7 @@ void Cpu::run_each() {
   if (memory_check && (written & kAllWritten) == kAllWritten) return run_checked();
   while (now < deadline) {
     const Decoded* const d = at = next;
-    if (has_heads() && is_own_head(d) && stops_at(d)) return;
+    if (heads.has_any() && heads.has(d) && stops_at(d)) return;
     const Decoded* following = looked_at(d)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
@@ -198,41 +198,17 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* /*from*/) {
   return code_ + kFlashWords;
 }
 
-void Cpu::pause_head(const Decoded* head, bool is_wait) {
-  constexpr Cycle kMostPause = 1 << 23;  // half a second
-  OwnHead* const own = own_head(head);
-  if (!own) return;
-  if (is_wait) {
-    own->pause = kFirstPause;
-    return;
-  }
-  own->from = true_now() + own->pause;
-  own->pause = std::min(2 * own->pause, kMostPause);
-}
-
 bool Cpu::stops_at(const Decoded* head) {
-  const bool passes = passes_head;
-  passes_head = false;
-  if (passes || watching) return false;
-  const OwnHead* const own = own_head(head);
-  if (!own || true_now() < std::max(heads_from, own->from)) return false;
-  if (waits->passes(*this, head)) return false;
-  head_met = true;
-  kept_deadline = deadline;
+  const bool passes = std::exchange(heads.passes, false);
+  if (passes || watching || !heads.is_due(head, true_now()) || waits->passes(*this, head)) return false;
+  heads.meet(deadline);
   deadline = 0;
   return true;
 }
 
 void Cpu::mark_head(const Decoded* first) {
   if (hot == 0) return;  // all shall be translated
-  if (!own_head(first)) {
-    const std::ptrdiff_t place = first - code_;
-    OwnHead* slot = &head_slot(place);
-    for (std::ptrdiff_t i = kHeadsTried; i-- > 0;)
-      if (head_slot(place + i).place < 0) slot = &head_slot(place + i);
-    *slot = {place, 0, kFirstPause, 0};
-    has_heads_ = true;
-  }
+  heads.add(first);
   table_->mark_wait(first, &meet_head);
 }
 
@@ -319,7 +295,7 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
-  const Run run = looks_at_each_ ? looked_at(d) : plain(d);
+  const Run run = looks_at_each_ ? looked_at(d) : table_->plain(d);
   const bool only_passes_time = run == &no_operation;
   const Cycle began = now;
   const auto counted = [&] {

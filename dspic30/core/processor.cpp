@@ -83,7 +83,7 @@ void Processor::execute() {
       cpu.run_each();
     else
       cpu.run_straight();
-    if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
+    if (cpu.heads.is_met) cpu.deadline = cpu.heads.kept_deadline;
     if (cpu.host_followed) {  // by another clock now
       cpu.host_followed = false;
       end = cpu.clocks.program_at(std::min(cpu.stop_at, cpu.host_due));
@@ -158,7 +158,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     // An interrupt is taken: its routine is known and done at once, or the program goes to its vector.
     if (outlook.vector != kNoVector) {
-      if (const KnownHandler known = cpu.known_handlers();
+      if (const KnownHandler known = cpu.table().known_handlers();
           known && outlook.vector >= kFirstIrqVector && known(cpu, outlook.vector, until))
         continue;
       waits_->cut(cpu);

@@ -28,7 +28,7 @@ class Waits {
  public:
   /// At an instruction boundary: does go_on() have anything to do?
   bool is_due(const Cpu& cpu) const {
-    return state_ != State::Away || cpu.head_met || cpu.true_now() >= schedule(cpu).at;
+    return state_ != State::Away || cpu.heads.is_met || cpu.true_now() >= schedule(cpu).at;
   }
   /// Looks or jumps, up to cpu.deadline. Behind it the program is where it would be anyway.
   void go_on(Cpu& cpu);

@@ -146,7 +146,7 @@ class UartHandler {
     const std::uint32_t* const flash = cpu_.program.flash();
     address_ = flash[(table + 2 * static_cast<unsigned>(vector_)) / 2] & 0x7FFFFE;
     constexpr unsigned kMostBytes = 64;
-    if (address_ >= kFlashEnd - kMostBytes || cpu_.is_told(cpu_.code() + address_ / 2)) return nullptr;
+    if (address_ >= kFlashEnd - kMostBytes || cpu_.table().tells(cpu_.code() + address_ / 2)) return nullptr;
     return flash + address_ / 2;
   }
 

@@ -151,7 +151,7 @@ TEST(Instruction, cases_translated) {
       ASSERT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
     }
     ASSERT_EQ(one.resets, other.resets);
-    translated += other.cpu->cpu().translated() > 0;
+    translated += other.cpu->cpu().table().translated() > 0;
   }
   EXPECT_GT(translated, 200);
 }
@@ -201,7 +201,7 @@ int run_as_head(const Case& c, unsigned modcon_of_pointers(unsigned source, unsi
       EXPECT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
       if (testing::Test::HasFailure()) return 0;
     }
-    translated += other.cpu->cpu().translated() > 0;
+    translated += other.cpu->cpu().table().translated() > 0;
   }
   other.cpu->translate_all();  // special from the first decoding on
   one.run(end + 120);

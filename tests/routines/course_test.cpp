@@ -282,13 +282,13 @@ TEST(KnownCalls, are_forgotten_with_the_flash) {
   program.cpu().know(dspic::known_calls(program.functions(), program.program()));
   program.cpu().choose_code();
   const unsigned address = program.address_of("__divsi3");
-  EXPECT_TRUE(program.cpu().known_at(address));
+  EXPECT_TRUE(program.cpu().table().known_at(address));
   program.cpu().forget_code();  // decoded anew, and known as before
   program.cpu().choose_code();
-  EXPECT_TRUE(program.cpu().known_at(address));
+  EXPECT_TRUE(program.cpu().table().known_at(address));
   program.cpu().program.erase_row(0x17000);
   program.cpu().choose_code();
-  EXPECT_FALSE(program.cpu().known_at(address));
+  EXPECT_FALSE(program.cpu().table().known_at(address));
 }
 
 }  // namespace
