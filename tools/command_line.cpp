@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <regex>
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
@@ -124,6 +125,17 @@ std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, c
     return said.find("subcommand") != std::string::npos
                ? "verb: missing, expected one of those that `twinpuck --help` lists"
                : said.substr(0, said.find(' ')) + ": missing, expected as in `" + path + " --help`";
+  // CLI11's own words: "--port: Value 70000 not in range 0 to 65535", "KIND: wrlds not in {worlds,parts}"
+  static const std::regex kRange("(.*: )Value (.*) not in range (.*)"), kSet("(.*: )(.*) not in \\{(.*)\\}");
+  std::smatch part;
+  if (std::regex_match(said, part, kRange)) {
+    const std::string range = part[3];
+    return part[1].str() + "got " + part[2].str() + ", expected " +
+           (range.size() > 100 ? "0 or more" : range);  // up to the largest double
+  }
+  if (std::regex_match(said, part, kSet))
+    return part[1].str() + "got '" + part[2].str() + "', expected one of " +
+           std::regex_replace(part[3].str(), std::regex(","), ", ");
   return said;
 }
 

@@ -54,6 +54,7 @@ class ChipRunner final : public host::Runner,
     return !watches_.empty() && !processor_->is_asleep() ? 0 : idle_until_;
   }
   void pass_to(Cycle end) override;
+  void add_hot(sim::HotMemory& memory) const override;
   std::uint64_t turns() const override { return turns_; }
   void wake() override {
     idle_until_ = 0;

@@ -23,6 +23,7 @@
 #include "hal_sim/host/observer.h"
 #include "hal_sim/host/place.h"
 #include "hal_sim/host/program_data.h"
+#include "sim_core/base/hot_memory.h"
 
 namespace board {
 class Board;
@@ -88,6 +89,8 @@ class Runner {
   virtual void pass_to(Cycle end) = 0;
   /// Handlers that have returned since it was made; what drivers in closed form do is none.
   virtual std::int64_t interrupts_served() const = 0;
+  /// Adds what each run_until() looks at.
+  virtual void add_hot(sim::HotMemory& /*memory*/) const {}
   /// Grows whenever the program has run: what it knows and did is as it was until then.
   virtual std::uint64_t turns() const = 0;
   /// Something outside changed (a byte came in, the selector was turned): a wait looks again.

@@ -187,21 +187,6 @@ TEST_F(Command, keys_of_a_remote_control_arrive) {
   EXPECT_EQ(read(path("out.txt")), "5/0 32/8 16/0 ");
 }
 
-TEST_F(Command, keys_that_make_no_sense_are_refused) {
-  const char* const bad[][2] = {{"pucc=5@1", "did you mean 'puck'"},
-                                {"puck=VOL_UPP@1", "did you mean 'VOL_UP'"},
-                                {"puck=64@1", "0 to 63"},
-                                {"puck=32:1@1", "0 to 31"},
-                                {"puck=1@1+x", "HOLD"},
-                                {"puck=keyboard:TAB@1", "after keyboard: a character or one of UP"},
-                                {"puck=1@soon", "TIME"}};
-  for (const auto& [key, says] : bad) {
-    const Said s = twinpuck("run maze --key '" + std::string(key) + "'");
-    EXPECT_EQ(s.exit_code, 2) << key;
-    EXPECT_NE(s.text.find(says), std::string::npos) << s.text;
-  }
-}
-
 TEST_F(Command, text_on_uart_1_is_shown_unless_somebody_takes_it) {
   write("chatty/main.c",
         "#include <uart/e_uart_char.h>\nint main(void) { e_init_uart1(); "

@@ -55,27 +55,6 @@ TEST_F(FaultsOfARun, one_that_never_took_effect_makes_the_run_invalid) {
       << unfelt.text;
 }
 
-TEST_F(FaultsOfARun, what_is_wrong_with_them_is_told_before_anything_runs) {
-  const std::string file =
-      write("f.toml", "[[fault]]\nkind = \"wheel_stick\"\n\n[[fault]]\nkind = \"hot_light\"\nsensor = 8\n");
-  const Said bad = run("--faults " + file);
-  EXPECT_EQ(bad.exit_code, 2);
-  EXPECT_NE(bad.text.find(file + ":2:8: fault.kind: got \"wheel_stick\""), std::string::npos) << bad.text;
-  EXPECT_NE(bad.text.find(file + ":6:10: fault.sensor: got 8"), std::string::npos) << bad.text;
-  EXPECT_EQ(run("--faults " + path("nowhere.toml")).exit_code, 2);
-  const Said line = run("--fault 'wheel_stuck whel=left'");
-  EXPECT_EQ(line.exit_code, 2);
-  EXPECT_NE(line.text.find("command line: --fault: unknown key 'whel' in fault; did you mean 'wheel'?"),
-            std::string::npos)
-      << line.text;
-  const Said robot = run("--faults " + write("g.toml", "[[fault]]\nkind = \"bump\"\nrobot = \"pukc\"\n"));
-  EXPECT_EQ(robot.exit_code, 2);
-  EXPECT_NE(
-      robot.text.find("g.toml:1:1: robot: got 'pukc', expected a robot of the world: did you mean 'puck'?"),
-      std::string::npos)
-      << robot.text;
-}
-
 TEST_F(FaultsOfARun, the_same_with_any_number_of_threads) {
   const auto digest = [&](const std::string& more) {
     run("-q --fault 'steps_lost share=0.3 at=1s' --fault 'bump at=2s' --summary " + path("s.json") + " " +

@@ -42,12 +42,6 @@ TEST_F(FilmOption, a_full_disk_ends_the_run_with_7) {
   EXPECT_NE(s.text.find("f.webm: cannot be written: No space left on device"), std::string::npos) << s.text;
 }
 
-TEST_F(FilmOption, one_file_for_two_outputs_is_refused) {
-  const Said s = twinpuck("run maze --for 1 --picture " + path("x.png") + " --film " + path("x.png"));
-  EXPECT_EQ(s.exit_code, 2);
-  EXPECT_NE(s.text.find("x.png: --film: got the file of --picture"), std::string::npos) << s.text;
-}
-
 TEST_F(FilmOption, heat_maps_are_written_as_picture_and_as_numbers_at_once) {
   const Said s = twinpuck("run maze --for 3 -q --heatmap " + path("h.png") + " --heatmap " + path("h.csv") +
                           " --heatmap-cell 0.05 --heatmap-scale linear");

@@ -76,20 +76,6 @@ TEST_F(Hal, given_image_says_what_it_was_linked_with) {
   EXPECT_EQ(robot("--fw " + path("prog") + " --hal dspic")["hal"], "dspic");
 }
 
-// programs, worlds and scripts of before are told where to go
-TEST_F(Hal, what_came_before_it_is_said_to_be_gone) {
-  for (const char* verb : {"run maze", "view maze", "build prog", "debug maze", "lab I3"})
-    for (const char* way : {"native", "register", "chip"}) {
-      const Said gone = twinpuck(std::string(verb) + " --way " + way);
-      EXPECT_EQ(gone.exit_code, 2) << verb;
-      EXPECT_NE(gone.text.find(std::string("--way: got ") + way +
-                               ", expected --hal sim or --hal dspic; native is --hal sim now"),
-                std::string::npos)
-          << gone.text;
-    }
-  EXPECT_EQ(twinpuck("help run").text.find("--way"), std::string::npos);
-}
-
 TEST_F(Hal, worlds_say_it_robot_by_robot) {
   const std::string arena = "twinpuck = 1\n[arena]\nsize = [1, 1]\n";
   const auto world = [&](const std::string& keys) {
@@ -105,10 +91,6 @@ TEST_F(Hal, worlds_say_it_robot_by_robot) {
   EXPECT_EQ(hal("hal = \"sim\"\n"), "sim");
   EXPECT_EQ(hal("hal = \"dspic\"\n", "--hal sim"), "sim");
   EXPECT_EQ(hal(""), "sim");
-  const Said wrong = twinpuck("check " + world("hal = \"chip\"\n"));
-  EXPECT_EQ(wrong.exit_code, 2) << wrong.text;
-  EXPECT_NE(wrong.text.find("robot.hal: got \"chip\", expected one of sim, dspic"), std::string::npos)
-      << wrong.text;
 }
 
 TEST_F(Hal, image_of_the_simulator_is_refused_for_the_robot) {
@@ -142,15 +124,6 @@ TEST_F(Hal, image_for_another_table_of_functions_is_refused) {
       run.text.find("old.elf: image: got one linked with another hal_sim, expected one of this twinpuck"),
       std::string::npos)
       << run.text;
-}
-
-TEST_F(Hal, unknown_one_is_named) {
-  for (const char* verb : {"run maze", "build blink", "debug maze", "lab I1", "view maze"}) {
-    const Said said = twinpuck(std::string(verb) + " --hal chip");
-    EXPECT_EQ(said.exit_code, 2) << verb;
-    EXPECT_NE(said.text.find("chip"), std::string::npos) << said.text;
-    EXPECT_NE(said.text.find("dspic"), std::string::npos) << said.text;
-  }
 }
 
 TEST_F(Hal, limits_of_the_chip_are_the_builds) {

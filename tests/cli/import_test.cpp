@@ -35,12 +35,4 @@ TEST_F(Import, what_is_not_carried_is_named_with_its_line) {
   EXPECT_NE(said.text.find("odd.wbt:4: Track: not carried"), std::string::npos) << said.text;
 }
 
-TEST_F(Import, files_that_are_no_worlds_are_refused) {
-  EXPECT_EQ(twinpuck("import " + path("missing.wbt")).exit_code, 2);
-  const std::string half = write("half.wbt", "#VRML_SIM R2022b utf8\nWorldInfo {\n  title \"x\n");
-  const Said said = twinpuck("import " + half);
-  EXPECT_EQ(said.exit_code, 2);
-  EXPECT_NE(said.text.find("half.wbt:3:"), std::string::npos) << said.text;
-}
-
 }  // namespace

@@ -128,27 +128,4 @@ TEST_F(Inspect, curves_of_profiles) {
     EXPECT_NE(all.text.find(name), std::string::npos) << name;
 }
 
-TEST_F(Inspect, bad_input_is_named) {
-  const std::string world = side_wall(12);
-  const auto says = [](const std::string& arguments, const std::string& part) {
-    const Said s = twinpuck("inspect " + arguments);
-    EXPECT_EQ(s.exit_code, 2) << arguments << s.text;
-    EXPECT_NE(s.text.find(part), std::string::npos) << arguments << ": " << s.text;
-  };
-  says("", "got no world, expected a WORLD, or --profile NAME");
-  says("no-such-world", "no-such-world");
-  says(world + " --robot pock", "--robot: got 'pock', expected one of puck; did you mean 'puck'?");
-  says(world + " --sensor 8", "--sensor: got 8, expected 0 to 7");
-  says(world + " --sensor -1", "--sensor");
-  says(world + " --picture x.png", "--sensor: got none, expected 0 to 7");
-  says(world + " --sensor 5 --profile webot-old", "did you mean 'webots-old'?");
-  says("--profile webots-odl", "did you mean 'webots-old'?");
-  says("--profile enki --colour 2,0,0", "--colour: got 2, expected 0 to 1");
-  says("--profile enki --colour 1,0", "--colour");
-  says("--profile enki --sensor 3", "without a world");
-  says(write("empty.toml", "twinpuck = 1\n"), "got a world without robots");
-  EXPECT_EQ(twinpuck("inspect --profile enki --plot " + path("x.jpg")).exit_code, 2);
-  EXPECT_EQ(twinpuck("inspect --profile enki --plot /no/such/folder/x.png").exit_code, 7);
-}
-
 }  // namespace

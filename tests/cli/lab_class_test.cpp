@@ -278,41 +278,4 @@ TEST_F(LabClass, replays_are_the_runs_of_the_table) {
   }
 }
 
-TEST_F(LabClass, what_cannot_be_replayed_is_named) {
-  write("mine/braiten/main.c", kStands);
-  hand_in("anna", "obstacle");
-  struct Case {
-    const char *arguments, *says;
-    int exit_code;
-  };
-  for (const Case& c : {
-           Case{"--replay I1", "got 'I1', expected EXERCISE:WORLD:SEED, such as I1:corners:3", 2},
-           Case{"--replay I1:corner:3", "got world 'corner' of I1, expected one of obstacle", 2},
-           Case{"--replay I1:corner:3", "did you mean 'corners'?", 2},
-           Case{"--replay i1:corners:3", "got exercise 'i1', expected one of", 2},
-           Case{"--replay I1:corners:-1", "got seed '-1', expected a number, 0 to", 2},
-           Case{"--replay I1:corners:3x", "got seed '3x', expected a number", 2},
-           Case{"--replay I1:corners:3:1", "got noise scale '1', which I1 leaves as the world says", 2},
-           Case{"--replay S15:u_obstacle:3", "got no noise scale, expected one behind the seed: 0, 0.25", 2},
-           Case{"--replay S15:u_obstacle:3:7", "got noise scale '7', expected one of 0, 0.25", 2},
-           Case{"--replay Q6:corners:1", "got Q6, which runs nothing", 2},
-           Case{"--replay S12:u_obstacle:1", "got S12, which runs nothing", 2},
-           Case{"--replay I1:corners:3 I3", "got exercise 'I3' besides", 2},
-           Case{"I1 --picture x.png", "--picture: got no --replay", 2},
-           Case{"--replay I1:corners:3 --mine class", "got a class's folder, expected one student's", 2},
-           Case{"--replay I1:corners:3 --mine mine", "no program 'obstacle' in mine", 5},
-           Case{"--replay I1:corners:3 --mine nowhere", "nowhere: --mine: got no folder", 2},
-           Case{"--replay I1:corners:3 --picture /nonexistent/x.png", "--picture: ", 2},
-           Case{"--replay I1:corners:3 --picture x --record x", "--record", 2},
-           Case{"I1 --csv x --html x", "--html", 2},
-           Case{"I1 --junitxml /nonexistent/x.xml", "--junitxml: ", 2},
-           Case{"s2", "did you mean 'S2'?", 2},
-           Case{"I1 --table nowhere.toml", "nowhere.toml: cannot be read", 2},
-       }) {
-    const Said s = here(std::string("lab ") + c.arguments);
-    EXPECT_EQ(s.exit_code, c.exit_code) << c.arguments << s.text;
-    EXPECT_TRUE(has(s.text, c.says)) << c.arguments << s.text;
-  }
-}
-
 }  // namespace

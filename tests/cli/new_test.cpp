@@ -183,17 +183,6 @@ TEST_F(New, what_is_there_is_not_written_over) {
   EXPECT_TRUE(contains(file.text, "new: got a file, expected a folder")) << file.text;
 }
 
-TEST_F(New, names_that_no_file_can_have_are_refused) {
-  for (const char* name : {"'my robot'", "3d", "-- -x", "a.b", "'a\"b'", "''", "/"}) {
-    const Said s = in_folder(std::string("new ") + name);
-    EXPECT_EQ(s.exit_code, 2) << name;
-    EXPECT_TRUE(contains(s.text, "DIR: ")) << s.text;
-  }
-  EXPECT_TRUE(fs::is_empty(folder));
-  EXPECT_EQ(in_folder("new").exit_code, 2);
-  EXPECT_EQ(in_folder("new /proc/nowhere").exit_code, 2);
-}
-
 TEST_F(New, a_product_without_templates_says_so) {
   const Said s = twinpuck("new " + path("x"), "TWINPUCK_ROOT=" + path("none"));
   EXPECT_EQ(s.exit_code, 2);

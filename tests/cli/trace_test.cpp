@@ -358,19 +358,4 @@ TEST_F(Traces, a_killed_run_leaves_files_that_can_be_read) {
   check_timeline(events);
 }
 
-TEST_F(Traces, wrong_requests_are_refused_before_the_run) {
-  const auto refused = [&](const std::string& options, const char* what) {
-    const Said s = run(options);
-    EXPECT_EQ(s.exit_code, 2) << options;
-    EXPECT_NE(s.text.find(what), std::string::npos) << s.text;
-  };
-  refused("--vcd " + path("x") + " --vcd-signals puck:LDE0", "did you mean 'LED0'?");
-  refused("--vcd " + path("x") + " --vcd-signals puk:LED0", "did you mean 'puck'?");
-  refused("--vcd " + path("x") + " --vcd-signals LED0", "expected ROBOT:SIGNAL");
-  refused("--vcd " + path("x") + " --vcd-trigger puck:LED0=on", "expected a whole number from 0 to 1");
-  refused("--vcd-signals puck:LED0", "expected --vcd FILE too");
-  refused("--vcd " + path("no/such/folder/x.vcd"), "--vcd: ");
-  refused("--trace " + path("no/such/folder/x.json"), "--trace: ");
-}
-
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The parts of the contract: every program of parts/ with both HALs
-// against the text beside it. A line of the text: name, value, tolerance, why. The world: a white wall 40 mm
+// The parts of the contract: every program of parts/ with both HALs in every way to run it, against the text
+// beside it. (tests/python/test_parts.py has the ways of Python, the command and the view.) A line of the text: name, value, tolerance, why. The world: a white wall 40 mm
 // before the robot's rim, no noise of light; selector 5.
 #include <algorithm>
 #include <cstdlib>
@@ -49,10 +49,25 @@ std::vector<std::string> parts() {
 }
 
 class Parts : public firmware_test::FirmwareTest,
-              public ::testing::WithParamInterface<std::tuple<std::string, const char*>> {};
+              public ::testing::WithParamInterface<std::tuple<std::string, std::string, std::string>> {
+ protected:
+  ~Parts() override { unsetenv("TWINPUCK_INTERPRET"); }
+  void choose(const std::string& way, firmware_test::Robot& robot) {
+    if (way == "interpreted") setenv("TWINPUCK_INTERPRET", "1", 1);
+    if (way == "sanitized") options.sanitize = true;
+    if (way == "measured") robot.measured();
+    if (way == "supervised")
+      add_supervisor_with_source(
+          "#include <webots/robot.h>\nint main(void) { wb_robot_init(); while (wb_robot_step(32) != -1) "
+          "continue; "
+          "wb_robot_cleanup(); return 0; }\n",
+          "c");
+  }
+};
+const std::vector<std::string> kWays = {"run", "interpreted", "sanitized", "measured", "supervised"};
 
 TEST_P(Parts, says_what_is_expected) {
-  const auto& [part, hal] = GetParam();
+  const auto& [part, hal, way] = GetParam();
   options.hal = hal;
   wall(0.0775, -0.5, 0.0775, 0.5);
   std::string source = text_of(kParts / (part + ".c"));
@@ -61,6 +76,7 @@ TEST_P(Parts, says_what_is_expected) {
   ASSERT_NE(at, std::string::npos);
   source.replace(at, include.size(), text_of(kParts / "say.h"));
   auto& robot = add_robot_with_source(source).selector(5);
+  choose(way, robot);
   world.proximity.noise_scale = 0;
   const auto ended = [&] { return robot.uart(1).text().find("end\n") != std::string::npos; };
   EXPECT_TRUE(run_until(ended, 10)) << robot.uart(1).text();
@@ -77,7 +93,12 @@ TEST_P(Parts, says_what_is_expected) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contract, Parts,
-                         ::testing::Combine(::testing::ValuesIn(parts()), ::testing::Values("sim", "dspic")),
-                         [](const auto& p) { return std::get<0>(p.param) + "_" + std::get<1>(p.param); });
+                         ::testing::Combine(::testing::ValuesIn(parts()),
+                                            ::testing::Values(std::string("sim"), std::string("dspic")),
+                                            ::testing::ValuesIn(kWays)),
+                         [](const auto& p) {
+                           return std::get<0>(p.param) + "_" + std::get<1>(p.param) + "_" +
+                                  std::get<2>(p.param);
+                         });
 
 }  // namespace

@@ -93,57 +93,6 @@ TEST(Board, samples_are_taken_at_world_time) {
   EXPECT_NEAR(sim::to_seconds(scene.asked.back().at), 0.5 + 0.99, 0.01);
 }
 
-// the work of one robot for a second under the benchmark's controller: 16 rounds of 8 readings and 2 speeds,
-// and a world of 96 ticks. Bounds are wide: they catch an algorithm that ticks, not a slow machine.
-TEST(Board, a_thousand_boards_cost_little) {
-  sim::Scene scene;
-  scene.reflection = [](int, sim::Clicks) { return 300.0; };
-  scene.relative_noise = 0.02;
-  std::vector<std::unique_ptr<DrivenBoard>> robots;
-  for (int i = 0; i < 1000; ++i) {
-    board::Setup setup;
-    setup.robot = i;
-    setup.seed = static_cast<std::uint64_t>(i);
-    robots.push_back(std::make_unique<DrivenBoard>(setup));
-    robots.back()->look_at(&scene);
-    drive(*robots.back(), 200, 300, 0);
-    robots.back()->scan().start(false, false, 0);
-  }
-  // this thread's processor time: others may be at work on the machine
-  auto cpu_s = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
-  double angle_s = 0, prox_s = 0, speed_s = 0, sum = 0;
-  const Cycle tick = kSecond / 96, period = kSecond * 64 / 1000;
-  Cycle next = period;
-  for (Cycle at = tick; at <= kSecond; at += tick) {
-    if (at >= next) {
-      next += period;
-      double began = cpu_s();
-      for (auto& robot : robots)
-        for (int s = 0; s < 8; ++s) sum += robot->scan().dark(s, at) - robot->scan().lit(s, at);
-      prox_s += cpu_s() - began;
-      began = cpu_s();
-      for (auto& robot : robots) {
-        robot->agendas().set_speed(Wheel::Left, 200 + static_cast<int>(at % 700), at);
-        robot->agendas().set_speed(Wheel::Right, 300, at);
-      }
-      speed_s += cpu_s() - began;
-    }
-    const double began = cpu_s();
-    for (auto& robot : robots) {
-      robot->exchange(at);
-      sum += robot->motors().angle_rad(Wheel::Left, at) + robot->motors().angle_rad(Wheel::Right, at);
-    }
-    angle_s += cpu_s() - began;
-  }
-  EXPECT_NE(sum, 0);
-  std::printf(
-      "one robot, one second: angles %.2f us (%.0f ns each), prox %.2f us (%.0f ns each), speeds %.2f us "
-      "(%.0f ns each)\n",
-      angle_s * 1e3, angle_s * 1e9 / 1000 / 192, prox_s * 1e3, prox_s * 1e9 / 1000 / 120, speed_s * 1e3,
-      speed_s * 1e9 / 1000 / 30);
-  EXPECT_LT(angle_s + prox_s + speed_s, 2.0);
-}
-
 TEST(Power, coils_count_with_the_share_of_the_power_save_rhythm) {
   static const char left = 0, right = 0;
   DrivenBoard robot{board::Setup{}};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Programs in lock-step with the world: the outcome depends on nobody's speed; beginnings, resets and ends.
 #include <atomic>
-#include <chrono>
 #include <thread>
 
 #include "tests/programs/process_watch.h"
@@ -115,15 +114,22 @@ TEST_F(Lockstep, packets_of_one_instant_arrive_in_the_order_of_the_robots) {
   EXPECT_EQ(hears.console(), (std::vector<std::string>{"a", "b"}));
 }
 
-// four programs of 400 ms a step: 8 s of each other's time in five steps, if they waited for each other
+// each step of a program ends when all four have begun theirs; the world waits for them
 TEST_F(Lockstep, programs_compute_side_by_side) {
-  for (int i = 0; i < 4; ++i) add_c("#include <unistd.h>\n", "", "usleep(400000);", 32).at(0.2 * i, 0);
-  run_for(0.01);  // built and started
-  const auto before = std::chrono::steady_clock::now();
+  const std::string begun = fresh("side_by_side") / "";
+  const std::string meet =
+      "char name[300]; snprintf(name, 300, \"" + begun +
+      "%d %s\", steps, wb_robot_get_name()); "
+      "fclose(fopen(name, \"w\"));\n"
+      "for (int other = 0, waits = 0; other < 4 && waits < 6000; ) { snprintf(name, 300, \"" +
+      begun +
+      "%d %c\", steps, 'a' + other); if (access(name, F_OK) == 0) other++; else usleep(10000), waits++; "
+      "if (waits == 6000) printf(\"alone\\n\"); }";
+  for (int i = 0; i < 4; ++i)
+    add_c("#include <unistd.h>\n", "", meet, 32, std::string(1, static_cast<char>('a' + i))).at(0.2 * i, 0);
   run_for(0.16);
-  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
-  EXPECT_LT(took_s, 6);
-  EXPECT_GT(took_s, 1.5) << "the world waits for them";
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(robot(i).console(), std::vector<std::string>{}) << i;
+  EXPECT_TRUE(fs::exists(begun + "4 d"));
 }
 
 TEST_F(Lockstep, two_hundred_robots_have_their_steps) {

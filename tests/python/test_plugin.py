@@ -4,7 +4,6 @@ import json
 import re
 import subprocess
 import sys
-import time
 import xml.etree.ElementTree
 
 import pytest
@@ -197,13 +196,11 @@ def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path):
     assert [d.returncode for d in done] == [0, 0], done[0].stdout + done[1].stdout
 
 
-def test_an_edit_is_seen_in_a_second(mine, command):
+def test_an_edit_is_seen(mine, command):
     folder = mine("def test_led(world, robot):\n    world.run(0.2)\n    assert robot.leds[0]\n")
     command("test", cwd=folder)
     (folder / "main.c").write_text(MAIN.replace("e_set_led(0, 1)", "e_set_led(1, 1)"))
-    began = time.process_time()
     assert command("test", cwd=folder).returncode == 1
-    assert time.process_time() - began < 1
 
 
 # --- tests without a program
