@@ -3,13 +3,12 @@
 """Rules of the code that a compiler does not know. Prints one line a problem; exit 1 when there is one.
 
     scripts/check.py
-    scripts/check.py --sizes          prints what is too large to be read at once instead
     scripts/check.py --rooms PAGE     writes the table of rooms into docs/dev/inside.md
 
 Rules: who may include whom (docs/dev/inside.md), and no rooms in a circle · pages and comments name what is there, by
 links, anchors and paths (check_pages.py) · no word of what is gone · sim_core knows no robot by name · every number of a
-*_params.h names its one source (docs/dev/sources.md) · no file above 700 lines, no file above 1 MB, no path of
-somebody's machine, an SPDX line in every source · dspic30 uses the standard
+*_params.h names its one source (docs/dev/sources.md) · no file above 700 lines, no file above 1 MB, nothing too large to
+be read at once (check_sizes.py) · no path of somebody's machine, an SPDX line in every source · dspic30 uses the standard
 library only · C++ formatted by .clang-format.
 """
 import collections
@@ -268,29 +267,16 @@ def print_arrows():
         print("%s -> %s" % (here, ", ".join(included[here])))
 
 
-def print_sizes(files):
-    count = 0
-    for path in files:
-        if path.endswith((".c", ".h", ".cpp", ".py", ".ts", ".mjs")) and path not in GENERATED | VERBATIM:
-            for line in check_sizes.offenders(path, (ROOT / path).read_text()):
-                print(line)
-                count += 1
-    print("check: %d too large" % count)
-    return 0
-
-
 def main():
     if len(sys.argv) == 3 and sys.argv[1] == "--rooms":
         page = pathlib.Path(sys.argv[2])
         begin, end = generated.part(page.read_text(), "rooms")
         page.write_text(page.read_text()[:begin] + table_of_rooms() + page.read_text()[end:])
         return 0
-    if sys.argv[1:] not in ([], ["--sizes"]):
+    if sys.argv[1:]:
         print(__doc__.strip(), file=sys.stderr)
         return 2
     files = committed_files()
-    if sys.argv[1:]:
-        return print_sizes(files)
     cpp = []
     texts = {}
     for path in files:
@@ -307,6 +293,8 @@ def main():
         pages.learn(path, text)
     for path, text in texts.items():
         check_text(path, text)
+        if path not in GENERATED | VERBATIM:
+            problems.extend(check_sizes.offenders(path, text))
         if not path.startswith("scripts/check_pages"):
             for line, what in pages.problems(path, text):
                 problem(path, line, what)

@@ -21,14 +21,14 @@ const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
 
 // where a routine begins that is known by heart
 const Decoded* answer(Cpu& cpu, const Decoded* d) {
-  if (const KnownRoutine* const routine = cpu.known_at(cpu.address_of(d)))
+  if (const KnownRoutine* const routine = cpu.table().known_at(cpu.address_of(d)))
     if (const Decoded* const behind = recall(cpu, d, *routine)) return behind;
-  return cpu.plain(d)(cpu, d);
+  return cpu.table().plain(d)(cpu, d);
 }
 
 // writes a register that this table's robots have not written
 const Decoded* write_first(Cpu& cpu, const Decoded* d) {
-  cpu.note_written(cpu.registers_of(d).gives);
+  cpu.note_written(cpu.table().registers(d).gives);
   return function_of(cpu.program.read(cpu.address_of(d)))(cpu, d);
 }
 
@@ -42,7 +42,7 @@ T* zeroed() {
 }  // namespace
 
 // where a function begins that the onlooker wants to know of
-const Decoded* tell(Cpu& cpu, const Decoded* d) { return cpu.plain(hear(cpu, d))(cpu, d); }
+const Decoded* tell(Cpu& cpu, const Decoded* d) { return cpu.table().plain(hear(cpu, d))(cpu, d); }
 
 const Decoded* hear(Cpu& cpu, const Decoded* d) {
   if (cpu.onlooker) cpu.onlooker->entered(cpu.address_of(d));

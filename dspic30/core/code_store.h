@@ -21,42 +21,14 @@
 #include <unordered_map>
 #include <vector>
 
+#include "dspic30/core/decoded.h"
+#include "dspic30/core/host_place.h"
 #include "dspic30/core/known_calls.h"
 #include "dspic30/memory/program_memory.h"
 
 namespace dspic {
 
-class Cpu;
-struct Decoded;
 class Translator;
-/// Executes an instruction; returns the next one.
-using Run = const Decoded* (*)(Cpu&, const Decoded*);
-
-/// How a register serves as a pointer: by an addition, as the stack's, or modulo or bit-reversed.
-enum class Pointer : std::uint8_t { Plain, Stack, Special };
-
-struct Decoded {
-  mutable std::atomic<Run> run{nullptr};
-  std::int32_t imm = 0;         ///< literal, address, words of a branch, shift
-  std::uint16_t writes = 0;     ///< registers written directly, or changed as a destination's pointer
-  std::uint16_t pointers = 0;   ///< registers that form a source's address
-  std::uint16_t mask = 0xFFFF;  ///< of what register d can hold: W15 is even
-  std::uint8_t s = 0, d = 0, b = 0;
-  std::uint8_t cycles = 1;  ///< stall included
-  std::uint8_t lead = 0;    ///< stall cycles, when it follows the word before
-  std::uint8_t psv = 2;     ///< what reading through the PSV window costs
-  std::int8_t s_pre = 0, s_post = 0, d_pre = 0, d_post = 0;
-  Pointer s_kind = Pointer::Plain, d_kind = Pointer::Plain;
-  enum State : std::uint8_t { Unmet, Met, Fronted };
-  mutable std::atomic<State> state{Unmet};  ///< Fronted: `run` is not its own function: CodeTable::plain()
-  /// Counts jumps to here down to 1, when it is warm; 0: they do not count.
-  mutable std::atomic<std::uint8_t> heat{0};
-
-  Decoded() = default;
-  Decoded(const Decoded& other) { *this = other; }
-  Decoded& operator=(const Decoded& other);
-};
-static_assert(sizeof(Decoded) == 32);
 
 /// W0 to W14, a bit each.
 inline constexpr unsigned kAllWritten = 0x7FFF;
@@ -102,10 +74,24 @@ class CodeTable {
   /// Makes a word of `program`, which holds this store's image, ready, unless it is. `jumps`: so many to it
   /// make it warm.
   void decode(const Decoded* d, const ProgramMemory& program, std::uint8_t jumps);
-  /// Its own function, not what was put in front of it.
+  /// Its own function, not what was put in front of it; also of a host_place().
   Run plain(const Decoded* d) const {
     const Run run = d->run.load(std::memory_order_acquire);
-    return is_decoded(d) ? beside_[index_of(d)].plain : run;
+    return !address_of_host_place(d) && is_decoded(d) ? beside_[index_of(d)].plain : run;
+  }
+  /// W registers that an instruction that was met may read or write, a bit each.
+  unsigned touched_by(const Decoded* d) const {
+    return address_of_host_place(d) ? 0xFFFFu : registers(d).touches;
+  }
+  /// Does the program, straight on from an instruction that was met, set all flags before it reads one?
+  bool sets_flags(const Decoded* d) const {
+    using Flags = WordRegisters::Flags;
+    constexpr int kFirstOnes = 4;
+    for (int i = 0; i < kFirstOnes && !address_of_host_place(d) && is_decoded(d); ++i, ++d) {
+      const Flags flags = registers(d).flags;
+      if (flags != Flags::Neither) return flags == Flags::SetsAll;
+    }
+    return false;
   }
   /// Of a word that is decoded.
   const WordRegisters& registers(const Decoded* d) const { return beside_[index_of(d)].registers; }

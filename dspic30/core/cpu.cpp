@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 #include "dspic30/core/memory_check_each.h"
 #include "dspic30/core/waits.h"
@@ -34,7 +35,7 @@ constexpr unsigned kNoPointer = 15;  // as XWM, YWM or BWM: none is chosen [DS70
 
 // a wait is known to begin here
 const Decoded* meet_head(Cpu& cpu, const Decoded* d) {
-  if (!cpu.stops_at(d)) return cpu.beside_wait(d)(cpu, d);
+  if (!cpu.stops_at(d)) return cpu.table().beside_wait(d)(cpu, d);
   cpu.now -= d->cycles;
   return d;
 }
@@ -104,8 +105,7 @@ void Cpu::run_on(std::shared_ptr<CodeTable> table) {
   if (!address_of_host_place(next) && !is_decoded(next)) decode(next);
   known_waits.forget();
   known_counts.forget();
-  own_heads_ = {};
-  has_heads_ = false;
+  heads.reset(words);
   find_loop_end();
   code_is_stale = false;
 }
@@ -115,11 +115,11 @@ Run Cpu::looked_at(const Decoded* d) {
   const bool is_of_host = address_of_host_place(d) != 0;
   if (!is_of_host && !is_decoded(d)) decode(d);
   if (memory_check) memory_check->begins(*this, d);
-  if (is_of_host) return plain(d);
-  const WordRegisters& registers = registers_of(d);
+  if (is_of_host) return table_->plain(d);
+  const WordRegisters& registers = table_->registers(d);
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
-  if (!table_->tells(d)) return plain(d);
+  if (!table_->tells(d)) return table_->plain(d);
   const Run beside =
       table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
   return beside ? beside : d->run.load(std::memory_order_acquire);
@@ -129,7 +129,7 @@ void Cpu::run_each() {
   if (memory_check && (written & kAllWritten) == kAllWritten) return run_checked();
   while (now < deadline) {
     const Decoded* const d = at = next;
-    if (has_heads() && is_own_head(d) && stops_at(d)) return;
+    if (heads.has_any() && heads.has(d) && stops_at(d)) return;
     const Decoded* following = looked_at(d)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
@@ -198,41 +198,17 @@ const Decoded* Cpu::jump(unsigned address, const Decoded* /*from*/) {
   return code_ + kFlashWords;
 }
 
-void Cpu::pause_head(const Decoded* head, bool is_wait) {
-  constexpr Cycle kMostPause = 1 << 23;  // half a second
-  OwnHead* const own = own_head(head);
-  if (!own) return;
-  if (is_wait) {
-    own->pause = kFirstPause;
-    return;
-  }
-  own->from = true_now() + own->pause;
-  own->pause = std::min(2 * own->pause, kMostPause);
-}
-
 bool Cpu::stops_at(const Decoded* head) {
-  const bool passes = passes_head;
-  passes_head = false;
-  if (passes || watching) return false;
-  const OwnHead* const own = own_head(head);
-  if (!own || true_now() < std::max(heads_from, own->from)) return false;
-  if (waits->passes(*this, head)) return false;
-  head_met = true;
-  kept_deadline = deadline;
+  const bool passes = std::exchange(heads.passes, false);
+  if (passes || watching || !heads.is_due(head, true_now()) || waits->passes(*this, head)) return false;
+  heads.meet(deadline);
   deadline = 0;
   return true;
 }
 
 void Cpu::mark_head(const Decoded* first) {
   if (hot == 0) return;  // all shall be translated
-  if (!own_head(first)) {
-    const std::ptrdiff_t place = first - code_;
-    OwnHead* slot = &head_slot(place);
-    for (std::ptrdiff_t i = kHeadsTried; i-- > 0;)
-      if (head_slot(place + i).place < 0) slot = &head_slot(place + i);
-    *slot = {place, 0, kFirstPause, 0};
-    has_heads_ = true;
-  }
+  heads.add(first);
   table_->mark_wait(first, &meet_head);
 }
 
@@ -262,8 +238,8 @@ unsigned Cpu::pop_slowly() {
 
 void Cpu::trap(Trap which) {
   settle();
-  const int level = parts.interrupts.level(), own_level = trap_level(static_cast<int>(which));
-  if (level < own_level && parts.interrupts.has_trap(which))
+  const int level = parts.interrupts.cpu().level(), own_level = trap_level(static_cast<int>(which));
+  if (level < own_level && parts.interrupts.control().has_trap(which))
     return;                                               // of this instruction, or as it is entered
   if (which == Trap::StackError && level == own_level) {  // its handler works above the limit: the flag alone
     parts.interrupts.raise_trap(which, now);
@@ -271,7 +247,7 @@ void Cpu::trap(Trap which) {
     return;
   }
   // beyond the limit and beyond RAM at once: the limit is what the program was to keep
-  const bool follows = which == Trap::AddressError && parts.interrupts.has_trap(Trap::StackError) &&
+  const bool follows = which == Trap::AddressError && parts.interrupts.control().has_trap(Trap::StackError) &&
                        latest_trap && latest_trap->pc == address_of(at);
   if (!follows) latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
   const char* name = vector_name(static_cast<int>(which));
@@ -319,7 +295,7 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
-  const Run run = looks_at_each_ ? looked_at(d) : plain(d);
+  const Run run = looks_at_each_ ? looked_at(d) : table_->plain(d);
   const bool only_passes_time = run == &no_operation;
   const Cycle began = now;
   const auto counted = [&] {
@@ -354,7 +330,7 @@ const Decoded* Cpu::run_repeated(const Decoded* d) {
 
 unsigned Cpu::sr_low() const {
   return static_cast<unsigned>(flag_c()) | flag_z() << 1 | flag_ov() << 2 | flag_n() << 3 | repeating << 4 |
-         (static_cast<unsigned>(parts.interrupts.level()) & 7) << 5;
+         (static_cast<unsigned>(parts.interrupts.cpu().level()) & 7) << 5;
 }
 
 unsigned Cpu::sr() const {
@@ -374,7 +350,7 @@ void Cpu::set_sr(unsigned value, unsigned lanes) {
   if (lanes & 0xFF) {
     settle();
     set_flags(value);
-    parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.level() & 8), now);
+    parts.interrupts.set_level(static_cast<int>(kIpl.of(value)) | (parts.interrupts.cpu().level() & 8), now);
     deadline = 0;
   }
   if (!(lanes & 0xFF00)) return;
@@ -420,7 +396,7 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
     case kSr:
       return static_cast<std::uint16_t>(sr());
     case kCorcon:
-      return static_cast<std::uint16_t>(corcon | (parts.interrupts.level() > 7 ? kIpl3 : 0) |
+      return static_cast<std::uint16_t>(corcon | (parts.interrupts.cpu().level() > 7 ? kIpl3 : 0) |
                                         loop_depth << kDl.lowest);
     case kModcon:
       return modcon;
@@ -428,14 +404,14 @@ std::uint16_t Cpu::peek(unsigned address, Cycle when) const {
       return xbrev;
     case kDisicnt:
       return static_cast<std::uint16_t>(
-          std::clamp<Cycle>(parts.interrupts.disi_until() - when, 0, kMostDisi));
+          std::clamp<Cycle>(parts.interrupts.cpu().disi_until() - when, 0, kMostDisi));
     default:
       return 0;
   }
 }
 
 Cycle Cpu::horizon(unsigned address, Cycle when) const {
-  return address == kDisicnt && parts.interrupts.disi_active(when) ? when + 1 : kNever;
+  return address == kDisicnt && parts.interrupts.cpu().disi_active(when) ? when + 1 : kNever;
 }
 
 void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle when) {
@@ -493,8 +469,8 @@ void Cpu::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
     case kCorcon:
       corcon = wanted & kCorconKept;
       window_words = nullptr;
-      if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.level() > 7)
-        parts.interrupts.set_level(parts.interrupts.level() & 7, when);
+      if ((lanes & kIpl3) && !(value & kIpl3) && parts.interrupts.cpu().level() > 7)
+        parts.interrupts.set_level(parts.interrupts.cpu().level() & 7, when);
       end_loop |= (value & kEdt) && loop_depth > 0;
       deadline = 0;
       break;

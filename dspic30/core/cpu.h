@@ -22,44 +22,24 @@
 #include <vector>
 
 #include "dspic30/core/code_store.h"
+#include "dspic30/core/core_fields.h"
 #include "dspic30/core/counting.h"
 #include "dspic30/core/course_watch.h"
 #include "dspic30/core/host_calls.h"
+#include "dspic30/core/host_place.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/core/known_waits.h"
 #include "dspic30/core/program_watch.h"
+#include "dspic30/core/semantics.h"
+#include "dspic30/core/translator.h"
+#include "dspic30/core/trap_record.h"
 #include "dspic30/core/two_clocks.h"
+#include "dspic30/core/wait_heads.h"
 #include "dspic30/device/chip_parts.h"
 #include "dspic30/memory/host_places.h"
 #include "dspic30/memory/program_memory.h"
 
 namespace dspic {
-
-/// What led to a trap.
-struct TrapRecord {
-  Trap trap = Trap::AddressError;
-  unsigned pc = 0;             ///< of the instruction; where an interrupt was entered, of the one that it cut
-  unsigned stack_pointer = 0;  ///< W15 as the instruction had left it by then
-  unsigned stack_limit = 0;    ///< SPLIM; 0: not set
-  Cycle at = 0;
-};
-
-/// Native code of instructions that run often: the instructions' own functions put together, so it does what
-/// they would do, to the cycle (dspic30/translate). It runs one instruction at least; as with its own
-/// function, the cycles of the first one are not counted.
-struct Translation {
-  Run run = nullptr;                   ///< null: not worth it
-  std::ptrdiff_t first = 0, last = 0;  ///< words from the head, all that it holds is between them
-};
-class Translator {
- public:
-  virtual ~Translator() = default;
-  /// `only_ready`: what costs hardly anything, because an earlier run left it; or is worth it, because one
-  /// noted it as warm.
-  virtual Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) = 0;
-  /// It runs often, though not so often that this run would gain by a translation: the next one would.
-  virtual void note_warm(const Cpu& /*cpu*/, const Decoded* /*head*/) {}
-};
 
 // jumps within translated code are the translator's affair
 #ifdef DSPIC_TRANSLATED
@@ -70,22 +50,10 @@ inline constexpr bool kIsTranslated = true;
 inline constexpr bool kIsTranslated = false;
 #endif
 
-inline constexpr unsigned kHostPlaces = (kHostEnd - kHostStart) / 2;
-/// Where the host stands in for code, one a place (host_places.h), for all robots.
-extern const std::array<Decoded, kHostPlaces> host_places;
-/// `address`: is_host_place().
-inline const Decoded* host_place(unsigned address) { return &host_places[(address - kHostStart) / 2]; }
-/// The address of such a place; 0: it is none.
-inline unsigned address_of_host_place(const Decoded* d) {
-  const auto bytes =
-      reinterpret_cast<std::uintptr_t>(d) - reinterpret_cast<std::uintptr_t>(host_places.data());
-  return bytes < sizeof host_places ? kHostStart + 2 * static_cast<unsigned>(bytes / sizeof(Decoded)) : 0;
-}
-
 class MemoryCheck;  // memory_check.h
 class Waits;
 
-class Cpu final : public SfrOwner {
+class Cpu final : public SfrOwner, public CoreFields {
  public:
   /// `store`: of the image that `program` holds; null: its own.
   Cpu(ChipParts& parts, ProgramMemory& program, std::shared_ptr<CodeStore> store);
@@ -118,11 +86,6 @@ class Cpu final : public SfrOwner {
   /// RAM is looked after from now on, before anything has run: each instruction is interpreted. Nothing but
   /// the PC's time depends on it.
   void check_memory(MemoryCheck* check);
-  /// What begins at a program address; null: no known routine.
-  const KnownRoutine* known_at(unsigned address) const { return table_->known_at(address); }
-
-  KnownHandler known_handlers() const { return table_->known_handlers(); }
-
   // --- flow
   unsigned address_of(const Decoded* d) const {
     if constexpr (kIsTranslated) return 2 * static_cast<unsigned>(d - code_);
@@ -167,42 +130,21 @@ class Cpu final : public SfrOwner {
   }
   void decode(const Decoded* d) { table_->decode(d, program, hot == 0 ? 1 : kFewJumps); }
   const Decoded* code() const { return code_; }
-  const WordRegisters& registers_of(const Decoded* d) const { return table_->registers(d); }
-  /// W registers that an instruction that was met may read or write, a bit each.
-  unsigned touched_by(const Decoded* d) const {
-    return address_of_host_place(d) ? 0xFFFFu : table_->registers(d).touches;
-  }
-  /// Does the program, straight on from an instruction that was met, set all flags before it reads one?
-  bool sets_flags(const Decoded* d) const {
-    using Flags = WordRegisters::Flags;
-    constexpr int kFirstOnes = 4;
-    for (int i = 0; i < kFirstOnes && !address_of_host_place(d) && is_decoded(d); ++i, ++d) {
-      const Flags flags = table_->registers(d).flags;
-      if (flags != Flags::Neither) return flags == Flags::SetsAll;
-    }
-    return false;
-  }
-  /// The function of this one instruction.
-  Run plain(const Decoded* d) const {
-    return address_of_host_place(d) ? d->run.load(std::memory_order_relaxed) : table_->plain(d);
-  }
+  /// What is known of its words.
+  const CodeTable& table() const { return *table_; }
   /// This one instruction alone, with its own function: not the translated code that begins there.
   static const Decoded* run_alone(Cpu& cpu, const Decoded* d) {
     if (cpu.looks_at_each_) return cpu.looked_at(d)(cpu, d);
     if (!cpu.is_decoded(d)) cpu.decode(d);
-    return cpu.plain(d)(cpu, d);
+    return cpu.table().plain(d)(cpu, d);
   }
   /// ... and the onlooker hears of it.
   static const Decoded* run_one(Cpu& cpu, const Decoded* d) {
-    if (!cpu.looks_at_each_ && !address_of_host_place(d) && cpu.is_decoded(d) && cpu.is_told(d) &&
-        !cpu.known_at(cpu.address_of(d)))
+    if (!cpu.looks_at_each_ && !address_of_host_place(d) && cpu.is_decoded(d) && cpu.table().tells(d) &&
+        !cpu.table().known_at(cpu.address_of(d)))
       hear(cpu, d);
     return run_alone(cpu, d);
   }
-  int translated() const { return table_->translated(); }
-  /// Does somebody hear when it begins, or is it known by heart? Then it is not translated, nor is anything
-  /// with it in the middle.
-  bool is_told(const Decoded* d) const { return table_->tells(d); }
   /// Runs up to `deadline` as long as not all registers are written, when each instruction
   /// has to be looked at.
   bool looks_at_each() const { return looks_at_each_; }
@@ -234,10 +176,6 @@ class Cpu final : public SfrOwner {
   /// Iterations up to the last one or to `deadline`; then d itself is next.
   const Decoded* run_repeated(const Decoded* d);
   void begin_do(unsigned count, const Decoded* first, const Decoded* last);
-  void ask_reset(ResetKind kind) {
-    reset_due = kind;
-    deadline = 0;
-  }
   /// The instruction at `at` does what the chip does not allow: the flag is set, and the trap's handler comes
   /// before the next instruction.
   void trap(Trap which);
@@ -248,31 +186,6 @@ class Cpu final : public SfrOwner {
   }
 
   // --- flags
-  template <bool Byte>
-  void set_nz(unsigned result) {
-    n = static_cast<std::uint16_t>(Byte ? result << 8 : result);
-    z = static_cast<std::uint16_t>(Byte ? result & 0xFF : result);
-  }
-  /// a + b + carry, with all flags; Sticky: Z only falls.
-  template <bool Byte, bool Sticky>
-  unsigned add(unsigned a, unsigned b, unsigned carry) {
-    constexpr int shift = Byte ? 8 : 0;
-    a = (a << shift) & 0xFFFF;
-    b = (b << shift) & 0xFFFF;
-    const unsigned r = a + b + (carry << shift);
-    n = static_cast<std::uint16_t>(r);
-    z = static_cast<std::uint16_t>(Sticky ? z | r : r);
-    c = r >> 16;
-    ov = (a ^ r) & (b ^ r);
-    dc = (a ^ b ^ r) >> (Byte ? 4 : 0);
-    return (r & 0xFFFF) >> shift;
-  }
-  bool flag_n() const { return (n & 0x8000) != 0; }
-  bool flag_z() const { return z == 0; }
-  bool flag_c() const { return (c & 1) != 0; }
-  bool flag_ov() const { return (ov & 0x8000) != 0; }
-  bool flag_dc() const { return (dc & 0x100) != 0; }
-  void set_z(bool on) { z = on ? 0 : 1; }
   unsigned sr() const;
   unsigned sr_low() const;
   void set_sr(unsigned value, unsigned lanes);
@@ -467,11 +380,6 @@ class Cpu final : public SfrOwner {
 
   // --- waits (waits.h)
   Waits* waits = nullptr;
-  /// Does the program stop at this own head, at that true time?
-  bool would_stop_at(const Decoded* head, Cycle when) const {
-    const OwnHead* const own = const_cast<Cpu*>(this)->own_head(head);
-    return own && !passes_head && !head_met && when >= std::max(heads_from, own->from);
-  }
   bool returned = false;  ///< a handler has, since Processor::run() looked last
   /// Something was done that a wait does not do.
   void note_effect() { watched_until = 0; }
@@ -481,27 +389,12 @@ class Cpu final : public SfrOwner {
     watching = memory != nullptr;
     plain_bytes = memory || memory_check ? 0 : kRamEnd - plain_start;
   }
-  /// What runs where a wait is known to begin, when it is not looked for.
-  Run beside_wait(const Decoded* d) const { return table_->beside_wait(d); }
-  /// Is it known, of whichever robot, that a wait begins here?
-  bool is_wait_head(const Decoded* d) const { return table_->is_wait(d); }
   /// A wait was proven that begins here: from now on the program stops there to look, if heads_from says so.
   void mark_head(const Decoded* first);
-  bool has_heads() const { return has_heads_; }
-  bool is_own_head(const Decoded* d) const { return const_cast<Cpu*>(this)->own_head(d) != nullptr; }
-  /// The wait of that head has ended: how often before?
-  unsigned count_end(const Decoded* head) {
-    OwnHead* const own = own_head(head);
-    return own ? own->ends++ : 0;
-  }
-  /// A look from there found a wait, or none: then the program does not stop there for a while,
-  /// each time for longer.
-  void pause_head(const Decoded* head, bool is_wait);
-  /// The program comes to one: does it stop?
+  /// Where waits of this program begin.
+  WaitHeads heads;
+  /// The program comes to a head: does it stop?
   bool stops_at(const Decoded* head);
-  bool head_met = false;     ///< the program has stopped at one; kept_deadline was its deadline
-  bool passes_head = false;  ///< the one where it stands is passed
-  Cycle heads_from = 0, kept_deadline = 0;
   Cycle watched_until = kNever;  ///< what was read since skip_wait() began to look stays as it is until here
   bool watching = false;
   bool looks_outside = false;           ///< since then a register of a peripheral was read
@@ -517,31 +410,6 @@ class Cpu final : public SfrOwner {
   static constexpr unsigned kFlashPages = kFlashEnd >> 15;  ///< of the PSV window
   static constexpr std::uint16_t kPsvOn = sfr_bits("CORCON", "PSV");
 
-  // --- state; handlers use it freely
-  std::array<std::uint16_t, 16> w{};
-  std::uint16_t n = 0, z = 1;
-  unsigned c = 0, ov = 0, dc = 0;
-  Cycle now = 0, deadline = 0;
-  const Decoded* at = nullptr;        ///< the instruction that runs
-  const Decoded* next = nullptr;      ///< the one that comes
-  const Decoded* loop_end = nullptr;  ///< last instruction of the DO loop; null: none runs
-  bool repeating = false;             ///< RA
-  bool repeat_is_fresh = false;  ///< the next iteration is the first one, or the first after an interrupt
-  enum class Window : std::uint8_t { Plain, RepeatEdge, Free } window = Window::Plain;
-  bool window_was_free = false;  ///< the last iteration read through the window at no cost
-  bool code_is_stale = false;    ///< choose_code() before the next instruction
-  bool end_loop = false;         ///< CORCON.EDT
-  bool splim_on = false;
-  unsigned stack_most = kNoLimit;  ///< SPLIM, if it is on
-  static constexpr unsigned kNoLimit = 0xFFFF;
-  enum class Power : std::uint8_t { On, Idle, Sleep } power = Power::On;
-  std::optional<ResetKind> reset_due;
-  unsigned written = 0;  ///< W registers that were written since the reset
-  std::uint16_t splim = 0, tblpag = 0, psvpag = 0, rcount = 0, corcon = 0, modcon = 0, xbrev = 0;
-  bool oa = false, ob = false, sa = false, sb = false;
-  /// What of the flash the PSV window shows; null: nothing, or nobody has looked through it since PSVPAG,
-  /// CORCON or the flash changed.
-  const std::uint32_t* window_words = nullptr;
   ChipParts& parts;
   ProgramMemory& program;
 
@@ -606,24 +474,6 @@ class Cpu final : public SfrOwner {
   unsigned plain_bytes = kRamBytes;  // 0 while accesses are noted
   __attribute__((noinline)) void tell_null_pointer(unsigned from);
   static constexpr std::uint8_t kFewJumps = 16;  // until a translation of an earlier run is looked for
-  static constexpr Cycle kFirstPause = 50;
-  struct OwnHead {
-    std::ptrdiff_t place = -1;  // word of flash
-    Cycle from = 0;             // true time from which on the program stops there
-    Cycle pause = kFirstPause;
-    unsigned ends = 0;  // of its wait
-  };
-  static constexpr std::ptrdiff_t kMostHeads = 32, kHeadsTried = 4;
-  /// One is at its place, or at one of the next.
-  OwnHead& head_slot(std::ptrdiff_t place) {
-    return own_heads_[static_cast<std::size_t>(place) % kMostHeads];
-  }
-  OwnHead* own_head(const Decoded* d) {
-    const std::ptrdiff_t place = d - code_;
-    for (std::ptrdiff_t i = 0; i < kHeadsTried; ++i)
-      if (OwnHead& head = head_slot(place + i); head.place == place) return &head;
-    return nullptr;
-  }
   void count_jump(const Decoded* target) {
     const std::uint8_t left = target->heat.load(std::memory_order_relaxed);
     if (left > 1)
@@ -645,8 +495,6 @@ class Cpu final : public SfrOwner {
   bool looks_at_each_ = false;
   int looked_at_ = 0;         // instructions, since a register was written first
   unsigned bad_address_ = 0;  // where no flash is
-  bool has_heads_ = false;
-  std::array<OwnHead, kMostHeads> own_heads_;  // where waits of this program begin
 
  public:
   // what is looked at less often than at each turn lies behind all else
@@ -660,7 +508,10 @@ class Cpu final : public SfrOwner {
     std::array<std::uint16_t, 4> w{};
     unsigned flags = 0;  // SR<8>, SR<3:0>
   } shadow;
-  std::optional<TrapRecord> latest_trap;  ///< resets do not forget it
+  /// What led to the last trap that was told (Cause::CpuTrap), through all resets. Of a stack error, the
+  /// instruction that went beyond the limit, also where that was beyond RAM and so an address error as well. A
+  /// store to a frame beyond RAM is an address error with the stack pointer above the limit.
+  std::optional<TrapRecord> latest_trap;
   /// The host hears which handlers known by heart the program holds off by now.
   std::function<void()> follow_host;
   KnownWaits known_waits;
@@ -669,28 +520,9 @@ class Cpu final : public SfrOwner {
   std::array<std::uint8_t, kRamBytes> ram{};
 };
 
-/// A call, or a jump, to a function of the host, whose number is Decoded::imm.
-const Decoded* call_host(Cpu& cpu, const Decoded* d);
-const Decoded* jump_to_host(Cpu& cpu, const Decoded* d);
-
 #ifdef DSPIC_TRANSLATED
 /// All files meet the types in one order, or else their bitcode has types of its own for each.
 __attribute__((used)) static void meet_types(Cpu&) {}
 #endif
-
-/// Does it do nothing in iterations of REPEAT with this RCOUNT and less, until the last one? Division's.
-bool is_idle_step(Run run, unsigned rcount);
-
-/// NOP's.
-const Decoded* no_operation(Cpu& cpu, const Decoded* d);
-
-// --- semantics, in the manual's groups; null: not of this group
-Run choose_arithmetic(Insn id, const Fields& f);
-Run choose_move(Insn id, const Fields& f);
-Run choose_bit(Insn id, const Fields& f);
-Run choose_multiply(Insn id, const Fields& f);
-Run choose_flow(Insn id, const Fields& f);
-Run choose_system(Insn id, const Fields& f);
-Run choose_dsp(Insn id, const Fields& f);
 
 }  // namespace dspic

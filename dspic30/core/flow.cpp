@@ -65,7 +65,7 @@ void hurry_to_exception(Cpu& cpu) {
   const Cycle now = cpu.true_now();
   cpu.parts.events.run_to(now);
   const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.pending(now + 2, interrupts.level()) != kNoVector) --cpu.now;
+  if (interrupts.pending(now + 2, interrupts.cpu().level()) != kNoVector) --cpu.now;
 }
 
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {

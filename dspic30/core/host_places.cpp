@@ -159,7 +159,7 @@ void Cpu::push_frame(unsigned registers, int words) {
   const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
   if (!is_plain_frame(w[15], count)) {
     // a stack that is full ends it there
-    const auto is_full = [&] { return parts.interrupts.has_trap(Trap::StackError); };
+    const auto is_full = [&] { return parts.interrupts.control().has_trap(Trap::StackError); };
     for (unsigned left = registers; left != 0 && !is_full(); left &= left - 1) push(w[__builtin_ctz(left)]);
     for (int i = 0; i < words && !is_full(); ++i) push(other(i));
     return;
@@ -201,7 +201,7 @@ void Cpu::pop_frame(unsigned registers, int words) {
 // as the interrupt and the handler's first instructions do
 void Cpu::enter_handler() {
   if (memory_check) memory_check->cut(*this);
-  const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.level());
+  const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.cpu().level());
   const Cycle entry = now;
   at = next;
   parts.events.tell_change(entry);

@@ -57,8 +57,7 @@ void Processor::power_up(Cycle at) {
   cpu_->clocks.reset(at);
 }
 
-Cycle Processor::still_since() const { return cpu_->still_since; }
-bool Processor::still_reads() const { return cpu_->still_reads; }
+Processor::Still Processor::still() const { return {cpu_->still_since, cpu_->still_reads}; }
 
 // --- the loop
 
@@ -84,7 +83,7 @@ void Processor::execute() {
       cpu.run_each();
     else
       cpu.run_straight();
-    if (cpu.head_met) cpu.deadline = cpu.kept_deadline;
+    if (cpu.heads.is_met) cpu.deadline = cpu.heads.kept_deadline;
     if (cpu.host_followed) {  // by another clock now
       cpu.host_followed = false;
       end = cpu.clocks.program_at(std::min(cpu.stop_at, cpu.host_due));
@@ -159,7 +158,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     // An interrupt is taken: its routine is known and done at once, or the program goes to its vector.
     if (outlook.vector != kNoVector) {
-      if (const KnownHandler known = cpu.known_handlers();
+      if (const KnownHandler known = cpu.table().known_handlers();
           known && outlook.vector >= kFirstIrqVector && known(cpu, outlook.vector, until))
         continue;
       waits_->cut(cpu);
@@ -188,7 +187,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  const Cycle wakes = cpu.parts.interrupts.wakes_at();
+  const Cycle wakes = cpu.parts.interrupts.sources().wakes_at();
   if (wakes <= cpu.now || cpu.parts.system.woke()) {
     asleep_since_ = kNever;
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
@@ -213,9 +212,10 @@ inline unsigned Processor::handlers(int next_vector) const {
   const Cpu& cpu = *cpu_;
   const Interrupts& interrupts = cpu.parts.interrupts;
   constexpr int kMostHeldByDisi = 6;
-  const bool all = cpu.power != Cpu::Power::On || interrupts.uses_alternate_table();
-  const int floor =
-      interrupts.disi_active(cpu.now) ? std::max(interrupts.level(), kMostHeldByDisi) : interrupts.level();
+  const bool all = cpu.power != Cpu::Power::On || interrupts.control().uses_alternate_table();
+  const int floor = interrupts.cpu().disi_active(cpu.now)
+                        ? std::max(interrupts.cpu().level(), kMostHeldByDisi)
+                        : interrupts.cpu().level();
   unsigned state = 0;
 #pragma GCC unroll 2
   for (unsigned h = 0; h < HostCalls::kHandlers; ++h) {
@@ -224,8 +224,9 @@ inline unsigned Processor::handlers(int next_vector) const {
       state |= held_ & 1u << h;
       continue;
     }
-    const bool flag = interrupts.flag(irq);
-    const bool held = all || !interrupts.enabled(irq) || interrupts.priority(irq) <= floor ||
+    const bool flag = interrupts.sources().flag(irq);
+    const bool held = all || !interrupts.sources().enabled(irq) ||
+                      interrupts.sources().priority(irq) <= floor ||
                       (flag && next_vector != kFirstIrqVector + irq);
     state |= static_cast<unsigned>(held) << h | static_cast<unsigned>(flag) << (kFlagsAt + h);
   }
@@ -294,7 +295,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
   }
   cpu.clocks.set_share(cpu.host->share_q32());
   // held off by its level alone it wakes the processor all the same
-  cpu.host_comes = irqs_[0] >= 0 && interrupts.enabled(irqs_[0]);
+  cpu.host_comes = irqs_[0] >= 0 && interrupts.sources().enabled(irqs_[0]);
   cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
   return false;
 }
@@ -306,11 +307,11 @@ bool Processor::raise_held(std::size_t h) {
   Interrupts& interrupts = cpu.parts.interrupts;
   ByHeart& handler = by_heart_[h];
   const int irq = irqs_[h];
-  if (handler.missed_at > 0 && !interrupts.flag(irq)) count_missed(h);
+  if (handler.missed_at > 0 && !interrupts.sources().flag(irq)) count_missed(h);
   bool raises = false;
   while (handler.source <= cpu.now) {
     raises = true;
-    const bool was_set = interrupts.flag(irq);
+    const bool was_set = interrupts.sources().flag(irq);
     interrupts.raise(irq, handler.source);
     if (was_set) handler.missed_at = handler.source;
     handler.source = was_set ? kNever : cpu.host->source_event(static_cast<int>(h), handler.source);
@@ -339,7 +340,7 @@ void Processor::begin_handler() {
   cpu.enter_handler();
   cpu.host_due = kNever;
   follow_host(kNoVector);
-  const bool overflows = cpu.parts.interrupts.has_trap(Trap::StackError);
+  const bool overflows = cpu.parts.interrupts.control().has_trap(Trap::StackError);
   cpu.next = overflows ? host_place(kHostHandlerReturn) : cpu.go_on_with_handler(cpu.next);
 }
 
@@ -347,7 +348,7 @@ void Processor::begin_handler() {
 void Processor::serve_pending(int vector) {
   Cpu& cpu = *cpu_;
   Interrupts& interrupts = cpu.parts.interrupts;
-  const int level = interrupts.level();
+  const int level = interrupts.cpu().level();
   waits_->cut(cpu);
   interrupts.enter(vector, cpu.now);
   interrupts.lower(vector - kFirstIrqVector);
@@ -367,7 +368,8 @@ bool Processor::is_host_first(int vector) const {
   if (vector == kNoVector) return true;
   if (vector < kFirstIrqVector) return false;
   const Interrupts& interrupts = cpu.parts.interrupts;
-  const int priority = interrupts.priority(irqs_[0]), other = interrupts.priority(vector - kFirstIrqVector);
+  const int priority = interrupts.sources().priority(irqs_[0]),
+            other = interrupts.sources().priority(vector - kFirstIrqVector);
   return priority > other || (priority == other && kFirstIrqVector + irqs_[0] < vector);
 }
 
@@ -381,7 +383,7 @@ Cycle Processor::host_horizon() const {
 
 Cycle Processor::disi_horizon() const {
   const Interrupts& interrupts = cpu_->parts.interrupts;
-  return interrupts.disi_active(cpu_->now) ? interrupts.disi_until() : kNever;
+  return interrupts.cpu().disi_active(cpu_->now) ? interrupts.cpu().disi_until() : kNever;
 }
 
 Cycle Processor::idle_until() const {
@@ -395,7 +397,7 @@ Cycle Processor::idle_until() const {
   if (cpu.host && (cpu.host_stale || handlers(outlook.vector) != seen_)) return 0;
   if (outlook.reset_due || (cpu.host_due <= cpu.now && !is_held(0))) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
-  if (is_asleep()) return std::min(until, cpu.parts.interrupts.wakes_at());
+  if (is_asleep()) return std::min(until, cpu.parts.interrupts.sources().wakes_at());
   if (outlook.vector != kNoVector) return 0;
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));
@@ -413,7 +415,8 @@ void Processor::enter_interrupt(int vector) {
   cpu.parts.events.tell_change(began);
   if (cpu.memory_check) cpu.memory_check->cut(cpu);
   cpu.at = cpu.next;  // what the stack's pushes belong to
-  const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(cpu.parts.interrupts.level());
+  const unsigned pc = cpu.address_of(cpu.next),
+                 level = static_cast<unsigned>(cpu.parts.interrupts.cpu().level());
   if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;
   cpu.push(pc & 0xFFFF);
   cpu.push(cpu.sr_low() << 8 | (level & 8) << 4 | pc >> 16);
@@ -426,7 +429,6 @@ void Processor::enter_interrupt(int vector) {
 
 // --- what others look at
 
-const TrapRecord* Processor::latest_trap() const { return cpu_->latest_trap ? &*cpu_->latest_trap : nullptr; }
 Cycle Processor::idle(Cycle at) const {
   const Cpu& cpu = *cpu_;
   const Cycle now = std::max(cpu.now, cpu.clocks.program_at(at));
@@ -440,7 +442,6 @@ Cycle Processor::waiting_since() const {
   if (waits_->is_waiting()) return waits_->since();
   return cpu.stands_in_host() ? cpu.true_now() : kNever;
 }
-Cycle Processor::jumped() const { return waits_->jumped(); }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {
   cpu_->onlooker = watch;
@@ -453,7 +454,6 @@ void Processor::translate_all() {
   cpu_->hot = 0;
   cpu_->forget_code();
 }
-int Processor::translated() const { return cpu_->translated(); }
 Cycle Processor::now() const { return cpu_->now; }
 Cycle Processor::own_cycles() const { return cpu_->clocks.own_cycles(cpu_->now); }
 void Processor::wait_until(Cycle at) {
@@ -466,7 +466,6 @@ unsigned Processor::pc() const { return cpu_->address_of(cpu_->next); }
 unsigned Processor::pc_of_access() const { return cpu_->at ? cpu_->address_of(cpu_->at) : pc(); }
 std::uint16_t Processor::w(int n) const { return cpu_->w[static_cast<std::size_t>(n)]; }
 std::uint16_t Processor::sr() const { return static_cast<std::uint16_t>(cpu_->sr()); }
-std::int64_t Processor::accumulator(int n) const { return cpu_->acc[static_cast<std::size_t>(n)]; }
 std::uint8_t Processor::ram(unsigned address) const { return cpu_->ram[address - Cpu::kRamStart]; }
 const std::uint8_t* Processor::ram() const { return cpu_->ram.data(); }
 void Processor::set_ram(unsigned address, std::uint8_t value) { cpu_->ram[address - Cpu::kRamStart] = value; }

@@ -25,7 +25,6 @@ class HostCalls;
 class KnownCalls;   // known_calls.h
 class MemoryCheck;  // memory_check.h
 class ProgramWatch;
-struct TrapRecord;  // cpu.h
 class Translator;
 class Waits;
 
@@ -53,8 +52,6 @@ class Processor {
   bool is_asleep() const;
   /// Cycles of the program so far: now() without the share of handlers known by heart.
   Cycle own_cycles() const;
-  /// Cycles spent in Idle or Sleep.
-  Cycle slept() const { return slept_; }
   /// Cycles of the program up to `at` in which it only waited: in Idle and Sleep, in waits (waits.h), in
   /// repeated NOPs, in functions of the host that wait. Exact, and the same however run() is called. `at` may
   /// be ahead of now() up to idle_until().
@@ -81,33 +78,23 @@ class Processor {
   /// Whoever looks after RAM, before anything has run; it outlives this. Then all is interpreted. Nothing but
   /// the PC's time depends on it.
   void check_memory(MemoryCheck* check);
-  /// The core, for MemoryCheck.
+  /// The core, for MemoryCheck, reports and tests.
   const Cpu& cpu() const { return *cpu_; }
   /// Translates whatever is jumped to, at once: for tests.
   void translate_all();
-  /// Places where translated code begins.
-  int translated() const;
-  /// Cycles of waits that were jumped over: how, not what was simulated. Depends on how run() is called.
-  Cycle jumped() const;
-
-  /// Since when it has been in a loop in which nothing that it reads can change unless an interrupt comes;
-  /// kNever: it is in none. Depends, by some looks, on how run() is called.
-  Cycle still_since() const;
-  /// Does a round of that loop look at anything? One that does not is no wait, but the end of a program.
-  bool still_reads() const;
+  /// The loop in which it is and nothing that it reads can change unless an interrupt comes.
+  struct Still {
+    Cycle since = kNever;  ///< kNever: it is in none. Depends, by some looks, on how run() is called
+    bool reads = false;    ///< a round looks at something; else it is no wait, but the end of a program
+  };
+  Still still() const;
 
   // --- for debuggers, tests and reports: no side effects
-  /// What led to the last trap that was told (Cause::CpuTrap), through all resets; null: there was
-  /// none. Of a stack error, the instruction that went beyond the limit, also where that was beyond RAM
-  /// and so an address error as well. A store to a frame beyond RAM is an address error with the stack
-  /// pointer above the limit.
-  const TrapRecord* latest_trap() const;
   unsigned pc() const;
   /// Of the instruction that runs, or ran last.
   unsigned pc_of_access() const;
   std::uint16_t w(int n) const;
   std::uint16_t sr() const;
-  std::int64_t accumulator(int n) const;
   std::uint8_t ram(unsigned address) const;  ///< 0x800 to 0x27FF
   static constexpr unsigned kRamStart = 0x800, kRamEnd = 0x2800;
   static constexpr std::size_t kRamBytes = kRamEnd - kRamStart;

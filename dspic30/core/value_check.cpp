@@ -95,7 +95,7 @@ void MemoryCheck::before(const Cpu& cpu, const Decoded* d) {
   const Shape& shape = shape_of(cpu, pc);
   constexpr unsigned kWithIndex = 6;  // [Ws+Wb]
   const bool has_index = shape.f.g >= kWithIndex || shape.f.h >= kWithIndex;
-  const unsigned uses = cpu.registers_of(d).uses | (has_index ? 1u << shape.f.w : 0u);
+  const unsigned uses = cpu.table().registers(d).uses | (has_index ? 1u << shape.f.w : 0u);
   for (unsigned left = unwritten_ & uses; left != 0; left &= left - 1) {
     const auto n = static_cast<unsigned>(__builtin_ctz(left));
     depends(Use::Address, origins_[n], pc);
@@ -411,7 +411,7 @@ void MemoryCheck::finish(const Cpu& cpu) {
         if (kind == Operand::Rd || (kind == Operand::Destination && f.q == 0) ||
             (kind == Operand::DestinationOffset && f.h == 0))
           set_register(f.d, 0, false, {});
-      if (cpu.registers_of(d).flags == WordRegisters::Flags::SetsAll) set_flags({});
+      if (cpu.table().registers(d).flags == WordRegisters::Flags::SetsAll) set_flags({});
       if (row.id == Insn::Pop_S)
         for (unsigned n = 0; n < 4; ++n) set_register(n, 0, false, {});
       if (row.id == Insn::Exch_Wns_Wnd) {

@@ -28,9 +28,9 @@ void Waits::go_on(Cpu& cpu) {
 // --- looking
 
 void Waits::begin(Cpu& cpu) {
-  at_head_ = cpu.head_met;
+  at_head_ = cpu.heads.is_met;
   look_head_ = cpu.next;
-  cpu.head_met = false;
+  cpu.heads.is_met = false;
   look_began_ = cpu.true_now();
   // looks that no known wait has brought come more and more seldom
   if (!at_head_) {
@@ -98,7 +98,7 @@ bool Waits::passes(Cpu& cpu, const Decoded* head) {
   look_began_ = cpu.true_now();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   if (!is_passed(cpu, *wait, look_began_)) return false;
-  cpu.passes_head = false;
+  cpu.heads.passes = false;
   if (const Cycle at = schedule(cpu).at; at < cpu.pause_at) {
     cpu.pause_at = at;
     cpu.deadline = std::min(cpu.deadline, cpu.clocks.program_at(at));
@@ -110,15 +110,16 @@ bool Waits::passes(Cpu& cpu, const Decoded* head) {
 // a wait, where another may come that is not known yet, and by look_by_.
 Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {
   const Cycle later = look_beside_heads(cpu, now);
-  if (cpu.parts.interrupts.nesting() > 0) return later;
-  const unsigned n = cpu.count_end(head);
+  if (cpu.parts.interrupts.cpu().nesting() > 0) return later;
+  const unsigned n = cpu.heads.count_end(head);
   const bool is_due = n < kStepsBehind || (n & (n - 1)) == 0;
   return is_due ? now + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
 }
 
 Cycle Waits::look_beside_heads(const Cpu& cpu, Cycle now) const {
-  return cpu.parts.interrupts.nesting() > 0 ? now + kRarestLooks
-                                            : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
+  return cpu.parts.interrupts.cpu().nesting() > 0
+             ? now + kRarestLooks
+             : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
 }
 
 bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
@@ -130,8 +131,8 @@ void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle l
   passed_ = &wait;
   passed_at_ = round_began_;
   cpu.still_since = kNever;
-  cpu.heads_from = look_began_ + heads_in;
-  cpu.passes_head = at_head_;
+  cpu.heads.from = look_began_ + heads_in;
+  cpu.heads.passes = at_head_;
   if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + look_in;
 }
 
@@ -188,7 +189,7 @@ void Waits::look(Cpu& cpu) {
     }
     const bool goes_on = cpu.repeating;
     step(cpu);
-    round_.registers |= cpu.touched_by(d);
+    round_.registers |= cpu.table().touched_by(d);
     if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
     // something else is due
     if (cpu.deadline != end) {
@@ -202,7 +203,7 @@ void Waits::look(Cpu& cpu) {
       fail(cpu);
     } else if (cpu.next == round_.first) {
       end_round(cpu);
-    } else if (!is_turned_ && cpu.has_heads() && cpu.is_own_head(cpu.next)) {
+    } else if (!is_turned_ && cpu.heads.has_any() && cpu.heads.has(cpu.next)) {
       is_turned_ = true;  // so that a wait has one head, wherever in it the look began
       begin_round(cpu);
     } else if (steps_ == kLongestRound) {
@@ -221,7 +222,7 @@ bool Waits::goes_elsewhere(Cpu& cpu) {
 void Waits::end_round(Cpu& cpu) {
   round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
   round_.sets_dc = !(cpu.dc & kNotSet);
-  round_.sets_flags = cpu.sets_flags(round_.first);
+  round_.sets_flags = cpu.table().sets_flags(round_.first);
   const bool is_whole = round_.memory.is_whole(),
              is_fixed = cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core;
   if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
@@ -257,7 +258,7 @@ void Waits::fail(Cpu& cpu) {
   forget_trace();
   cpu.still_since = kNever;
   const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
-  if (at_head_) cpu.pause_head(look_head_, false);
+  if (at_head_) cpu.heads.pause(look_head_, false, cpu.true_now());
   Schedule& next = schedule(cpu);
   if (next.at > now) return;
   next.at = now + next.between;
@@ -270,7 +271,7 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
   forget_trace();
   if (std::exchange(is_hinted_, false)) hint_gap_ = 1;
-  is_by_head_ = at_head_ || cpu.is_own_head(wait->first);
+  is_by_head_ = at_head_ || cpu.heads.has(wait->first);
   wait_ = wait;
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
@@ -284,8 +285,8 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   }
   cpu.delayed = delayed_;
   cut_ = nullptr;
-  cpu.pause_head(wait->first, true);
-  cpu.heads_from = 0;
+  cpu.heads.pause(wait->first, true, cpu.true_now());
+  cpu.heads.from = 0;
   schedule(cpu).between = kFirstLooks;
   cpu.still_since = until_ == kNever && !cpu.looks_outside ? std::min(cpu.still_since, look_began_) : kNever;
   cpu.still_reads = wait->memory.reads() || cpu.reads_core;
@@ -320,7 +321,7 @@ void Waits::wait(Cpu& cpu) {
   if (counts_ && cpu.clocks.own_cycles(cpu.now) >= ends_) {
     leave(cpu);
     // it ends now, or its flags change; then the program comes to its head again
-    cpu.heads_from = now + 2 * took;
+    cpu.heads.from = now + 2 * took;
     schedule(cpu).at = is_by_head_ ? look_behind(cpu, wait_->first, now) : now + 2 * took;
     return;
   }
@@ -357,14 +358,14 @@ void Waits::cut(Cpu& cpu) {
   else if (waits || state_ == State::Looking)
     schedule(cpu).at = 0;
   state_ = State::Away;
-  cpu.head_met = false;
+  cpu.heads.is_met = false;
   begin_handler(cpu, cpu.true_now());
 }
 
 // Handlers seldom wait, so they may work on for a while first; one in sixteen for less, as a wait in a short
 // one would never be found. One that comes into another goes by that one's time.
 void Waits::begin_handler(const Cpu& cpu, Cycle at) {
-  if (cpu.parts.interrupts.nesting() > 0) return;
+  if (cpu.parts.interrupts.cpu().nesting() > 0) return;
   constexpr unsigned kMix = 0x9E3779B1u, kFourBits = 28;  // evenly, whatever the handlers' rhythm
   const bool is_soon = ++handlers_ * kMix >> kFourBits == 0;
   const Cycle first = is_soon ? kSoonInHandler : kFirstInHandler;
@@ -374,14 +375,14 @@ void Waits::begin_handler(const Cpu& cpu, Cycle at) {
 // --- by heart
 
 bool Waits::knows(const Cpu& cpu, const ByHeart& wait) const {
-  if (!cpu.would_stop_at(wait.head, wait.came_true)) return false;
+  if (!cpu.heads.would_stop(wait.head, wait.came_true)) return false;
   const Count* const count = cpu.known_counts.at(wait.head);
   return count && count->is_plain(cpu);
 }
 
 void Waits::note(Cpu& cpu, const ByHeart& wait) {
-  cpu.pause_head(wait.head, true);
-  cpu.heads_from = 0;
+  cpu.heads.pause(wait.head, true, cpu.true_now());
+  cpu.heads.from = 0;
   cpu.still_since = kNever;
   Schedule& next = schedule(cpu);
   next.between = kFirstLooks;
@@ -399,7 +400,7 @@ void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
   round_began_ = at;
   at_head_ = true;
   is_passed(cpu, cpu.known_counts.at(head)->round(), at_true);
-  cpu.passes_head = false;
+  cpu.heads.passes = false;
 }
 
 void Waits::hint(Cpu& cpu) {
@@ -424,7 +425,7 @@ void Waits::forget(Cpu& cpu) {
   passed_ = nullptr;
   look_gap_ = kRarestLooks;
   look_by_ = cpu.now + look_gap_;
-  cpu.heads_from = 0;
+  cpu.heads.from = 0;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }
 

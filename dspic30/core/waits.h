@@ -28,7 +28,7 @@ class Waits {
  public:
   /// At an instruction boundary: does go_on() have anything to do?
   bool is_due(const Cpu& cpu) const {
-    return state_ != State::Away || cpu.head_met || cpu.true_now() >= schedule(cpu).at;
+    return state_ != State::Away || cpu.heads.is_met || cpu.true_now() >= schedule(cpu).at;
   }
   /// Looks or jumps, up to cpu.deadline. Behind it the program is where it would be anyway.
   void go_on(Cpu& cpu);
@@ -102,9 +102,9 @@ class Waits {
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
-    return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0];
+    return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0];
   }
-  Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.nesting() > 0 ? 1 : 0]; }
+  Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0]; }
   void begin(Cpu& cpu);
   void begin_round(Cpu& cpu);
   void look(Cpu& cpu);

@@ -148,16 +148,16 @@ struct ChipParts {
   __attribute__((always_inline)) Outlook look(Cycle now) {
     events.run_to(now);
     Outlook outlook;
-    outlook.level = interrupts.level();
-    outlook.disi = interrupts.disi_active(now);
+    outlook.level = interrupts.cpu().level();
+    outlook.disi = interrupts.cpu().disi_active(now);
     outlook.vector = interrupts.pending(now, outlook.level);
     outlook.reset_due = is_reset_due();
     if (outlook.vector != kNoVector) return outlook;
     outlook.horizon = std::max(now + 1, std::min(notice_horizon(), interrupts.pending_horizon(now)));
     return outlook;
   }
-  bool is_reset_due() const { return system.watchdog_bit() || interrupts.reset_due().has_value(); }
-  Cycle notice_horizon() { return events.notice_horizon(interrupts.enabled_mask()); }
+  bool is_reset_due() const { return system.watchdog_bit() || interrupts.control().reset_due().has_value(); }
+  Cycle notice_horizon() { return events.notice_horizon(interrupts.sources().enabled_mask()); }
   __attribute__((always_inline)) Cycle interrupt_horizon(int served = kNoVector) {
     return interrupts.has_no_other(served) ? notice_horizon() : 0;
   }

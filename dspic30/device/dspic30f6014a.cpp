@@ -79,7 +79,9 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
 }
 
 Dspic30f6014a::Dspic30f6014a(Outside& outside, DiagnosticSink* sink, const Configuration& configuration)
-    : parts_(std::make_unique<ChipParts>(outside, sink, configuration)) {
+    : parts_(std::make_unique<ChipParts>(outside, sink, configuration)),
+      interrupts_(*parts_),
+      i2c_master_(*parts_) {
   reset(ResetKind::PowerOn, 0);
 }
 
@@ -182,8 +184,8 @@ void Dspic30f6014a::watch(EventWatch* watch) { parts_->events.watch(watch); }
 Cycle Dspic30f6014a::next_event(Cycle now) {
   ChipParts& p = *parts_;
   p.events.run_to(now);
-  const Cycle next =
-      std::min(p.events.notice_horizon(p.interrupts.enabled_mask()), p.interrupts.pending_horizon(now));
+  const Cycle next = std::min(p.events.notice_horizon(p.interrupts.sources().enabled_mask()),
+                              p.interrupts.pending_horizon(now));
   return next >= kNever ? kNever : std::max(next, now + 1);
 }
 
@@ -201,68 +203,11 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame, Cycle now) {
   parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, now);
 }
 
-void Dspic30f6014a::i2c_start(Cycle now) {
-  parts_->events.run_to(now);
-  parts_->i2c.hear_start(now);
-}
-bool Dspic30f6014a::i2c_write(std::uint8_t byte, Cycle now) {
-  parts_->events.run_to(now);
-  return parts_->i2c.hear_byte(byte, now);
-}
-std::uint8_t Dspic30f6014a::i2c_read(Cycle now) {
-  parts_->events.run_to(now);
-  return parts_->i2c.say_byte();
-}
-void Dspic30f6014a::i2c_acknowledge(bool acknowledged, Cycle now) {
-  parts_->events.run_to(now);
-  parts_->i2c.hear_acknowledge(acknowledged, now);
-}
-void Dspic30f6014a::i2c_stop(Cycle now) {
-  parts_->events.run_to(now);
-  parts_->i2c.hear_stop(now);
-}
-bool Dspic30f6014a::i2c_holds_clock() const { return parts_->i2c.holds_clock(); }
-
 // --- interrupts
 
 Outlook Dspic30f6014a::look(Cycle now) { return parts_->look(now); }
 
-int Dspic30f6014a::pending(Cycle now) { return pending(now, parts_->interrupts.level()); }
-
-int Dspic30f6014a::pending(Cycle now, int cpu_level) {
-  parts_->events.run_to(now);
-  return parts_->interrupts.pending(now, cpu_level);
-}
-
-InterruptEntry Dspic30f6014a::enter_interrupt(int vector, Cycle now) {
-  return parts_->interrupts.enter(vector, now);
-}
-Cycle Dspic30f6014a::return_from_interrupt(Cycle now) { return parts_->interrupts.leave(now); }
-
 Cycle Dspic30f6014a::interrupt_horizon(int served) { return parts_->interrupt_horizon(served); }
-int Dspic30f6014a::cpu_level() const { return parts_->interrupts.level(); }
-void Dspic30f6014a::set_cpu_level(int level, Cycle now) { parts_->interrupts.set_level(level, now); }
-int Dspic30f6014a::nesting() const { return parts_->interrupts.nesting(); }
-void Dspic30f6014a::disi(unsigned count, Cycle now) { parts_->interrupts.disi(count, now); }
-bool Dspic30f6014a::disi_active(Cycle now) const { return parts_->interrupts.disi_active(now); }
-void Dspic30f6014a::raise_trap(Trap trap, Cycle now) { parts_->interrupts.raise_trap(trap, now); }
-
-bool Dspic30f6014a::has_flag(int vector, Cycle now) {
-  parts_->events.run_to(now);
-  return vector >= kFirstIrqVector && parts_->interrupts.flag(vector - kFirstIrqVector);
-}
-
-bool Dspic30f6014a::is_enabled(int vector) const {
-  return vector >= kFirstIrqVector && parts_->interrupts.enabled(vector - kFirstIrqVector);
-}
-
-int Dspic30f6014a::priority(int vector) const {
-  return vector >= kFirstIrqVector ? parts_->interrupts.priority(vector - kFirstIrqVector) : 15 - vector;
-}
-
-Cycle Dspic30f6014a::flag_since(int vector) const {
-  return vector >= kFirstIrqVector ? parts_->interrupts.since(vector - kFirstIrqVector) : 0;
-}
 
 // --- instructions
 
@@ -271,20 +216,10 @@ void Dspic30f6014a::clear_watchdog(Cycle now) {
   parts_->system.clear_watchdog(now);
 }
 
-void Dspic30f6014a::power_save(bool sleep, Cycle now) {
-  parts_->events.run_to(now);
-  parts_->system.power_save(sleep, now);
-}
-
-bool Dspic30f6014a::wakes(Cycle now) {
-  parts_->events.run_to(now);
-  return parts_->interrupts.wakes();
-}
-
 std::optional<ResetKind> Dspic30f6014a::reset_due(Cycle now) {
   parts_->events.run_to(now);
   if (parts_->system.watchdog_bit()) return ResetKind::Watchdog;
-  return parts_->interrupts.reset_due();
+  return parts_->interrupts.control().reset_due();
 }
 
 Cycle Dspic30f6014a::stalled_until() const { return parts_->nvm.stalled_until(); }
@@ -309,12 +244,6 @@ std::int64_t Dspic30f6014a::uart_overruns(int uart) {
   return parts_->uarts[static_cast<std::size_t>(uart - 1)].overruns();
 }
 
-std::int64_t Dspic30f6014a::missed_interrupts(int vector) {
-  return vector >= kFirstIrqVector ? parts_->interrupts.missed(vector - kFirstIrqVector) : 0;
-}
-
-std::int64_t Dspic30f6014a::served_interrupts(int vector) const { return parts_->interrupts.served(vector); }
-
 std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
@@ -322,7 +251,7 @@ std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
   for (const unsigned address : parts_->bus.written())
     if (with_pins || !is_port(*sfr_info(address))) add(parts_->bus.peek(address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
-  add(static_cast<std::uint64_t>(parts_->interrupts.level()));
+  add(static_cast<std::uint64_t>(parts_->interrupts.cpu().level()));
   add(parts_->nvm.eeprom_hash());
   return h;
 }

@@ -20,6 +20,8 @@
 #include <optional>
 #include <string>
 
+#include "dspic30/device/chip_interrupts.h"
+#include "dspic30/device/i2c_master.h"
 #include "dspic30/memory/cycle.h"
 #include "dspic30/memory/diagnosis.h"
 #include "dspic30/periph/outside.h"
@@ -100,59 +102,22 @@ class Dspic30f6014a {
   /// A word arrives at UART 1 or 2. Words are told in their order and may be told ahead of time; one that
   /// begins before `now`, or before the end of the one before, is moved to the next free instant.
   void uart_receive(int uart, const UartFrame& frame, Cycle now);
-  // Another master of the I2C bus, to which the chip is a slave. Each is complete in `now`; the program has
-  // run up to there. A master whose byte is over goes on only when i2c_holds_clock() has become false, which
-  // takes as long as the program takes.
-  void i2c_start(Cycle now);  ///< or a repeated one
-  /// A byte of the master's with its ninth bit. True: acknowledged.
-  bool i2c_write(std::uint8_t byte, Cycle now);
-  /// Eight bits of the slave's, then the master's ninth; 0xFF is the released line.
-  std::uint8_t i2c_read(Cycle now);
-  void i2c_acknowledge(bool acknowledged, Cycle now);
-  void i2c_stop(Cycle now);
-  bool i2c_holds_clock() const;
+  /// Another master of the I2C bus.
+  I2cMaster& i2c_master() { return i2c_master_; }
 
   // --- interrupts
 
   /// pending(), reset_due() and next_event() at once, for a host that asks again only when it must.
   Outlook look(Cycle now);
-  /// Vector to serve at the instruction boundary before cycle `now`; kNoVector if none. A flag set in cycle f
-  /// is seen from the boundary f + 1 on. Highest priority above the CPU's level, lowest vector among equals.
-  int pending(Cycle now);
-  /// The same for a CPU level of the caller's, 0 to 15.
-  int pending(Cycle now, int cpu_level);
-  /// The handler of `vector` starts at the boundary before `now`: raises the CPU level,
-  /// remembers the old one.
-  InterruptEntry enter_interrupt(int vector, Cycle now);
-  /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
-  Cycle return_from_interrupt(Cycle now);
+  ChipInterrupts& interrupts() { return interrupts_; }
+  const ChipInterrupts& interrupts() const { return interrupts_; }
   /// The next instant at which something may be served, if no flag but that of the vector whose handler runs
   /// is set and enabled; else, or in the past: ask look(). Cheaper than that.
   Cycle interrupt_horizon(int served = kNoVector);
-  /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
-  int cpu_level() const;
-  void set_cpu_level(int level, Cycle now);
-  /// Handlers entered and not yet left.
-  int nesting() const;
-  /// DISI #count executes in cycle `now`: priorities 1 to 6 wait for count + 1 cycles. Also
-  /// a write of DISICNT.
-  void disi(unsigned count, Cycle now);
-  bool disi_active(Cycle now) const;
-  /// A trap of the core: sets its INTCON1 flag. A hard trap during another one asks for a reset instead.
-  void raise_trap(Trap trap, Cycle now);
-  bool has_flag(int vector, Cycle now);
-  bool is_enabled(int vector) const;
-  int priority(int vector) const;
-  /// Cycle at which the flag was set last.
-  Cycle flag_since(int vector) const;
 
   // --- instructions that peripherals know of
 
   void clear_watchdog(Cycle now);
-  /// PWRSAV #0 (Sleep) or #1 (Idle): sets RCON.SLEEP or IDLE, clears the watchdog. Peripherals go on here.
-  void power_save(bool sleep, Cycle now);
-  /// An enabled interrupt's flag is set, whatever its priority: the processor wakes.
-  bool wakes(Cycle now);
   /// A reset that the chip itself wants (watchdog, trap conflict); the caller answers with reset().
   std::optional<ResetKind> reset_due(Cycle now);
   /// Flash programming holds the processor up to this cycle; <= now otherwise.
@@ -171,9 +136,6 @@ class Dspic30f6014a {
   Diagnostics& diagnostics();
   /// Words lost by receive overruns of UART 1 or 2 since power-up.
   std::int64_t uart_overruns(int uart);
-  /// Events that found their enabled flag still set, since power-up.
-  std::int64_t missed_interrupts(int vector);
-  std::int64_t served_interrupts(int vector) const;
   /// Hash of FIFOs, of the registers that were written since power-on and of the EEPROM as
   /// operations left it, for determinism checks. Without pins: what the outside puts on the ports is
   /// left out, and not asked for.
@@ -184,6 +146,8 @@ class Dspic30f6014a {
 
  private:
   std::unique_ptr<ChipParts> parts_;
+  ChipInterrupts interrupts_;
+  I2cMaster i2c_master_;
 };
 
 }  // namespace dspic

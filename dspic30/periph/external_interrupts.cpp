@@ -26,7 +26,7 @@ void ExternalInterrupts::attach() {
     std::uint64_t flags = std::uint64_t{1} << kFlags[n];
     if (n == 0) flags |= std::uint64_t{1} << irq::Adc;
     slots_[static_cast<std::size_t>(n)] = f_.events.add(*this, n, flags, false);
-    f_.interrupts.listen(kFlags[n], *this);
+    f_.interrupts.listeners().listen(kFlags[n], *this);
     f_.ports.watch(kPins[n], *this);
   }
 }
@@ -41,7 +41,7 @@ void ExternalInterrupts::reset(Cycle now) {
 void ExternalInterrupts::schedule(int n, Cycle now) {
   const auto i = static_cast<std::size_t>(n);
   Cycle at = own_flag_[i];
-  if (!f_.interrupts.flag(kFlags[n]) || (n == 0 && adc_waits_)) {
+  if (!f_.interrupts.sources().flag(kFlags[n]) || (n == 0 && adc_waits_)) {
     const Cycle next = f_.ports.nth_edge(kPins[n], edge(n), seen_[i], 1);
     if (next < kNever) at = std::min(at, std::max(next + kEdgeToFlag, now));
   }
@@ -63,7 +63,7 @@ void ExternalInterrupts::flag_cleared(int irq, Cycle now) {
     const auto i = static_cast<std::size_t>(n);
     const Cycle until = now - kEdgeToFlag;
     if (until > seen_[i]) {
-      if (f_.interrupts.enabled(irq))
+      if (f_.interrupts.sources().enabled(irq))
         f_.interrupts.note_missed(irq, f_.ports.edges(kPins[n], edge(n), seen_[i], until), now);
       seen_[i] = until;
     }
@@ -103,7 +103,7 @@ void ExternalInterrupts::converter_changed(Cycle now) {
 
 void ExternalInterrupts::outside_changed(Cycle now) {
   for (int n = 0; n < kLines; ++n) {
-    if (!f_.interrupts.flag(kFlags[n])) forget_before(n, now);
+    if (!f_.interrupts.sources().flag(kFlags[n])) forget_before(n, now);
     schedule(n, now);
   }
 }

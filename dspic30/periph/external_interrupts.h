@@ -30,7 +30,7 @@ class ExternalInterrupts final : public EventOwner, public FlagListener, public 
 
  private:
   static constexpr int kLines = 5;
-  Edge edge(int n) const { return f_.interrupts.falling_edge(n) ? Edge::Falling : Edge::Rising; }
+  Edge edge(int n) const { return f_.interrupts.control().falling_edge(n) ? Edge::Falling : Edge::Rising; }
   void schedule(int n, Cycle now);
   void forget_before(int n, Cycle now);
 

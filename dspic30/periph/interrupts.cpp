@@ -28,30 +28,19 @@ const char* vector_name(int vector) {
 void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }
 
 void Interrupts::reset(Cycle now) {
-  ifs_ = iec_ = 0;
-  at_priority_.fill(0);
-  for (int i = 0; i < kIrqs; ++i) {
-    priority_[static_cast<std::size_t>(i)] = kDefaultPriority;
-    at_priority_[kDefaultPriority] |= std::uint64_t{1} << i;
-  }
-  since_.fill(now);
-  newest_ = -1;
+  sources_.reset(kDefaultPriority, now);
+  control_ = InterruptControl{};
+  cpu_.reset();
   flags_read_.fill(-kReadModifyWrite - 1);
-  intcon1_ = intcon2_ = 0;
   last_vector_ = last_level_ = 0;
-  level_ = 0;
-  depth_ = 0;
-  disi_until_ = 0;
-  resumed_ = -1;
-  reset_due_.reset();
   uncleared_ = uncleared_again_ = 0;
 }
 
 // --- flags
 
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
-  if (events <= 0 || !enabled(irq)) return;
-  auto& missed = missed_[static_cast<std::size_t>(irq)];
+  if (events <= 0 || !sources_.enabled(irq)) return;
+  auto& missed = tally_.missed[static_cast<std::size_t>(irq)];
   if (missed == 0) {
     const std::string name = vector_name(kFirstIrqVector + irq);
     diagnostics_.report(Cause::MissedInterrupt, name,
@@ -63,32 +52,15 @@ void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
   missed += events;
 }
 
-std::uint64_t Interrupts::younger_than(Cycle read, std::uint64_t flags) const {
-  std::uint64_t younger = 0;
-  for (; flags; flags &= flags - 1) {
-    const int i = __builtin_ctzll(flags);
-    if (since_[static_cast<std::size_t>(i)] > read) younger |= std::uint64_t{1} << i;
-  }
-  return younger;
-}
-
 void Interrupts::set_by_program(std::uint64_t flags, Cycle now) {
-  for (; flags; flags &= flags - 1) since_[static_cast<std::size_t>(__builtin_ctzll(flags))] = now + 1;
-  newest_ = std::max(newest_, now + 1);
+  for (; flags; flags &= flags - 1) sources_.note_set(__builtin_ctzll(flags), now + 1);
   stirred_ = true;
-}
-
-void Interrupts::set_priority(int irq, int priority) {
-  auto& now = priority_[static_cast<std::size_t>(irq)];
-  at_priority_[now] &= ~(std::uint64_t{1} << irq);
-  now = static_cast<std::uint8_t>(priority);
-  at_priority_[now] |= std::uint64_t{1} << irq;
 }
 
 // --- acceptance
 
 /// A program that leaves handlers by jumps forgets the outermost one.
-void Interrupts::make_room() {
+void CpuLevel::make_room() {
   constexpr std::size_t kFirst = 4;
   if (depth_ < kMostFrames) return frames_.resize(std::max(kFirst, 2 * frames_.size()));
   std::move(frames_.begin() + 1, frames_.end(), frames_.begin());
@@ -96,7 +68,7 @@ void Interrupts::make_room() {
 }
 
 void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
-  if (!flag(i) || !enabled(i) || since(i) > entered) return;
+  if (!sources_.flag(i) || !sources_.enabled(i) || sources_.since(i) > entered) return;
   // the second time in turn is taken for a mistake, and told once
   const std::uint64_t here = std::uint64_t{1} << i, again = uncleared_ & here & ~uncleared_again_;
   uncleared_ |= here;
@@ -112,19 +84,19 @@ void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
 
 void Interrupts::set_level(int level, Cycle /*now*/) {
   stirred_ = true;
-  if (!nesting_disabled()) level_ = level;
+  if (!control_.nesting_disabled()) cpu_.set(level);
 }
 
 void Interrupts::raise_trap(Trap trap, Cycle now) {
   const int number = static_cast<int>(trap), level = trap_level(number);
-  const bool hard_pending = (intcon1_ & (trap_flag(1) | trap_flag(2))) != 0;
-  if (level >= kHardLevel && (level_ >= level || hard_pending)) {
+  const bool hard_pending = (control_.traps() & (trap_flag(1) | trap_flag(2))) != 0;
+  if (level >= kHardLevel && (cpu_.level() >= level || hard_pending)) {
     diagnostics_.report(Cause::TrapConflict, vector_name(number),
                         std::string(vector_name(number)) + ": a hard trap during another one resets the chip",
                         now);
-    reset_due_ = ResetKind::TrapConflict;
+    control_.ask_reset();
   }
-  intcon1_ |= trap_flag(number);
+  control_.raise(trap);
   stirred_ = true;
 }
 
@@ -136,16 +108,17 @@ std::uint16_t Interrupts::read(unsigned address, Cycle now) {
 }
 
 std::uint16_t Interrupts::peek(unsigned address, Cycle now) const {
-  if (address == kIntcon1) return intcon1_;
-  if (address == kIntcon2) return static_cast<std::uint16_t>(intcon2_ | (disi_active(now) ? kDisi : 0));
+  if (address == kIntcon1) return control_.intcon1();
+  if (address == kIntcon2)
+    return static_cast<std::uint16_t>(control_.intcon2() | (cpu_.disi_active(now) ? kDisi : 0));
   if (address == kInttreg) return static_cast<std::uint16_t>(last_vector_ | last_level_ << kIlr.lowest);
-  if (address < kIec0) return static_cast<std::uint16_t>(ifs_ >> 8 * (address - kIfs0));
-  if (address < kIpc0) return static_cast<std::uint16_t>(iec_ >> 8 * (address - kIec0));
+  if (address < kIec0) return static_cast<std::uint16_t>(sources_.flags() >> 8 * (address - kIfs0));
+  if (address < kIpc0) return static_cast<std::uint16_t>(sources_.enabled_mask() >> 8 * (address - kIec0));
   std::uint16_t word = 0;
   const int first = static_cast<int>(address - kIpc0) * 2;
   const std::uint16_t fields = sfr_info(address)->implemented;
   for (int f = 0; f < 4; ++f)
-    if (fields >> 4 * f & 7) word |= static_cast<std::uint16_t>(priority(first + f) << 4 * f);
+    if (fields >> 4 * f & 7) word |= static_cast<std::uint16_t>(sources_.priority(first + f) << 4 * f);
   return word;
 }
 
@@ -155,29 +128,30 @@ void Interrupts::write(unsigned address, std::uint16_t value, std::uint16_t lane
   stirred_ = true;
   ++writes_;
   if (address == kIntcon1) {
-    intcon1_ = merge_lanes(intcon1_, value, lanes);
+    control_.set_intcon1(merge_lanes(control_.intcon1(), value, lanes));
   } else if (address == kIntcon2) {
-    const std::uint16_t before = intcon2_;
-    intcon2_ = merge_lanes(intcon2_, value, lanes) & static_cast<std::uint16_t>(~kDisi);
+    const std::uint16_t before = control_.intcon2();
+    control_.set_intcon2(merge_lanes(before, value, lanes) & static_cast<std::uint16_t>(~kDisi));
     for (int n = 0; n < 5; ++n) {  // the other edge counts from now on
       constexpr int kExternal[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4};
-      FlagListener* listener = listeners_[static_cast<std::size_t>(kExternal[n])];
-      if (((before ^ intcon2_) >> n & 1) && listener) listener->edge_chosen(kExternal[n], now);
+      FlagListener* listener = listeners_.of(kExternal[n]);
+      if (((before ^ control_.intcon2()) >> n & 1) && listener) listener->edge_chosen(kExternal[n], now);
     }
   } else if (address >= kIec0 && address < kIpc0) {
     const int shift = 8 * static_cast<int>(address - kIec0);
     const auto mask = static_cast<std::uint64_t>(lanes) << shift;
-    iec_ = (iec_ & ~mask) | ((static_cast<std::uint64_t>(value) << shift) & mask);
+    sources_.enable((sources_.enabled_mask() & ~mask) |
+                    ((static_cast<std::uint64_t>(value) << shift) & mask));
   } else if (address >= kIpc0 && address < kInttreg) {
     const int first = static_cast<int>(address - kIpc0) * 2;
     for (int f = 0; f < 4; ++f)
-      if ((lanes >> 4 * f & 7) && first + f < kIrqs) set_priority(first + f, value >> 4 * f & 7);
+      if ((lanes >> 4 * f & 7) && first + f < kIrqs) sources_.set_priority(first + f, value >> 4 * f & 7);
   }
 }
 
 Cycle Interrupts::horizon(unsigned address, Cycle now) const {
   // flags: the chip adds the instants of the sources
-  if (address == kIntcon2 && disi_active(now)) return disi_until_;
+  if (address == kIntcon2 && cpu_.disi_active(now)) return cpu_.disi_until();
   return kNever;
 }
 

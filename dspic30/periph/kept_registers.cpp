@@ -32,14 +32,15 @@ void CpuRegisters::reset() {
 
 std::uint16_t CpuRegisters::peek(unsigned address, Cycle now) const {
   const std::uint16_t word = words_[address / 2];
-  const int level = f_.interrupts.level();
+  const int level = f_.interrupts.cpu().level();
   switch (address) {
     case kSr:
       return static_cast<std::uint16_t>((word & ~kIpl.mask) | (level & 7) << kIpl.lowest);
     case kCorcon:
       return static_cast<std::uint16_t>((word & ~(kIpl3 | kEdt)) | (level > 7 ? kIpl3 : 0));
     case kDisicnt:
-      return static_cast<std::uint16_t>(std::clamp<Cycle>(f_.interrupts.disi_until() - now, 0, kMostDisi));
+      return static_cast<std::uint16_t>(
+          std::clamp<Cycle>(f_.interrupts.cpu().disi_until() - now, 0, kMostDisi));
     default:
       return word;
   }
@@ -50,14 +51,14 @@ void CpuRegisters::write(unsigned address, std::uint16_t value, std::uint16_t la
   const std::uint16_t wanted = merge_lanes(peek(address, now), value, lanes);
   words_[address / 2] = wanted;
   if (address == kSr)
-    f_.interrupts.set_level(static_cast<int>(kIpl.of(wanted)) | (f_.interrupts.level() & 8), now);
+    f_.interrupts.set_level(static_cast<int>(kIpl.of(wanted)) | (f_.interrupts.cpu().level() & 8), now);
   if (address == kDisicnt) f_.interrupts.disi(wanted, now);
-  if (address == kCorcon && !(wanted & kIpl3) && f_.interrupts.level() > 7)
-    f_.interrupts.set_level(f_.interrupts.level() & 7, now);
+  if (address == kCorcon && !(wanted & kIpl3) && f_.interrupts.cpu().level() > 7)
+    f_.interrupts.set_level(f_.interrupts.cpu().level() & 7, now);
 }
 
 Cycle CpuRegisters::horizon(unsigned address, Cycle now) const {
-  return address == kDisicnt && f_.interrupts.disi_active(now) ? now + 1 : kNever;
+  return address == kDisicnt && f_.interrupts.cpu().disi_active(now) ? now + 1 : kNever;
 }
 
 // --- plain words

@@ -64,7 +64,7 @@ void Timers::attach() {
     if (t == 2 || t == 4) flags |= std::uint64_t{1} << kFlags[t];
     if (t == 3) flags |= std::uint64_t{1} << irq::Adc;
     unit(t).slot = f_.events.add(*this, t, flags, false);
-    f_.interrupts.listen(kFlags[t - 1], *this);
+    f_.interrupts.listeners().listen(kFlags[t - 1], *this);
     f_.ports.watch(kClockPins[t - 1], *this);
     f_.bus.mark_unmodelled(kAt[t - 1].con,
                            std::integral_constant<std::uint16_t, sfr_bits("T1CON", "TSIDL")>());
@@ -232,14 +232,14 @@ void Timers::schedule(int timer, Cycle now) {
         f_.ports.nth_edge(clock_pin(timer), u.gate_high ? Edge::Falling : Edge::Rising, now - kEdgeToTick, 1);
     u.gate_edge = edge >= kNever ? kNever : edge + kEdgeToTick;
     at = std::min(u.pending_flag, u.gate_edge);
-  } else if (f_.interrupts.flag(flag_of(timer)) && !u.wanted) {
+  } else if (f_.interrupts.sources().flag(flag_of(timer)) && !u.wanted) {
     u.lazy = true;
     u.lazy_since = now;
     if (u.mode == Mode::Internal) next_internal(timer, now);  // for count_missed()
   } else {
     at = u.mode == Mode::Internal ? next_internal(timer, now) : next_flag(timer, now);
   }
-  f_.interrupts.hear(flag_of(timer), u.lazy);
+  f_.interrupts.listeners().hear(flag_of(timer), u.lazy);
   f_.events.set(u.slot, at);
 }
 
@@ -263,7 +263,7 @@ void Timers::tell_changed(int timer, Cycle at) {
 void Timers::on_event(int id, Cycle at) {
   Unit& u = unit(id);
   const int flag = flag_of(id);
-  if (u.mode != Mode::Internal || u.wanted || at != u.next || u.pr == 0 || f_.interrupts.flag(flag))
+  if (u.mode != Mode::Internal || u.wanted || at != u.next || u.pr == 0 || f_.interrupts.sources().flag(flag))
     return irregular_event(id, at);
   // a period as the one before, and the flag was lowered meanwhile
   u.next += (Cycle{u.pr} + 1) << u.prescale_bits;

@@ -62,9 +62,10 @@ class Primitive {
     const I2c& module = cpu_.parts.i2c;
     if (cpu_.parts.fabric.outside.i2c_may_stretch() || !cpu_.waits || !module.is_ready()) return false;
     if (cpu_.looks_at_each()) return false;  // each instruction counts
-    if (!interrupts.enabled(irq::MasterI2c) || interrupts.priority(irq::MasterI2c) <= interrupts.level() ||
-        interrupts.flag(irq::MasterI2c) || !interrupts.has_no_other(kNoVector) ||
-        interrupts.disi_until() > begin_)
+    if (!interrupts.sources().enabled(irq::MasterI2c) ||
+        interrupts.sources().priority(irq::MasterI2c) <= interrupts.cpu().level() ||
+        interrupts.sources().flag(irq::MasterI2c) || !interrupts.has_no_other(kNoVector) ||
+        interrupts.cpu().disi_until() > begin_)
       return false;
     if (mode_ % 0x2000 != mode_ || cpu_.is_elsewhere(mode_, true) || !is_handler()) return false;
     begins_ = cpu_.clocks.true_at(begin_ + shape_.begins);
@@ -87,7 +88,7 @@ class Primitive {
     if (!cpu_.waits->is_free_until(cpu_, flag + kMost)) return false;
     for (known_ = 0; known_ < kPlaces; ++known_) {
       wait_.head = first() + known_;
-      if (!cpu_.is_wait_head(wait_.head)) continue;
+      if (!cpu_.table().is_wait(wait_.head)) continue;
       wait_.came = cpu_.clocks.own_cycles(head + known_);
       wait_.came_true = cpu_.clocks.true_at(head + known_);
       if (cpu_.waits->knows(cpu_, wait_)) return true;
@@ -118,7 +119,8 @@ class Primitive {
   const Decoded* first() const { return cpu_.at + shape_.head_at; }
   // is the interrupt's handler the library's, with the same mode?
   bool is_handler() const {
-    const unsigned vector = (cpu_.parts.interrupts.uses_alternate_table() ? 0x84u : 0x04u) + 2 * kVector;
+    const unsigned vector =
+        (cpu_.parts.interrupts.control().uses_alternate_table() ? 0x84u : 0x04u) + 2 * kVector;
     const std::uint32_t* const flash = cpu_.program.flash();
     const unsigned at = flash[vector / 2] & 0x7FFFFE;
     if (at >= kFlashEnd - 2 * kHandler.size()) return false;
@@ -168,7 +170,7 @@ class Primitive {
     cpu_.settle();
     wait_.cut_true = cpu_.now;
     cpu_.parts.events.run_to(cpu_.now);
-    const unsigned level = static_cast<unsigned>(interrupts.level());
+    const unsigned level = static_cast<unsigned>(interrupts.cpu().level());
     const unsigned pc = cpu_.address_of(first()) + 2 * static_cast<unsigned>(place_);
     leave(cpu_, shape_.stacked, pc & 0xFFFF);
     leave(cpu_, shape_.stacked + 1, cpu_.sr_low() << 8 | (level & 8) << 4 | pc >> 16);
@@ -191,10 +193,10 @@ class Primitive {
   bool holds_all() const {
     if (!cpu_.host || cpu_.host_is_held || cpu_.host_stale) return false;
     const Interrupts& interrupts = cpu_.parts.interrupts;
-    const int own = interrupts.priority(irq::MasterI2c);
+    const int own = interrupts.sources().priority(irq::MasterI2c);
     for (int h = 0; h < HostCalls::kHandlers; ++h)
       if (const int vector = cpu_.host->vector(h);
-          vector != kNoVector && interrupts.priority(vector - kFirstIrqVector) > own)
+          vector != kNoVector && interrupts.sources().priority(vector - kFirstIrqVector) > own)
         return false;
     return true;
   }

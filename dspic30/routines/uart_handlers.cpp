@@ -132,9 +132,9 @@ class UartHandler {
     if (end > until || cpu_.looks_at_each() || cpu_.course || cpu_.watching || cpu_.repeating ||
         cpu_.parts.events.is_watched())
       return false;
-    if (cpu_.modcon || cpu_.loop_end || cpu_.stands_in_host() || interrupts.nesting() > 0 ||
-        !interrupts.has_no_other(vector_) || interrupts.disi_until() > cpu_.now ||
-        interrupts.nesting_disabled() || !uart_.enabled())
+    if (cpu_.modcon || cpu_.loop_end || cpu_.stands_in_host() || interrupts.cpu().nesting() > 0 ||
+        !interrupts.has_no_other(vector_) || interrupts.cpu().disi_until() > cpu_.now ||
+        interrupts.control().nesting_disabled() || !uart_.enabled())
       return false;
     if (cpu_.parts.notice_horizon() <= end || !is_host_quiet(end)) return false;
     const unsigned top = cpu_.w[15], full = top + KnownCalls::kStack;
@@ -142,11 +142,11 @@ class UartHandler {
   }
   /// Where its code is; null: there is none.
   const std::uint32_t* words() {
-    const unsigned table = cpu_.parts.interrupts.uses_alternate_table() ? 0x84u : 0x04u;
+    const unsigned table = cpu_.parts.interrupts.control().uses_alternate_table() ? 0x84u : 0x04u;
     const std::uint32_t* const flash = cpu_.program.flash();
     address_ = flash[(table + 2 * static_cast<unsigned>(vector_)) / 2] & 0x7FFFFE;
     constexpr unsigned kMostBytes = 64;
-    if (address_ >= kFlashEnd - kMostBytes || cpu_.is_told(cpu_.code() + address_ / 2)) return nullptr;
+    if (address_ >= kFlashEnd - kMostBytes || cpu_.table().tells(cpu_.code() + address_ / 2)) return nullptr;
     return flash + address_ / 2;
   }
 
@@ -175,11 +175,11 @@ class UartHandler {
     if (!cpu_.host) return true;
     if (cpu_.host_is_held || cpu_.host_stale || cpu_.host_due <= end + kMargin) return false;
     const Interrupts& interrupts = cpu_.parts.interrupts;
-    const int own = interrupts.priority(vector_ - kFirstIrqVector);
+    const int own = interrupts.sources().priority(vector_ - kFirstIrqVector);
     for (int h = 0; h < HostCalls::kHandlers; ++h) {
       const int vector = cpu_.host->vector(h);
       if (vector == kNoVector) continue;
-      if (interrupts.priority(vector - kFirstIrqVector) > own ||
+      if (interrupts.sources().priority(vector - kFirstIrqVector) > own ||
           cpu_.host->source_event(h, cpu_.now - kMargin) <= end + kMargin)
         return false;
     }
@@ -191,7 +191,7 @@ class UartHandler {
   void enter(unsigned pairs) {
     cpu_.waits->cut(cpu_);
     Interrupts& interrupts = cpu_.parts.interrupts;
-    level_ = interrupts.level();
+    level_ = interrupts.cpu().level();
     pc_ = cpu_.address_of(cpu_.next);
     flags_ = cpu_.sr_low();
     leave(cpu_, 0, pc_ & 0xFFFF);

@@ -96,12 +96,12 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
     item.word = cpu_.program.read(cpu_.address_of(d));
     const Row* const row = find_row(item.word);
     if (!row || d == cpu_.loop_end) return false;
-    if (cpu_.is_wait_head(d) && d != head_) return false;  // the program stops there to look
+    if (cpu_.table().is_wait(d) && d != head_) return false;  // the program stops there to look
     // Is this an instruction as the decoder left it, of which the translator knows all?
-    const bool is_routine = cpu_.known_at(cpu_.address_of(d));
-    const Run plain = cpu_.is_decoded(d) && !is_routine ? cpu_.plain(d) : nullptr;
+    const bool is_routine = cpu_.table().known_at(cpu_.address_of(d));
+    const Run plain = cpu_.is_decoded(d) && !is_routine ? cpu_.table().plain(d) : nullptr;
     item.is_host = plain == &call_host;
-    item.is_told = plain && cpu_.is_told(d);
+    item.is_told = plain && cpu_.table().tells(d);
     const bool is_known = plain && (item.is_host || plain == function_of(item.word)) &&
                           !(item.is_told && (item.is_host || ends_a_stretch(row->id)));
     if (!is_known && (items.size() == first || place >= reach)) return false;
@@ -145,9 +145,9 @@ bool Scanner::is_answered(Item& call) const {
   auto address = static_cast<unsigned>(2 * (head_ - cpu_.code() + call.target));
   const std::uint32_t word = cpu_.program.read(address);
   const Row* const row = find_row(word);
-  const bool by_handle = row && row->id == Insn::Goto_Expr && !cpu_.known_at(address);
+  const bool by_handle = row && row->id == Insn::Goto_Expr && !cpu_.table().known_at(address);
   if (by_handle) address = (cpu_.program.read(address + 2) & 0x7F) << 16 | (word & 0xFFFE);
-  const KnownRoutine* const routine = cpu_.known_at(address);
+  const KnownRoutine* const routine = cpu_.table().known_at(address);
   if (!routine) return false;
   call.routine = routine;
   call.routine_place = static_cast<std::ptrdiff_t>(address / 2) - (head_ - cpu_.code());

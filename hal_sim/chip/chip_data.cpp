@@ -16,7 +16,9 @@ class View final : public host::ChipView {
   void carry_out(Cycle at) override { device_.run_events(at); }
   std::uint16_t peek(unsigned address, Cycle at) override { return device_.peek(address, at); }
   Cycle register_horizon(unsigned address, Cycle at) override { return device_.horizon(address, at); }
-  bool flag(int vector, Cycle at) override { return device_.has_flag(vector + dspic::kFirstIrqVector, at); }
+  bool flag(int vector, Cycle at) override {
+    return device_.interrupts().has_flag(vector + dspic::kFirstIrqVector, at);
+  }
   Cycle flag_horizon(int vector, Cycle at) override {
     return device_.horizon(kIfs0 + 2 * static_cast<unsigned>(vector / 16), at);
   }

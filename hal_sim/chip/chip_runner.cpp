@@ -128,7 +128,7 @@ void ChipRunner::follow_agendas(unsigned address) {
   if (address == agenda_returns_to_) {
     observer_->callback(0, processor_->now());
     agenda_returns_to_ = 0;
-  } else if (agendas_.count(address) && device().nesting() > 0) {
+  } else if (agendas_.count(address) && device().interrupts().nesting() > 0) {
     observer_->callback(address, processor_->now());
     agenda_depth_ = open_handlers_;
     learn(agenda_returns_to_ = calls_->return_address());
@@ -362,19 +362,19 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
 
 /// For what no code can set any more. A loop that looks at nothing is none, but the end of a program.
 void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
-  const Cycle since = processor_->still_since();
+  const auto [since, reads] = processor_->still();
   if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
-      device().nesting() > 0 || !processor_->still_reads())
+      device().interrupts().nesting() > 0 || !reads)
     return;
   if (asked_since_ != since) {
     asked_since_ = since;
     wait_.reset();
     std::uint64_t enabled = 0;
     for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-      enabled |= std::uint64_t{device().is_enabled(v)} << v;
+      enabled |= std::uint64_t{device().interrupts().is_enabled(v)} << v;
     const auto by_name = [this](const std::string& name) {
       for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-        if (dspic::vector_name(v) == name) return device().is_enabled(v);
+        if (dspic::vector_name(v) == name) return device().interrupts().is_enabled(v);
       return false;
     };
     // a wait inside a function of the library is its caller's; who writes what that one looks at is not known
@@ -414,7 +414,7 @@ void ChipRunner::run_watched(Cycle end) {
     for (StepWatch* watch : watches_) watch->before(step.begin);
     step.pc = processor_->pc();
     step.slept = processor_->is_asleep();
-    const int nesting = device().nesting();
+    const int nesting = device().interrupts().nesting();
     const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
     if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
       for (StepWatch* watch : watches_) watch->led_to_reset(step.pc);
@@ -424,13 +424,13 @@ void ChipRunner::run_watched(Cycle end) {
     step.end = processor_->now();
     step.took = processor_->own_cycles() - own;
     step.next = processor_->pc();
-    if (device().nesting() > nesting) {
+    if (device().interrupts().nesting() > nesting) {
       step.entered = device().peek(dspic::sfr("INTTREG"), chip_.at(step.end)) & 0x3F;
       step.by_heart = library_ && step.entered == library_->vector(0);
       if (step.entered >= dspic::kFirstIrqVector)
-        step.flagged = step.by_heart ? due : device().flag_since(step.entered);
+        step.flagged = step.by_heart ? due : device().interrupts().flag_since(step.entered);
     }
-    step.left = device().nesting() < nesting;
+    step.left = device().interrupts().nesting() < nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);
   }
@@ -452,8 +452,9 @@ void ChipRunner::handler_begins(int vector, Cycle entry, Cycle first) {
     return observer_->handler_begins(host::kTrapVector + vector - 1, -1, entry, first);
   // one known by heart that is not held off needs no flag to come
   const bool needs_none =
-      library_ && vector == library_->vector(0) && !device().has_flag(vector, chip_.at(entry));
-  const Cycle since = needs_none ? std::min(library_->due(), entry) : device().flag_since(vector);
+      library_ && vector == library_->vector(0) && !device().interrupts().has_flag(vector, chip_.at(entry));
+  const Cycle since =
+      needs_none ? std::min(library_->due(), entry) : device().interrupts().flag_since(vector);
   observer_->handler_begins(vector - dspic::kFirstIrqVector, since, entry, first);
 }
 
@@ -471,7 +472,7 @@ void ChipRunner::observe(host::Observer* observer) {
 std::int64_t ChipRunner::interrupts_served() const {
   std::int64_t all = 0;
   for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
-    all += device().served_interrupts(vector);
+    all += device().interrupts().served(vector);
   return all;
 }
 

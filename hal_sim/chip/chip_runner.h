@@ -79,9 +79,8 @@ class ChipRunner final : public host::Runner,
   void observe(host::Observer* observer) override;
   std::int64_t interrupts_served() const override;
 
-  const dspic::Processor& processor() const { return *processor_; }
-  /// For tests, which change how it runs and not what it does.
-  dspic::Processor& processor() { return *processor_; }
+  /// Tests change how it runs, and not what it does.
+  dspic::Processor& processor() const { return *processor_; }
   dspic::Dspic30f6014a& device() const { return chip_.device(); }
   const std::shared_ptr<const ChipImage>& image() const { return image_; }
   /// Its flash as it is now: programs write it, the image stays.
@@ -101,7 +100,7 @@ class ChipRunner final : public host::Runner,
   }
   void handler_begins(int vector, Cycle entry, Cycle first) override;
   void handler_ends(Cycle at) override;
-  void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().nesting()); }
+  void waited(Cycle from, Cycle to) override { observer_->waited(from, to, device().interrupts().nesting()); }
   void program_eeprom();
   void fill_ram();
   void run_watched(Cycle end);

@@ -269,7 +269,7 @@ void Profile::leave_handler() {
 // an enabled flag that fell without a service was cleared by the program
 void Profile::watch_flags() {
   const dspic::Interrupts& interrupts = device_.parts().interrupts;
-  const std::uint64_t flags = interrupts.flags(), enabled = interrupts.enabled_mask();
+  const std::uint64_t flags = interrupts.sources().flags(), enabled = interrupts.sources().enabled_mask();
   std::uint64_t fell = flags_ & ~flags;
   flags_ = flags & enabled;
   for (const Context& context : contexts_)
@@ -449,7 +449,7 @@ ProfileReport Profile::report() const {
   for (const auto& [vector, tally] : interrupts_)
     report.interrupts.push_back(
         {vector, dspic::vector_name(vector), tally.cycles, tally.latency, tally.period,
-         vector >= dspic::kFirstIrqVector ? device_.missed_interrupts(vector) : 0, tally.missed});
+         vector >= dspic::kFirstIrqVector ? device_.interrupts().missed(vector) : 0, tally.missed});
   // Waits, and among the loops the main one.
   const Loop* main_loop = nullptr;
   for (const auto& [target, loop] : loops_) {

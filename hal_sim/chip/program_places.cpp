@@ -192,7 +192,7 @@ bool ProgramPlaces::has_handler(int vector) const {
 }
 
 int ProgramPlaces::open_vector() const {
-  if (chip_.device().nesting() == 0) return dspic::kNoVector;
+  if (chip_.device().interrupts().nesting() == 0) return dspic::kNoVector;
   return chip_.device().peek(kInttregAddress, chip_.latest()) & kVectorMask;
 }
 

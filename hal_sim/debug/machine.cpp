@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "dspic30/core/cpu.h"
 #include "dspic30/core/disassembler.h"
 #include "dspic30/memory/sfr_table.h"
 
@@ -95,9 +96,9 @@ std::string Machine::registers() const {
     text += fmt::format("w{:<2} {:04x}{}", n, processor.w(n), n % 8 == 7 ? "\n" : "   ");
   const unsigned sr = processor.sr();
   text += fmt::format("pc  {:06x}  sr {:04x} (IPL {}{}{}{}{}{})  RCOUNT {:04x}  A {:#x}  B {:#x}\n", pc(), sr,
-                      runner_.device().cpu_level(), sr & 1 ? " C" : "", sr & 2 ? " Z" : "",
+                      runner_.device().interrupts().cpu_level(), sr & 1 ? " C" : "", sr & 2 ? " Z" : "",
                       sr & 4 ? " OV" : "", sr & 8 ? " N" : "", sr & 0x10 ? " RA" : "",
-                      word(dspic::sfr("RCOUNT")), processor.accumulator(0), processor.accumulator(1));
+                      word(dspic::sfr("RCOUNT")), processor.cpu().acc[0], processor.cpu().acc[1]);
   return text;
 }
 

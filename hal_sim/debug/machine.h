@@ -40,7 +40,7 @@ class Machine {
   std::uint32_t pc() const { return runner_.processor().pc(); }
   /// Grows with each call; of the function that runs; 0: not known.
   Address base();
-  int nesting() const { return runner_.device().nesting(); }  ///< handlers that are under way
+  int nesting() const { return runner_.device().interrupts().nesting(); }  ///< handlers that are under way
   std::vector<Frame> frames();
   /// Has main() not been called yet?
   bool is_starting_up();

@@ -68,7 +68,7 @@ bool Values::find_other(const std::string& name, CValue& value) const {
   };
   if (name == "pc") return known(CType::Kind::Signed, 64, runner_.processor().pc());
   if (name == "cycle") return known(CType::Kind::Signed, 64, runner_.processor().now());
-  if (name == "nesting") return known(CType::Kind::Signed, 64, runner_.device().nesting());
+  if (name == "nesting") return known(CType::Kind::Signed, 64, runner_.device().interrupts().nesting());
   if (const auto data = find_untyped(name)) {
     Data some = *data;
     some.bytes = std::min(data->bytes, 4u);

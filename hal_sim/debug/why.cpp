@@ -66,11 +66,11 @@ std::string name_of(Machine& machine, const Place& place) {
 }
 
 std::string state_of(Machine& machine, int vector) {
-  dspic::Dspic30f6014a& chip = machine.runner().device();
+  dspic::ChipInterrupts& interrupts = machine.runner().device().interrupts();
   const Cycle now = machine.now();
-  return told_interrupt(std::string(dspic::vector_name(vector)), chip.has_flag(vector, now),
-                        chip.is_enabled(vector), chip.priority(vector), chip.cpu_level(),
-                        chip.disi_active(now));
+  return told_interrupt(std::string(dspic::vector_name(vector)), interrupts.has_flag(vector, now),
+                        interrupts.is_enabled(vector), interrupts.priority(vector), interrupts.cpu_level(),
+                        interrupts.disi_active(now));
 }
 
 /// The timer that a handler serves, if it stands still.
@@ -110,13 +110,13 @@ std::string about_register(Machine& machine, const Place& place) {
 
 std::string Machine::interrupts() {
   Machine& machine = *this;
-  dspic::Dspic30f6014a& chip = machine.runner().device();
-  std::string text = fmt::format("the processor is at level {}{}, {} handlers deep\n", chip.cpu_level(),
-                                 chip.disi_active(machine.now()) ? ", DISI" : "", chip.nesting());
+  dspic::ChipInterrupts& interrupts = machine.runner().device().interrupts();
+  std::string text = fmt::format("the processor is at level {}{}, {} handlers deep\n", interrupts.cpu_level(),
+                                 interrupts.disi_active(machine.now()) ? ", DISI" : "", interrupts.nesting());
   for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-    if (chip.is_enabled(v) || chip.has_flag(v, machine.now()))
+    if (interrupts.is_enabled(v) || interrupts.has_flag(v, machine.now()))
       text += fmt::format("  {}{}, served {} times\n", state_of(machine, v), idle_timer(machine, v),
-                          chip.served_interrupts(v));
+                          interrupts.served(v));
   return text;
 }
 
@@ -152,10 +152,11 @@ std::string Machine::why() {
   }
   // Interrupts that would come, and are held off.
   std::string pending;
-  dspic::Dspic30f6014a& chip = machine.runner().device();
+  dspic::ChipInterrupts& interrupts = machine.runner().device().interrupts();
   for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-    if (chip.has_flag(v, machine.now()) &&
-        (!chip.is_enabled(v) || chip.priority(v) <= chip.cpu_level() || chip.disi_active(machine.now())))
+    if (interrupts.has_flag(v, machine.now()) &&
+        (!interrupts.is_enabled(v) || interrupts.priority(v) <= interrupts.cpu_level() ||
+         interrupts.disi_active(machine.now())))
       pending += "  " + state_of(machine, v) + "\n";
   if (!pending.empty()) text += "pending, but not served:\n" + pending;
   return text;

@@ -108,10 +108,10 @@ TEST(HalLong, the_converter_makes_as_many_frames) {
   host::Runner& runner = *sim.twin().mind(0).runner();
   const auto frames =
       static_cast<double>(runner.closed_drivers()->scan().clock().interrupts(runner.cycles()));
-  const auto served =
-      static_cast<double>(dynamic_cast<chip::ChipRunner&>(*dspic.twin().mind(0).runner())
-                              .device()
-                              .served_interrupts(::dspic::irq::Adc + ::dspic::kFirstIrqVector));
+  const auto served = static_cast<double>(dynamic_cast<chip::ChipRunner&>(*dspic.twin().mind(0).runner())
+                                              .device()
+                                              .interrupts()
+                                              .served(::dspic::irq::Adc + ::dspic::kFirstIrqVector));
   EXPECT_GT(served, 299'000);
   EXPECT_NEAR(frames, served, 2.5);
 }

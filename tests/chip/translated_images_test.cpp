@@ -53,7 +53,7 @@ Seen run(const std::string& controller, bool translated) {
       seen.cycles = runner().processor().now();
       seen.chip = runner().device().state_hash(seen.cycles);
       seen.processor = runner().processor().state_hash();
-      seen.translated = runner().processor().translated();
+      seen.translated = runner().processor().cpu().table().translated();
       return seen;
     }
   } one;

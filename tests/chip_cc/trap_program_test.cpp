@@ -99,8 +99,8 @@ TEST(TrapProgram, an_overflow_of_the_stack_runs_its_handler_whatever_the_frame) 
     EXPECT_LE(end + std::max(16u, bytes), dspic::Processor::kRamEnd);
     EXPECT_LE(p.processor().w(15), dspic::Processor::kRamEnd);
     // by whom
-    const dspic::TrapRecord* const trap = p.processor().latest_trap();
-    ASSERT_NE(trap, nullptr);
+    const auto& trap = p.processor().cpu().latest_trap;
+    ASSERT_TRUE(trap);
     EXPECT_EQ(trap->trap, dspic::Trap::StackError);
     const dspic::CodeMap::Function* const function = p.file().code.function_at(trap->pc);
     ASSERT_NE(function, nullptr);

@@ -136,13 +136,13 @@ struct Bench {
   /// Bit operation: read and write in one instruction.
   void set(const std::string& name, unsigned bits, Cycle now) { write(name, read(name, now) | bits, now); }
   void clear(const std::string& name, unsigned bits, Cycle now) { write(name, read(name, now) & ~bits, now); }
-  bool flag(int irq, Cycle now) { return chip.has_flag(dspic::kFirstIrqVector + irq, now); }
+  bool flag(int irq, Cycle now) { return chip.interrupts().has_flag(dspic::kFirstIrqVector + irq, now); }
   void clear_flag(int irq, Cycle now) { clear("IFS" + std::to_string(irq / 16), 1u << irq % 16, now); }
   void enable(int irq, Cycle now) { set("IEC" + std::to_string(irq / 16), 1u << irq % 16, now); }
   /// First cycle >= `from` at which the flag is set; -1 when it is not within `within` cycles.
   Cycle flag_rises(int irq, Cycle from, Cycle within = 20'000'000) {
     for (Cycle now = from; now < from + within;) {
-      if (flag(irq, now)) return std::max(from, chip.flag_since(dspic::kFirstIrqVector + irq));
+      if (flag(irq, now)) return std::max(from, chip.interrupts().flag_since(dspic::kFirstIrqVector + irq));
       now = chip.horizon(0x084 + 2 * static_cast<unsigned>(irq / 16), now);
     }
     return -1;

@@ -49,8 +49,8 @@ int main() {
   unsigned sum = 0;
   for (Cycle now = 10; now < static_cast<Cycle>(kFcyHz * kSeconds);
        now = std::max(now, chip.next_event(now))) {
-    for (int vector; (vector = chip.pending(now)) != dspic::kNoVector; ++handlers) {
-      now = chip.enter_interrupt(vector, now).first_instruction;
+    for (int vector; (vector = chip.interrupts().pending(now)) != dspic::kNoVector; ++handlers) {
+      now = chip.interrupts().enter(vector, now).first_instruction;
       if (vector == dspic::kFirstIrqVector + dspic::irq::Adc) {
         clear_flag(kAdif, now);
         for (unsigned i = 0; i < 3; ++i) sum += chip.read(kBuffer + 2 * i, 16, now += 10);
@@ -64,7 +64,7 @@ int main() {
         if (handlers % 20 == 0) write(kLatd, handlers & 0xFF, now);
         now += 30;
       }
-      now = chip.return_from_interrupt(now);
+      now = chip.interrupts().leave(now);
     }
   }
   const double seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;

@@ -85,10 +85,10 @@ TEST(CodeStore, what_one_robot_translated_all_have) {
   const Store store = new_store();
   const auto first = robot(kRounds, store);
   first->run(4000000);
-  ASSERT_GT(first->cpu->translated(), 0);
+  ASSERT_GT(first->cpu->cpu().table().translated(), 0);
   const auto second = robot(kRounds, store);
   second->run(30);
-  EXPECT_EQ(second->cpu->translated(), first->cpu->translated());
+  EXPECT_EQ(second->cpu->cpu().table().translated(), first->cpu->cpu().table().translated());
   CoreBench alone(kRounds, {}, false);
   alone.run(4000000);
   second->run(4000000);
@@ -240,7 +240,7 @@ TEST(CodeStore, threads_share_it) {
     });
   for (std::thread& thread : threads) thread.join();
   for (const auto& b : robots) EXPECT_TRUE(course_of(*b) == expected);
-  EXPECT_GT(robots[0]->cpu->translated(), 0);
+  EXPECT_GT(robots[0]->cpu->cpu().table().translated(), 0);
 }
 
 TEST(ProgramMemory, copies_share_flash_until_one_is_written) {

@@ -5,7 +5,9 @@
 #include <string>
 
 #include "dspic30/asm/assembler.h"
+#include "dspic30/core/cpu.h"
 #include "dspic30/core/processor.h"
+#include "dspic30/core/waits.h"
 #include "dspic30/translate/translations.h"
 #include "hal_sim/chip/translation.h"
 #include "tests/dspic30/bench.h"

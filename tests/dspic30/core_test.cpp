@@ -286,7 +286,7 @@ __T1Interrupt: bclr IFS0, #T1IF
   ASSERT_TRUE(b.run_to("on"));
   const Cycle on = b.cpu->now();
   ASSERT_TRUE(b.run_to("__T1Interrupt"));
-  const Cycle flag = b.chip->flag_since(dspic::kFirstIrqVector + dspic::irq::T1);
+  const Cycle flag = b.chip->interrupts().flag_since(dspic::kFirstIrqVector + dspic::irq::T1);
   EXPECT_GE(b.cpu->now(), flag + 1 + 3);
   EXPECT_LE(b.cpu->now(), flag + 1 + 3 + 1);  // a branch of 2 cycles may be under way
   EXPECT_NEAR(static_cast<double>(flag - on), 50, 1);
@@ -377,7 +377,7 @@ TEST(Reset, watchdog_bites_in_run_and_wakes_in_idle) {
   ASSERT_TRUE(idle.run_to("end"));
   EXPECT_EQ(idle.resets, 0);
   EXPECT_EQ(idle.sfr("RCON") & 0x14, 0x14u);  // WDTO, IDLE
-  EXPECT_GT(idle.cpu->slept(), 29000);
+  EXPECT_GT(idle.cpu->idle(idle.cpu->now()), 29000);
 }
 
 TEST(Power, idle_ends_with_an_interrupt) {
@@ -395,7 +395,7 @@ __T1Interrupt: bclr IFS0, #T1IF
     retfie)");
   ASSERT_TRUE(b.run_to("end"));
   EXPECT_EQ(b.w(1), 1u);
-  EXPECT_GT(b.cpu->slept(), 980);
+  EXPECT_GT(b.cpu->idle(b.cpu->now()), 980);
   EXPECT_LT(b.cpu->now(), 1030);
 }
 

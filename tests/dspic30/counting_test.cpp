@@ -138,8 +138,8 @@ TEST(Counting, any_loop_goes_the_same_way_jumped_over_or_not) {
       ASSERT_EQ(steps.cpu->state_hash(), whole.cpu->state_hash()) << seed << "\n" << text;
       ASSERT_EQ(steps.cpu->idle(steps.cpu->now()), whole.cpu->idle(whole.cpu->now())) << seed << "\n" << text;
     }
-    EXPECT_EQ(steps.cpu->jumped(), 0);
-    jumped += whole.cpu->jumped() > 0;
+    EXPECT_EQ(steps.cpu->cpu().waits->jumped(), 0);
+    jumped += whole.cpu->cpu().waits->jumped() > 0;
   }
   EXPECT_GT(jumped, kLoops / 2);
 }
@@ -323,7 +323,7 @@ TEST(Counting, waits_that_come_in_turn_are_all_found) {
   for (const int many : {2, 7, 12}) {
     CoreBench whole(waits_in_turn(many), {}, false), steps(waits_in_turn(many), {}, false);
     whole.run(kEnd / 2);
-    const Cycle before = whole.cpu->idle(kEnd / 2), jumped = whole.cpu->jumped();
+    const Cycle before = whole.cpu->idle(kEnd / 2), jumped = whole.cpu->cpu().waits->jumped();
     whole.run(kEnd);
     for (Cycle to = 1; to < kEnd; to += 997) steps.run(to);
     steps.run(whole.cpu->now());
@@ -332,7 +332,7 @@ TEST(Counting, waits_that_come_in_turn_are_all_found) {
     EXPECT_NEAR(whole.w(9), kEnd / 800, 2) << many;
     // of 800 cycles some 60 are work: the handler, the way to the next wait, the rest of a round
     EXPECT_GT(static_cast<double>(whole.cpu->idle(kEnd) - before) / (kEnd / 2), 0.9) << many;
-    EXPECT_GT(static_cast<double>(whole.cpu->jumped() - jumped) / (kEnd / 2), 0.85) << many;
+    EXPECT_GT(static_cast<double>(whole.cpu->cpu().waits->jumped() - jumped) / (kEnd / 2), 0.85) << many;
   }
 }
 

@@ -90,7 +90,7 @@ void expect(CoreBench& b, const std::string& name, const std::string& value) {
   } else if (name == "high") {
     EXPECT_EQ(b.cpu->sr() & 0xFC00u, flag_bits(value)) << name;
   } else if (name.compare(0, 3, "ACC") == 0) {
-    EXPECT_EQ(b.cpu->accumulator(name[3] - 'A') & 0xFFFFFFFFFF, v) << name;
+    EXPECT_EQ(b.cpu->cpu().acc[static_cast<std::size_t>(name[3] - 'A')] & 0xFFFFFFFFFF, v) << name;
   } else {
     EXPECT_EQ(b.sfr(name), v) << name;
   }
@@ -151,7 +151,7 @@ TEST(Instruction, cases_translated) {
       ASSERT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
     }
     ASSERT_EQ(one.resets, other.resets);
-    translated += other.cpu->translated() > 0;
+    translated += other.cpu->cpu().table().translated() > 0;
   }
   EXPECT_GT(translated, 200);
 }
@@ -201,7 +201,7 @@ int run_as_head(const Case& c, unsigned modcon_of_pointers(unsigned source, unsi
       EXPECT_EQ(one.chip->state_hash(end), other.chip->state_hash(end)) << end;
       if (testing::Test::HasFailure()) return 0;
     }
-    translated += other.cpu->translated() > 0;
+    translated += other.cpu->cpu().table().translated() > 0;
   }
   other.cpu->translate_all();  // special from the first decoding on
   one.run(end + 120);

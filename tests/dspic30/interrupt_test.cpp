@@ -25,9 +25,9 @@ TEST_F(Interrupts, handler_begins_four_cycles_after_the_flag) {
   b.write("T1CON", 0x8000, 0);
   const Cycle flag = 1 + 99 + 1;
   EXPECT_EQ(b.chip.next_event(10), flag + 1);
-  EXPECT_EQ(b.chip.pending(flag), dspic::kNoVector);
-  EXPECT_EQ(b.chip.pending(flag + 1), vector(irq::T1));
-  const auto entry = b.chip.enter_interrupt(vector(irq::T1), flag + 1);
+  EXPECT_EQ(b.chip.interrupts().pending(flag), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().pending(flag + 1), vector(irq::T1));
+  const auto entry = b.chip.interrupts().enter(vector(irq::T1), flag + 1);
   EXPECT_EQ(entry.first_instruction, flag + 4);
   EXPECT_EQ(entry.level, 4);
   EXPECT_EQ(entry.address, 0x1Au);
@@ -38,22 +38,23 @@ TEST_F(Interrupts, return_takes_three_cycles_and_one_instruction_runs_between_tw
   b.enable(irq::T2, 0);
   request(irq::T1, 10);
   request(irq::T2, 10);
-  ASSERT_EQ(b.chip.pending(20), vector(irq::T1));
-  b.chip.enter_interrupt(vector(irq::T1), 20);
-  EXPECT_EQ(b.chip.pending(30), dspic::kNoVector);  // same priority
+  ASSERT_EQ(b.chip.interrupts().pending(20), vector(irq::T1));
+  b.chip.interrupts().enter(vector(irq::T1), 20);
+  EXPECT_EQ(b.chip.interrupts().pending(30), dspic::kNoVector);  // same priority
   b.clear_flag(irq::T1, 30);
-  EXPECT_EQ(b.chip.return_from_interrupt(40), 43);
-  EXPECT_EQ(b.chip.pending(43), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().leave(40), 43);
+  EXPECT_EQ(b.chip.interrupts().pending(43), dspic::kNoVector);
   EXPECT_EQ(b.chip.next_event(43), 44);
-  EXPECT_EQ(b.chip.pending(44), vector(irq::T2));
+  EXPECT_EQ(b.chip.interrupts().pending(44), vector(irq::T2));
 }
 
 TEST_F(Interrupts, software_can_force_an_interrupt) {
   b.enable(irq::U1Rx, 0);
   request(irq::U1Rx, 100);
-  EXPECT_EQ(b.chip.pending(101), dspic::kNoVector);  // set from 101 on, seen from the boundary 102 on
+  EXPECT_EQ(b.chip.interrupts().pending(101),
+            dspic::kNoVector);  // set from 101 on, seen from the boundary 102 on
   EXPECT_EQ(b.chip.next_event(100), 102);
-  EXPECT_EQ(b.chip.pending(102), vector(irq::U1Rx));
+  EXPECT_EQ(b.chip.interrupts().pending(102), vector(irq::U1Rx));
 }
 
 TEST_F(Interrupts, higher_priority_nests_and_equal_priority_waits) {
@@ -62,17 +63,17 @@ TEST_F(Interrupts, higher_priority_nests_and_equal_priority_waits) {
   b.enable(irq::T1, 0);
   b.enable(irq::T2, 0);
   request(irq::T1, 10);
-  b.chip.enter_interrupt(vector(irq::T1), 12);
-  EXPECT_EQ(b.chip.cpu_level(), 2);
+  b.chip.interrupts().enter(vector(irq::T1), 12);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 2);
   request(irq::T2, 20);
-  EXPECT_EQ(b.chip.pending(22), vector(irq::T2));
-  b.chip.enter_interrupt(vector(irq::T2), 22);
-  EXPECT_EQ(b.chip.cpu_level(), 5);
-  EXPECT_EQ(b.chip.nesting(), 2);
-  b.chip.return_from_interrupt(40);
-  EXPECT_EQ(b.chip.cpu_level(), 2);
-  b.chip.return_from_interrupt(50);
-  EXPECT_EQ(b.chip.cpu_level(), 0);
+  EXPECT_EQ(b.chip.interrupts().pending(22), vector(irq::T2));
+  b.chip.interrupts().enter(vector(irq::T2), 22);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 5);
+  EXPECT_EQ(b.chip.interrupts().nesting(), 2);
+  b.chip.interrupts().leave(40);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 2);
+  b.chip.interrupts().leave(50);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 0);
 }
 
 TEST_F(Interrupts, among_equals_the_lower_vector_wins) {
@@ -80,15 +81,15 @@ TEST_F(Interrupts, among_equals_the_lower_vector_wins) {
     b.enable(i, 0);
     request(i, 5);
   }
-  EXPECT_EQ(b.chip.pending(10), vector(irq::Adc));
+  EXPECT_EQ(b.chip.interrupts().pending(10), vector(irq::Adc));
 }
 
 TEST_F(Interrupts, priority_zero_switches_a_source_off) {
   b.enable(irq::T1, 0);
   b.write("IPC0", 0x0444, 0);
   request(irq::T1, 5);
-  EXPECT_EQ(b.chip.pending(10), dspic::kNoVector);
-  EXPECT_FALSE(b.chip.wakes(10));
+  EXPECT_EQ(b.chip.interrupts().pending(10), dspic::kNoVector);
+  EXPECT_FALSE(b.chip.interrupts().wakes(10));
 }
 
 TEST_F(Interrupts, nstdis_runs_every_handler_at_level_7) {
@@ -97,21 +98,21 @@ TEST_F(Interrupts, nstdis_runs_every_handler_at_level_7) {
   b.enable(irq::T1, 0);
   b.enable(irq::T3, 0);
   request(irq::T1, 5);
-  EXPECT_EQ(b.chip.enter_interrupt(vector(irq::T1), 7).level, 7);
+  EXPECT_EQ(b.chip.interrupts().enter(vector(irq::T1), 7).level, 7);
   request(irq::T3, 10);
-  EXPECT_EQ(b.chip.pending(20), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().pending(20), dspic::kNoVector);
   b.write("SR", 0, 20);  // IPL is read-only
-  EXPECT_EQ(b.chip.cpu_level(), 7);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 7);
 }
 
 TEST_F(Interrupts, sr_ipl_masks_levels_up_to_its_own) {
   b.enable(irq::T1, 0);
   b.write("SR", 4 << 5, 0);
   request(irq::T1, 5);
-  EXPECT_EQ(b.chip.pending(10), dspic::kNoVector);
-  EXPECT_TRUE(b.chip.wakes(10));
+  EXPECT_EQ(b.chip.interrupts().pending(10), dspic::kNoVector);
+  EXPECT_TRUE(b.chip.interrupts().wakes(10));
   b.write("SR", 3 << 5, 11);
-  EXPECT_EQ(b.chip.pending(12), vector(irq::T1));
+  EXPECT_EQ(b.chip.interrupts().pending(12), vector(irq::T1));
   EXPECT_EQ(b.read("SR", 12), 3u << 5);
 }
 
@@ -119,14 +120,14 @@ TEST_F(Interrupts, sr_ipl_masks_levels_up_to_its_own) {
 TEST_F(Interrupts, disi_holds_priorities_below_7_for_count_plus_one_cycles) {
   b.enable(irq::T1, 0);
   b.write("IPC1", 0x7444, 0);
-  b.chip.disi(10, 100);
+  b.chip.interrupts().disi(10, 100);
   request(irq::T1, 101);
   EXPECT_EQ(b.read("DISICNT", 101), 10u);
   EXPECT_EQ(b.read("DISICNT", 110), 1u);
   EXPECT_EQ(b.read("INTCON2", 110) & 0x4000, 0x4000u);
-  EXPECT_EQ(b.chip.pending(110), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().pending(110), dspic::kNoVector);
   EXPECT_EQ(b.chip.next_event(103), 111);
-  EXPECT_EQ(b.chip.pending(111), vector(irq::T1));
+  EXPECT_EQ(b.chip.interrupts().pending(111), vector(irq::T1));
   EXPECT_EQ(b.read("INTCON2", 111) & 0x4000, 0u);
 }
 
@@ -134,21 +135,21 @@ TEST_F(Interrupts, disi_does_not_hold_priority_7_and_ends_when_the_count_is_writ
   b.write("IPC1", 0x7444, 0);  // T3 7
   b.enable(irq::T3, 0);
   b.enable(irq::T1, 0);
-  b.chip.disi(1000, 100);
+  b.chip.interrupts().disi(1000, 100);
   request(irq::T1, 110);
-  EXPECT_EQ(b.chip.pending(120), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().pending(120), dspic::kNoVector);
   request(irq::T3, 121);
-  EXPECT_EQ(b.chip.pending(125), vector(irq::T3));
+  EXPECT_EQ(b.chip.interrupts().pending(125), vector(irq::T3));
   b.clear_flag(irq::T3, 126);
   b.write("DISICNT", 0, 130);
-  EXPECT_EQ(b.chip.pending(131), vector(irq::T1));
+  EXPECT_EQ(b.chip.interrupts().pending(131), vector(irq::T1));
 }
 
 TEST_F(Interrupts, alternate_table_moves_the_vectors_by_0x80) {
   b.write("INTCON2", 0x8000, 0);
   b.enable(irq::T1, 0);
   request(irq::T1, 5);
-  EXPECT_EQ(b.chip.enter_interrupt(vector(irq::T1), 8).address, 0x9Au);
+  EXPECT_EQ(b.chip.interrupts().enter(vector(irq::T1), 8).address, 0x9Au);
 }
 
 TEST_F(Interrupts, flag_set_between_read_and_write_of_one_instruction_survives) {
@@ -167,41 +168,41 @@ TEST_F(Interrupts, priorities_read_back) {
   EXPECT_EQ(b.read("IPC10", 0), 0x0440u);
   b.write("IPC2", 0x6513, 1);
   EXPECT_EQ(b.read("IPC2", 2), 0x6513u);
-  EXPECT_EQ(b.chip.priority(vector(irq::Adc)), 6);
+  EXPECT_EQ(b.chip.interrupts().priority(vector(irq::Adc)), 6);
 }
 
 TEST_F(Interrupts, traps_stand_above_all_interrupts) {
   b.write("IPC0", 0x7444, 0);
   b.enable(irq::T1, 0);
   request(irq::T1, 5);
-  b.chip.raise_trap(dspic::Trap::MathError, 6);
-  EXPECT_EQ(b.chip.pending(8), 4);
-  const auto entry = b.chip.enter_interrupt(4, 8);
+  b.chip.interrupts().raise_trap(dspic::Trap::MathError, 6);
+  EXPECT_EQ(b.chip.interrupts().pending(8), 4);
+  const auto entry = b.chip.interrupts().enter(4, 8);
   EXPECT_EQ(entry.level, 11);
   EXPECT_EQ(entry.address, 0x0Cu);
   EXPECT_EQ(b.read("INTCON1", 9), 0x0010u);
   EXPECT_EQ(b.read("CORCON", 9) & 0x8, 0x8u);  // IPL3
-  EXPECT_EQ(b.chip.pending(20), dspic::kNoVector);
+  EXPECT_EQ(b.chip.interrupts().pending(20), dspic::kNoVector);
   b.clear("INTCON1", 0x10, 21);
-  b.chip.return_from_interrupt(30);
-  EXPECT_EQ(b.chip.pending(34), vector(irq::T1));
+  b.chip.interrupts().leave(30);
+  EXPECT_EQ(b.chip.interrupts().pending(34), vector(irq::T1));
 }
 
 TEST_F(Interrupts, trap_levels_are_14_13_12_11) {
   const int levels[] = {14, 13, 12, 11};
   for (int trap = 1; trap <= 4; ++trap) {
     Bench fresh;
-    fresh.chip.raise_trap(static_cast<dspic::Trap>(trap), 1);
-    ASSERT_EQ(fresh.chip.pending(2), trap);
-    EXPECT_EQ(fresh.chip.enter_interrupt(trap, 2).level, levels[trap - 1]);
+    fresh.chip.interrupts().raise_trap(static_cast<dspic::Trap>(trap), 1);
+    ASSERT_EQ(fresh.chip.interrupts().pending(2), trap);
+    EXPECT_EQ(fresh.chip.interrupts().enter(trap, 2).level, levels[trap - 1]);
   }
 }
 
 TEST_F(Interrupts, hard_trap_during_a_hard_trap_asks_for_a_reset) {
-  b.chip.raise_trap(dspic::Trap::AddressError, 5);
-  b.chip.enter_interrupt(2, 6);
+  b.chip.interrupts().raise_trap(dspic::Trap::AddressError, 5);
+  b.chip.interrupts().enter(2, 6);
   EXPECT_FALSE(b.chip.reset_due(7).has_value());
-  b.chip.raise_trap(dspic::Trap::AddressError, 8);
+  b.chip.interrupts().raise_trap(dspic::Trap::AddressError, 8);
   ASSERT_TRUE(b.chip.reset_due(9).has_value());
   b.chip.reset(*b.chip.reset_due(9), 9);
   EXPECT_EQ(b.read("RCON", 10) & 0x8000, 0x8000u);
@@ -238,8 +239,8 @@ TEST(LowerFlags, is_reading_and_writing_the_flags_in_one) {
     ASSERT_EQ(plain.chip.next_event(now), quick.chip.next_event(now)) << i;
   }
   for (int irq : {irq::T1, irq::T2}) {
-    EXPECT_GT(plain.chip.missed_interrupts(vector(irq)), 100);
-    EXPECT_EQ(plain.chip.missed_interrupts(vector(irq)), quick.chip.missed_interrupts(vector(irq)));
+    EXPECT_GT(plain.chip.interrupts().missed(vector(irq)), 100);
+    EXPECT_EQ(plain.chip.interrupts().missed(vector(irq)), quick.chip.interrupts().missed(vector(irq)));
   }
   EXPECT_GT(taken, 1000);
   EXPECT_LT(taken, 2000);  // a timer that has been missed hears of it
@@ -249,8 +250,8 @@ TEST_F(Interrupts, handler_that_never_clears_its_flag_is_named) {
   b.enable(irq::T2, 0);
   request(irq::T2, 5);
   for (int i = 0; i < 3; ++i) {
-    b.chip.enter_interrupt(vector(irq::T2), 10 + 20 * i);
-    b.chip.return_from_interrupt(20 + 20 * i);
+    b.chip.interrupts().enter(vector(irq::T2), 10 + 20 * i);
+    b.chip.interrupts().leave(20 + 20 * i);
   }
   ASSERT_EQ(b.notes.count(dspic::Cause::FlagNeverCleared), 1);
   EXPECT_EQ(b.notes.all[0].place, "T2");
@@ -261,14 +262,14 @@ TEST_F(Interrupts, handler_that_clears_its_flag_is_not) {
   b.enable(irq::T2, 0);
   for (int i = 0; i < 5; ++i) {
     request(irq::T2, 5 + 100 * i);
-    b.chip.enter_interrupt(vector(irq::T2), 10 + 100 * i);
+    b.chip.interrupts().enter(vector(irq::T2), 10 + 100 * i);
     b.clear_flag(irq::T2, 15 + 100 * i);
     request(irq::T2, 18 + 100 * i);  // at once again: an event of its own
-    b.chip.return_from_interrupt(20 + 100 * i);
+    b.chip.interrupts().leave(20 + 100 * i);
     b.clear_flag(irq::T2, 25 + 100 * i);
   }
   EXPECT_EQ(b.notes.count(dspic::Cause::FlagNeverCleared), 0);
-  EXPECT_EQ(b.chip.served_interrupts(vector(irq::T2)), 5);
+  EXPECT_EQ(b.chip.interrupts().served(vector(irq::T2)), 5);
 }
 
 TEST_F(Interrupts, names_follow_the_vendors) {

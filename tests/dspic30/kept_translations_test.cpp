@@ -36,7 +36,7 @@ routine: mov #0x0A00, w1
     b.cpu->set_translator(&translations);
     if (at_once) b.cpu->translate_all();
     EXPECT_TRUE(b.run_to("end"));
-    translated = b.cpu->translated();
+    translated = b.cpu->cpu().table().translated();
     const auto n = static_cast<unsigned>(rounds);
     EXPECT_EQ(b.word(0x0A00), n);
     EXPECT_EQ(b.w(4), 3 * n);

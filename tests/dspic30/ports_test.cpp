@@ -141,7 +141,7 @@ TEST(ExternalInterrupt, edges_while_the_flag_is_set_are_missed) {
   b.chip.outside_changed(0);
   b.enable(irq::Int1, 0);
   b.clear_flag(irq::Int1, 1450);  // edges at 1100, 1200, 1300, 1400
-  EXPECT_EQ(b.chip.missed_interrupts(dspic::kFirstIrqVector + irq::Int1), 4);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::Int1), 4);
   EXPECT_EQ(b.flag_rises(irq::Int1, 1451), 1502);
 }
 

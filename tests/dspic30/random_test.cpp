@@ -35,11 +35,11 @@ std::uint64_t wander(std::uint32_t seed, int peeks) {
         b.chip.write(address + draw(2), static_cast<std::uint16_t>(value), 8, now);
         break;
       case 2:
-        if (const int v = b.chip.pending(now); v >= 0) {
-          now = b.chip.enter_interrupt(v, now).first_instruction;
+        if (const int v = b.chip.interrupts().pending(now); v >= 0) {
+          now = b.chip.interrupts().enter(v, now).first_instruction;
           if (v >= dspic::kFirstIrqVector) b.clear_flag(v - dspic::kFirstIrqVector, now);
-        } else if (b.chip.nesting() > 0) {
-          now = b.chip.return_from_interrupt(now);
+        } else if (b.chip.interrupts().nesting() > 0) {
+          now = b.chip.interrupts().leave(now);
         }
         break;
       case 3: {
@@ -113,10 +113,10 @@ TEST(Random, next_event_is_never_late) {
       const unsigned address = std::begin(dspic::kSfrRows)[draw(registers)].address;
       if (address >= 0x84 && address < 0x94) continue;  // flags and enables
       b.chip.write(address, static_cast<std::uint16_t>(draw(0x10000)), 16, now);
-      const int before = b.chip.pending(now);
+      const int before = b.chip.interrupts().pending(now);
       const Cycle next = std::min(b.chip.next_event(now), now + 2000);
       for (Cycle t = now + 1; t < next; ++t)
-        ASSERT_EQ(b.chip.pending(t), before) << "seed " << seed << " at " << t;
+        ASSERT_EQ(b.chip.interrupts().pending(t), before) << "seed " << seed << " at " << t;
       now = next;
       b.write("IFS0", 0, now);
       b.write("IFS1", 0, now);

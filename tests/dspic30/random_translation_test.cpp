@@ -204,7 +204,7 @@ int compare(std::uint32_t seed, Programs kind = Programs::Any) {
       << "seed " << seed;
   EXPECT_EQ(one.resets, other.resets);
   EXPECT_EQ(one.notes.all.size(), other.notes.all.size());
-  return other.cpu->translated();
+  return other.cpu->cpu().table().translated();
 }
 
 unsigned programs(unsigned usual) {

@@ -38,14 +38,14 @@ TEST(Reset, peripherals_stop_and_registers_return) {
   b.write("T1CON", 0x8000, 0);
   b.enable(irq::T1, 0);
   b.write("TRISA", 0, 0);
-  b.chip.set_cpu_level(5, 0);
+  b.chip.interrupts().set_cpu_level(5, 0);
   b.chip.reset(ResetKind::Instruction, 100);
   EXPECT_EQ(b.read("PR1", 101), 0xFFFFu);
   EXPECT_EQ(b.read("T1CON", 101), 0u);
   EXPECT_EQ(b.read("IEC0", 101), 0u);
   EXPECT_EQ(b.read("IFS0", 5000), 0u);
   EXPECT_EQ(b.read("TRISA", 101), 0xF6C0u);
-  EXPECT_EQ(b.chip.cpu_level(), 0);
+  EXPECT_EQ(b.chip.interrupts().cpu_level(), 0);
   EXPECT_EQ(b.outside.driven.back().driven, 0);
 }
 

@@ -225,7 +225,7 @@ TEST(Timer, matches_that_find_their_flag_set_are_counted_as_missed) {
   b.write("PR1", 100, 0);
   b.write("T1CON", 0x8000, 0);
   b.clear_flag(irq::T1, 1050);
-  EXPECT_EQ(b.chip.missed_interrupts(dspic::kFirstIrqVector + irq::T1), 9);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::T1), 9);
   ASSERT_EQ(b.notes.count(dspic::Cause::MissedInterrupt), 1);
   EXPECT_EQ(b.flag_rises(irq::T1, 1051), 102 + 10 * 101);
 }

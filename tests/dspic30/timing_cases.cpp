@@ -116,21 +116,21 @@ Cycle entry() {
   b.write("T1CON", 0x8000, 0);
   const Cycle flag = b.flag_rises(irq::T1, 1);
   Cycle boundary = flag;
-  while (b.chip.pending(boundary) < 0) ++boundary;
-  return b.chip.enter_interrupt(dspic::kFirstIrqVector + irq::T1, boundary).first_instruction - flag;
+  while (b.chip.interrupts().pending(boundary) < 0) ++boundary;
+  return b.chip.interrupts().enter(dspic::kFirstIrqVector + irq::T1, boundary).first_instruction - flag;
 }
 
 Cycle leave() {
   Bench b;
-  b.chip.enter_interrupt(dspic::kFirstIrqVector + irq::T1, 10);
-  return b.chip.return_from_interrupt(50) - 50;
+  b.chip.interrupts().enter(dspic::kFirstIrqVector + irq::T1, 10);
+  return b.chip.interrupts().leave(50) - 50;
 }
 
 Cycle disi(unsigned count) {
   Bench b;
-  b.chip.disi(count, 100);
+  b.chip.interrupts().disi(count, 100);
   Cycle now = 100;
-  while (b.chip.disi_active(now)) ++now;
+  while (b.chip.interrupts().disi_active(now)) ++now;
   return now - 100;
 }
 

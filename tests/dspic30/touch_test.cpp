@@ -37,8 +37,8 @@ Outcome run_one(const std::vector<std::uint32_t>& words, const std::vector<std::
   for (int n = 0; n < 16; ++n) outcome.w.push_back(bench.w(n));
   outcome.sr = bench.cpu->sr();
   outcome.pc = bench.cpu->pc();
-  outcome.a = bench.cpu->accumulator(0);
-  outcome.b = bench.cpu->accumulator(1);
+  outcome.a = bench.cpu->cpu().acc[0];
+  outcome.b = bench.cpu->cpu().acc[1];
   outcome.now = bench.cpu->now();
   outcome.ram.assign(bench.cpu->ram(), bench.cpu->ram() + dspic::Processor::kRamBytes);
   return outcome;

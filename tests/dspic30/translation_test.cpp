@@ -58,7 +58,7 @@ table: .pword 0xAB0102
     EXPECT_EQ(b.cpu->now() - start, 100 * (13 + 1 + 1 + 1 + 1 + 1 + 2 + 1 + 1) - 1);
     EXPECT_EQ(b.w(8), 0x0102u);
     EXPECT_EQ(b.w(9), 3u);
-    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.cpu->cpu().table().translated() > 0, translated);
   }
 }
 
@@ -142,7 +142,7 @@ function: inc w1, w1
 __StackError: bra __StackError)",
                 {}, translated);
     EXPECT_TRUE(b.run_to("__StackError", 10000));
-    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.cpu->cpu().table().translated() > 0, translated);
     EXPECT_EQ(b.w(1), 100u);
     EXPECT_EQ(b.w(2), 50u);
     EXPECT_EQ(b.w(3), 100u);
@@ -294,7 +294,7 @@ __T1Interrupt: bclr IFS0, #T1IF
     ASSERT_EQ(ready.cpu->now(), plain.cpu->now());
     ASSERT_EQ(ready.cpu->idle(end), plain.cpu->idle(end)) << end;
   }
-  EXPECT_GT(ready.cpu->translated(), 0);
+  EXPECT_GT(ready.cpu->cpu().table().translated(), 0);
 }
 
 // what the host serves is read in the middle, words and bytes, at the same cycles
@@ -443,7 +443,7 @@ TEST(Translation, short_loops_are_translated) {
   CoreBench b("__reset: mov #5000, w0\n1: dec w0, w0\n bra nz, 1b\nend: bra end");
   b.run(2 + 1 + 5000 * 3 - 1);
   EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
-  EXPECT_EQ(b.cpu->translated(), 1);
+  EXPECT_EQ(b.cpu->cpu().table().translated(), 1);
 }
 
 // a FIR loop as people write it: its first word reads through a modulo pointer, so the stretch that begins
@@ -479,7 +479,7 @@ end: bra end)",
     ASSERT_EQ(b.cpu->pc(), b.symbol("end"));
     EXPECT_EQ(b.w(2), 250u * 10 + 1000 * 1);
     EXPECT_EQ(b.w(8), 0x900u);
-    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.cpu->cpu().table().translated() > 0, translated);
   }
 }
 
@@ -511,7 +511,7 @@ end: bra end)",
     EXPECT_EQ(b.w(1), 1000u);
     EXPECT_EQ(b.w(2), 1000u);
     EXPECT_EQ(b.w(3), 0u);
-    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.cpu->cpu().table().translated() > 0, translated);
   }
 }
 
@@ -536,7 +536,7 @@ TEST(Translation, what_handlers_save_keeps_the_bits_that_exist) {
 end: bra end)",
                 {}, translated);
     b.run_to("end");
-    EXPECT_EQ(b.cpu->translated() > 0, translated);
+    EXPECT_EQ(b.cpu->cpu().table().translated() > 0, translated);
     EXPECT_EQ(b.w(1), 0x00FF);
     EXPECT_EQ(b.w(2), 0x00FF);
     EXPECT_EQ(b.w(3), 0x3FFF);
@@ -578,7 +578,7 @@ routine: mov #1, w5
     inc w4, w4
     return)");
   b.run(400);
-  EXPECT_GE(b.cpu->translated(), 2);  // the routine, and the loop around it
+  EXPECT_GE(b.cpu->cpu().table().translated(), 2);  // the routine, and the loop around it
   b.run(100000);
   EXPECT_EQ(b.cpu->pc(), b.symbol("end"));
   EXPECT_EQ(b.w(4), 100u);
@@ -598,7 +598,7 @@ TEST(Translation, goes_on_behind_a_long_stretch) {
     EXPECT_EQ(b->cpu->pc(), b->symbol("__reset") + 2);
     EXPECT_EQ(b->w(10), 1u);
   }
-  EXPECT_GE(translated.cpu->translated(), 3);
+  EXPECT_GE(translated.cpu->cpu().table().translated(), 3);
 }
 
 }  // namespace

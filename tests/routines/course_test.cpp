@@ -100,7 +100,7 @@ TEST(Course, is_the_same_by_heart_whatever_interrupts_come) {
     ASSERT_EQ(by_heart.cpu->state_hash(), plain.cpu->state_hash()) << "at " << until;
     ASSERT_EQ(by_heart.device->state_hash(until), plain.device->state_hash(until)) << "at " << until;
   }
-  EXPECT_GT(by_heart.device->served_interrupts(dspic::kFirstIrqVector + dspic::irq::T1), 1900);
+  EXPECT_GT(by_heart.device->interrupts().served(dspic::kFirstIrqVector + dspic::irq::T1), 1900);
 }
 
 TEST(Course, does_not_depend_on_windows) {
@@ -282,13 +282,13 @@ TEST(KnownCalls, are_forgotten_with_the_flash) {
   program.cpu().know(dspic::known_calls(program.functions(), program.program()));
   program.cpu().choose_code();
   const unsigned address = program.address_of("__divsi3");
-  EXPECT_TRUE(program.cpu().known_at(address));
+  EXPECT_TRUE(program.cpu().table().known_at(address));
   program.cpu().forget_code();  // decoded anew, and known as before
   program.cpu().choose_code();
-  EXPECT_TRUE(program.cpu().known_at(address));
+  EXPECT_TRUE(program.cpu().table().known_at(address));
   program.cpu().program.erase_row(0x17000);
   program.cpu().choose_code();
-  EXPECT_FALSE(program.cpu().known_at(address));
+  EXPECT_FALSE(program.cpu().table().known_at(address));
 }
 
 }  // namespace

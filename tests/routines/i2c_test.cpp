@@ -125,7 +125,7 @@ TEST(I2cByHeart, is_the_same_on_the_bus_and_in_the_program) {
     EXPECT_EQ(by_heart.outside.i2c, plain.outside.i2c);
     EXPECT_EQ(by_heart.outside.i2c_at, plain.outside.i2c_at);
     constexpr int kVector = dspic::kFirstIrqVector + dspic::irq::MasterI2c;
-    EXPECT_EQ(by_heart.device->served_interrupts(kVector), plain.device->served_interrupts(kVector));
+    EXPECT_EQ(by_heart.device->interrupts().served(kVector), plain.device->interrupts().served(kVector));
     EXPECT_EQ(by_heart.cpu->idle(kEnd), plain.cpu->idle(kEnd));
     // 4 of 5 primitives are over before the timer's next handler, and before the window's end
     const unsigned turns = plain.word(file, "turns");

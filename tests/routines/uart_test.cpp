@@ -127,8 +127,8 @@ TEST(UartByHeart, is_the_same_on_the_line_and_in_the_program) {
       ASSERT_TRUE(is_same(by_heart.outside.sent[i], plain.outside.sent[i])) << i;
     constexpr int kIrqs[] = {dspic::irq::U1Tx, dspic::irq::U1Rx, dspic::irq::U2Tx};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t served = plain.device->served_interrupts(dspic::kFirstIrqVector + kIrqs[i]);
-      EXPECT_EQ(by_heart.device->served_interrupts(dspic::kFirstIrqVector + kIrqs[i]), served);
+      const std::int64_t served = plain.device->interrupts().served(dspic::kFirstIrqVector + kIrqs[i]);
+      EXPECT_EQ(by_heart.device->interrupts().served(dspic::kFirstIrqVector + kIrqs[i]), served);
       EXPECT_GT(answers[i], served / 2) << i << " of " << served;
     }
     EXPECT_EQ(by_heart.cpu->idle(kEnd), plain.cpu->idle(kEnd));

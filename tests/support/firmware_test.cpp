@@ -115,6 +115,10 @@ double Robot::battery_v() const { return mind().board().power().battery().voltag
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
 }
+SerialEnd& Robot::uart(int port) {
+  test_->twin();
+  return serial_[port - 1];
+}
 
 // --- SerialEnd
 
@@ -234,7 +238,7 @@ void FirmwareTest::start(const Caller& caller) {
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<MemoryEnd>();
-      SerialEnd& line = r->uart(port);
+      SerialEnd& line = r->serial_[port - 1];
       line.test_ = this;
       line.robot_ = r->index_;
       line.end_ = end.get();

@@ -79,7 +79,7 @@ class Robot {
   double cpu_load() const;      ///< share of cycles not spent waiting, 0 to 1
   std::int64_t cycles() const;  ///< instruction cycles since power-up
   /// The line of UART 1 or 2.
-  SerialEnd& uart(int port) { return serial_[port - 1]; }
+  SerialEnd& uart(int port);
   /// Lines that a program for Webots' interfaces wrote to the simulator's console so far.
   const std::vector<std::string>& console() const { return console_; }
   /// A virtual sensor, as a supervisor defines it.

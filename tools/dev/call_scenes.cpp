@@ -284,7 +284,7 @@ class Watch final : public chip::StepWatch {
     if (frame_since_ >= 0 && counter_ >= 0) note(counter_, counter_at_, t.counted);
     if (frame_since_ >= 0 && index_ >= 0) note(index_, index_at_, t.filed);
     if (step.entered == kAdc) {
-      flagged_at_ = runner_.device().flag_since(kAdc);
+      flagged_at_ = runner_.device().interrupts().flag_since(kAdc);
       counter_ = word(counter_at_);
       index_ = word(index_at_);
       frame_since_ = step.begin;

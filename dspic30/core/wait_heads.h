@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Where waits of one robot's program begin, and whether it stops there to look. A look that finds none makes
+// the next one rarer, for this head alone.
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "dspic30/core/decoded.h"
+#include "dspic30/memory/cycle.h"
+
+namespace dspic {
+
+class WaitHeads {
+ public:
+  bool has_any() const { return has_any_; }
+  bool has(const Decoded* d) const { return find(d) != nullptr; }
+  /// From now on one is here.
+  void add(const Decoded* d);
+  /// ... of words that begin there; none is known.
+  void reset(const Decoded* code) {
+    heads_ = {};
+    has_any_ = false;
+    code_ = code;
+  }
+  /// Does the program stop at this head, at that true time?
+  bool would_stop(const Decoded* d, Cycle when) const {
+    const Head* const head = find(d);
+    return head && !passes && !is_met && when >= std::max(from, head->from);
+  }
+  /// The program comes to it at that true time. False: it does not stop. What `passes` says is over.
+  bool is_due(const Decoded* d, Cycle when) const {
+    const Head* const head = find(d);
+    return head && when >= std::max(from, head->from);
+  }
+  /// The program has stopped at one; `deadline` was its deadline.
+  void meet(Cycle deadline) {
+    is_met = true;
+    kept_deadline = deadline;
+  }
+  /// A look from there at `now`, true time, found a wait, or none: then the program does not stop there for a
+  /// while, each time for longer.
+  void pause(const Decoded* d, bool is_wait, Cycle now);
+  /// A wait of that head has ended: how often before?
+  unsigned count_end(const Decoded* d) {
+    Head* const head = find(d);
+    return head ? head->ends++ : 0;
+  }
+
+  bool is_met = false;  ///< the program has stopped at one; kept_deadline was its deadline
+  bool passes = false;  ///< the one where it stands is passed
+  Cycle from = 0;       ///< true time from which on the program stops at any
+  Cycle kept_deadline = 0;
+
+ private:
+  static constexpr Cycle kFirstPause = 50;
+  struct Head {
+    std::ptrdiff_t place = -1;  // word of flash
+    Cycle from = 0;             // true time from which on the program stops there
+    Cycle pause = kFirstPause;
+    unsigned ends = 0;  // of its wait
+  };
+  static constexpr std::ptrdiff_t kMost = 32, kTried = 4;
+  /// One is at its place, or at one of the next.
+  Head& slot(std::ptrdiff_t place) { return heads_[static_cast<std::size_t>(place) % kMost]; }
+  Head* find(const Decoded* d) { return const_cast<Head*>(static_cast<const WaitHeads*>(this)->find(d)); }
+  const Head* find(const Decoded* d) const {
+    const std::ptrdiff_t place = d - code_;
+    for (std::ptrdiff_t i = 0; i < kTried; ++i)
+      if (const Head& head = heads_[static_cast<std::size_t>(place + i) % kMost]; head.place == place)
+        return &head;
+    return nullptr;
+  }
+
+  bool has_any_ = false;
+  const Decoded* code_ = nullptr;
+  std::array<Head, kMost> heads_;
+};
+
+}  // namespace dspic

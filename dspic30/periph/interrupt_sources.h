@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// The sources of interrupts: flags (IFS), enables (IEC) and priorities (IPC), a bit each in one word, and when
+// each flag was set last. Source: [chip C11].
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "dspic30/memory/cycle.h"
+#include "dspic30/periph/vectors.h"
+
+namespace dspic {
+
+class InterruptSources {
+ public:
+  bool flag(int irq) const { return (ifs_ >> irq & 1) != 0; }
+  bool enabled(int irq) const { return (iec_ >> irq & 1) != 0; }
+  std::uint64_t flags() const { return ifs_; }
+  std::uint64_t enabled_mask() const { return iec_; }
+  /// Flags that are set and enabled; of these, those whose priority is not 0.
+  std::uint64_t ready() const { return ifs_ & iec_; }
+  std::uint64_t waking() const { return ready() & ~at_priority_[0]; }
+  int priority(int irq) const { return priority_[static_cast<std::size_t>(irq)]; }
+  /// Sources of that priority, a bit each.
+  std::uint64_t at_priority(int priority) const { return at_priority_[static_cast<std::size_t>(priority)]; }
+  Cycle since(int irq) const { return since_[static_cast<std::size_t>(irq)]; }
+  /// Latest of since().
+  Cycle newest() const { return newest_; }
+  /// Of these flags, those that were set after `at`.
+  std::uint64_t younger_than(Cycle at, std::uint64_t flags) const {
+    std::uint64_t younger = 0;
+    for (; flags; flags &= flags - 1) {
+      const int i = __builtin_ctzll(flags);
+      if (since_[static_cast<std::size_t>(i)] > at) younger |= std::uint64_t{1} << i;
+    }
+    return younger;
+  }
+  /// When an enabled flag wakes the processor, whatever its priority: a cycle after it was set; kNever: none is
+  /// set.
+  Cycle wakes_at() const {
+    Cycle at = kNever;
+    for (std::uint64_t ready = waking(); ready; ready &= ready - 1)
+      at = std::min(at, since_[static_cast<std::size_t>(__builtin_ctzll(ready))] + 1);
+    return at;
+  }
+
+  // --- for the controller
+  void set(int irq, Cycle at) {
+    ifs_ |= std::uint64_t{1} << irq;
+    note_set(irq, at);
+  }
+  void note_set(int irq, Cycle at) {
+    since_[static_cast<std::size_t>(irq)] = at;
+    newest_ = std::max(newest_, at);
+  }
+  void set_flags(std::uint64_t flags) { ifs_ = flags; }
+  void enable(std::uint64_t mask) { iec_ = mask; }
+  void set_priority(int irq, int priority) {
+    auto& now = priority_[static_cast<std::size_t>(irq)];
+    at_priority_[now] &= ~(std::uint64_t{1} << irq);
+    now = static_cast<std::uint8_t>(priority);
+    at_priority_[now] |= std::uint64_t{1} << irq;
+  }
+  void reset(int priority, Cycle now) {
+    *this = InterruptSources{};
+    for (int i = 0; i < kIrqs; ++i) set_priority(i, priority);
+    since_.fill(now);
+  }
+
+ private:
+  std::uint64_t ifs_ = 0, iec_ = 0;
+  Cycle newest_ = -1;
+  std::array<std::uint64_t, 8> at_priority_{};  // bit i: IRQ i has this priority
+  std::array<std::uint8_t, kIrqs> priority_{};
+  std::array<Cycle, kIrqs> since_{};
+};
+
+/// A source that counts for itself while its flag is set hears when software clears it.
+class FlagListener {
+ public:
+  virtual ~FlagListener() = default;
+  virtual void flag_cleared(int irq, Cycle now) = 0;
+  /// INTCON2.INTxEP of this source was changed.
+  virtual void edge_chosen(int /*irq*/, Cycle /*now*/) {}
+};
+
+class FlagListeners {
+ public:
+  void listen(int irq, FlagListener& listener) {
+    listeners_[static_cast<std::size_t>(irq)] = &listener;
+    hear(irq, true);
+  }
+  /// Does it want to hear of it now? From listen() on it does.
+  void hear(int irq, bool wants) {
+    const std::uint64_t bit = std::uint64_t{1} << irq;
+    heard_ = wants ? heard_ | bit : heard_ & ~bit;
+  }
+  /// Bit i: IRQ i has a listener that wants to hear.
+  std::uint64_t heard() const { return heard_; }
+  FlagListener* of(int irq) const { return listeners_[static_cast<std::size_t>(irq)]; }
+
+ private:
+  std::uint64_t heard_ = 0;
+  std::array<FlagListener*, kIrqs> listeners_{};
+};
+
+/// Events that found their enabled flag still set, and handlers that began, since power-up.
+struct InterruptTally {
+  std::array<std::int64_t, kIrqs> missed{};
+  std::array<std::int64_t, kVectors> served{};
+};
+
+}  // namespace dspic
