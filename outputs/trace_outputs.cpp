@@ -199,7 +199,7 @@ void TraceOutputs::write_counters(sim::Clicks now) {
   for (Traced& t : traced_) {
     auto& mind = twin_.mind(t.robot);
     if (const host::Runner* robot = mind.runner()) {
-      const host::Cycle lived = robot->lived_cycles() - t.counted_cycles;
+      const host::Cycle lived = robot->cycles() - t.counted_cycles;
       const host::Cycle idle = robot->idle_cycles() - t.counted_idle;
       t.counted_cycles += lived;
       t.counted_idle += idle;

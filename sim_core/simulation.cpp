@@ -179,12 +179,18 @@ void Simulation::gather_due(Clicks end) {
 /// Minds see only the frozen scene, so they may run side by side; each worker has a fixed
 /// share of the robots.
 void Simulation::run_minds(Clicks end) {
+  // The next one's memory is on its way while this one runs, and what names that memory a turn before.
+  const auto look_ahead = [this](auto at) {
+    if (due_.end() - at > 1) minds_[static_cast<std::size_t>(at[1])]->hot_memory().fetch();
+    if (due_.end() - at > 2) minds_[static_cast<std::size_t>(at[2])]->hot_memory().fetch_names();
+  };
   const auto run = [&](std::size_t first, std::size_t last) {
     const auto begin = std::lower_bound(due_.begin(), due_.end(), static_cast<int>(first));
     for (auto at = begin; at != due_.end() && *at < static_cast<int>(last); ++at) {
       const std::size_t r = static_cast<std::size_t>(*at);
       const bool runs = idle_until_[static_cast<std::size_t>(*at)] <= end;
       if (!runs && rims_until_[static_cast<std::size_t>(*at)] >= end) continue;
+      look_ahead(at);
       if (runs) {
         minds_[r]->run_until(*scene_, end);
         mind_hash_[r] = minds_[r]->state_hash();

@@ -67,15 +67,16 @@ class Asercom : public FirmwareTest {
   }
   Robot& started(int selector = 3) {
     Robot& robot = puck(selector);
-    EXPECT_TRUE(run_until([&] { return ends_with(robot.uart1_text(), kBanner); }, 5)) << robot.uart1_text();
+    EXPECT_TRUE(run_until([&] { return ends_with(robot.uart(1).text(), kBanner); }, 5))
+        << robot.uart(1).text();
     return robot;
   }
   /// What comes back within `wait_s` after these bytes were sent.
   std::string reply(const std::string& bytes, double wait_s = 0.1) {
-    const std::size_t before = puck_->uart1_text().size();
-    puck_->send_uart1(bytes);
+    const std::size_t before = puck_->uart(1).text().size();
+    puck_->uart(1).send(bytes);
     run_for(wait_s + static_cast<double>(bytes.size()) / 11520);
-    return puck_->uart1_text().substr(before);
+    return puck_->uart(1).text().substr(before);
   }
   static bool ends_with(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
@@ -89,7 +90,7 @@ class Asercom : public FirmwareTest {
 TEST_F(Asercom, begins_with_selector_and_banner_and_only_once_after_power_up) {
   Robot& robot = puck(3);
   run_for(3);
-  EXPECT_EQ(robot.uart1_text(), "Selector pos 3\r\n" + kBanner);
+  EXPECT_EQ(robot.uart(1).text(), "Selector pos 3\r\n" + kBanner);
   EXPECT_EQ(kBanner.size(), 88u);
   expect_no_traps();
 }
@@ -97,7 +98,7 @@ TEST_F(Asercom, begins_with_selector_and_banner_and_only_once_after_power_up) {
 TEST_F(Asercom, serves_bluetooth_in_every_position_but_ten) {
   Robot& robot = puck(0);
   run_for(3);
-  EXPECT_EQ(robot.uart1_text(), "Selector pos 0\r\n" + kBanner);
+  EXPECT_EQ(robot.uart(1).text(), "Selector pos 0\r\n" + kBanner);
   EXPECT_EQ(reply("C\r"), "c,0\r\n");
 }
 
@@ -524,10 +525,10 @@ TEST_F(Asercom, a_million_random_bytes_do_no_harm) {
   std::string noise;
   for (int i = 0; i < kBytes; ++i)
     noise += static_cast<char>(sim::random_bits(key, static_cast<std::uint64_t>(i)) & 255);
-  robot.send_uart1(noise);
+  robot.uart(1).send(noise);
   run_for(kBytes / 11520.0 + 1);
   run_for(8);  // a calibration or a bus scan that began last
-  robot.send_uart1(std::string(64, '\0') + "\r");
+  robot.uart(1).send(std::string(64, '\0') + "\r");
   run_for(8);
   EXPECT_EQ(reply("C\r", 0.5), "c,3\r\n");
   EXPECT_EQ(reply("D,100,-50\rE\r"), "d\r\ne,100,-50\r\n");
@@ -540,13 +541,13 @@ TEST_F(Asercom, a_million_random_bytes_do_no_harm) {
 TEST_F(Asercom, in_position_ten_the_turret_is_served_and_some_commands_are_not) {
   Robot& robot = puck(10);
   run_for(3);
-  EXPECT_EQ(robot.uart1_text(), "Selector pos 10\r\n");
-  EXPECT_EQ(robot.uart2_text(), kBanner);
+  EXPECT_EQ(robot.uart(1).text(), "Selector pos 10\r\n");
+  EXPECT_EQ(robot.uart(2).text(), kBanner);
   const auto ask = [&](const std::string& bytes) {
-    const std::size_t before = robot.uart2_text().size();
-    robot.send_uart2(bytes);
+    const std::size_t before = robot.uart(2).text().size();
+    robot.uart(2).send(bytes);
     run_for(0.2);
-    return robot.uart2_text().substr(before);
+    return robot.uart(2).text().substr(before);
   };
   EXPECT_EQ(ask("C\r"), "c,10\r\n");
   EXPECT_EQ(ask("D,100,50\rE\r"), "d\r\ne,100,50\r\n");
@@ -559,7 +560,7 @@ TEST_F(Asercom, in_position_ten_the_turret_is_served_and_some_commands_are_not) 
   EXPECT_EQ(ask(binary("N") + kEnd).size(), 20u);
   EXPECT_EQ(ask(binary("O") + kEnd).size(), 20u);
   EXPECT_EQ(ask(binary("IME") + kEnd), word(100) + word(50));
-  EXPECT_EQ(robot.uart1_text(), "Selector pos 10\r\n");
+  EXPECT_EQ(robot.uart(1).text(), "Selector pos 10\r\n");
 }
 
 }  // namespace

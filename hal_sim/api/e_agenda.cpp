@@ -27,7 +27,7 @@ HostLibrary::Function HostLibrary::function_at(const Cpu& cpu, std::uint16_t poi
 }
 
 Cycle HostLibrary::found_after(Function function, Cycle empty, Cycle missing, Cycle found, Cycle step) const {
-  const int passed = agendas().nodes_passed(function), nodes = agendas().nodes();
+  const int passed = agendas().list().passed(function), nodes = agendas().list().size();
   if (passed < nodes) return found + step * passed;
   return nodes == 0 ? empty : missing + step * (nodes - 1);
 }
@@ -66,9 +66,9 @@ HostResult HostLibrary::e_end_agendas_processing(const Call& call) {
 /// What activating takes.
 Cycle HostLibrary::activate(const Call& call, Function function, std::uint16_t cycle, Cycle at) {
   const CallCycles& c = cycles_;
-  if (agendas().has(function))
-    return c.activate_known + c.activate_known_step * agendas().nodes_passed(function);
-  const int nodes = agendas().nodes();
+  if (agendas().list().has(function))
+    return c.activate_known + c.activate_known_step * agendas().list().passed(function);
+  const int nodes = agendas().list().size();
   const NodeHeap::Search search = heap_.take(function);
   if (!search.found) {
     if (watch_) watch_->gives_up();
@@ -97,7 +97,7 @@ HostResult HostLibrary::e_destroy_agenda(const Call& call) {
   effect(call);
   const CallCycles& c = cycles_;
   const Function function = function_at(call.cpu, call.word(0));
-  const int passed = agendas().nodes_passed(function), nodes = agendas().nodes();
+  const int passed = agendas().list().passed(function), nodes = agendas().list().size();
   Cycle cost = 0;
   if (passed == nodes) {
     cost = cost_while_held(call, c.destroy_missing_tick_on, c.destroy_missing_edge_on);
@@ -105,8 +105,8 @@ HostResult HostLibrary::e_destroy_agenda(const Call& call) {
   } else {
     cost = cost_while_held(call, c.destroy_tick_on, c.destroy_edge_on);
     cost += passed == 0 ? c.destroy_first : c.destroy_second + c.destroy_step * (passed - 1);
-    if (agendas().running() == function) cost += c.destroy_running;
-    if (agendas().following() == function) cost += c.destroy_following;
+    if (agendas().list().running(agendas().ticks()) == function) cost += c.destroy_running;
+    if (agendas().list().following(agendas().ticks()) == function) cost += c.destroy_following;
     heap_.give_back(function);
   }
   const int result = agendas().destroy(function, call.at);

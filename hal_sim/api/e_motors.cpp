@@ -32,7 +32,7 @@ Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
                                              : (left ? c.left_backward : c.right_backward);
   cost += cost_of_set_cycle(key_of(run_of(wheel)));
   const Cycle then = at + cost - 2 * kReturnCycles;
-  agendas().set_speed(wheel, speed, at + kReturnCycles, then);
+  agendas().set_speed(wheel, speed, then, at + kReturnCycles);
   board_.pins().follow_motor(wheel, then);
   return cost;
 }
@@ -82,14 +82,14 @@ HostResult HostLibrary::e_init_motors(const Call& call) {
 // --- steps
 
 HostResult HostLibrary::get_steps(const Call& call, Wheel wheel, Cycle cost) {
-  call.cpu.note_look(agendas().steps_horizon(wheel, call.at));
-  call.give(static_cast<int>(agendas().commanded_steps(wheel, call.at) - zero_steps_[index_of(wheel)]));
+  call.cpu.note_look(agendas().motors().steps_horizon(wheel, call.at));
+  call.give(static_cast<int>(agendas().motors().commanded_steps(wheel, call.at) - zero_steps_[index_of(wheel)]));
   return HostResult::done(cost);
 }
 
 HostResult HostLibrary::set_steps(const Call& call, Wheel wheel, Cycle cost) {
   effect(call);
-  zero_steps_[index_of(wheel)] = agendas().commanded_steps(wheel, call.at) - call.number(0);
+  zero_steps_[index_of(wheel)] = agendas().motors().commanded_steps(wheel, call.at) - call.number(0);
   return HostResult::done(cost);
 }
 
@@ -111,7 +111,7 @@ HostResult HostLibrary::e_set_steps_right(const Call& call) {
 /// Setting the half's cycle, beside what the firing takes when no agenda runs and its own is the newest.
 Cycle HostLibrary::cost_of_half(Wheel wheel) const {
   const CallCycles& c = cycles_;
-  const Function own = key_of(run_of(wheel)), running = agendas().running();
+  const Function own = key_of(run_of(wheel)), running = agendas().list().running(agendas().ticks());
   if (running == own) return c.run_half_own;
   return (running ? c.run_half_other : 0) + cost_of_set_cycle(own) - c.set_cycle_found;
 }
@@ -120,14 +120,14 @@ HostResult HostLibrary::run_motor(const Call& call, Wheel wheel) {
   effect(call);
   const CallCycles& c = cycles_;
   const bool left = wheel == Wheel::Left;
-  const int speed = agendas().speed(wheel);
+  const int speed = agendas().motors().speed(wheel);
   const auto choose = [&](Cycle left_forward, Cycle left_backward, Cycle right_forward,
                           Cycle right_backward) {
     if (left) return speed > 0 ? left_forward : left_backward;
     return speed < 0 ? right_backward : right_forward;
   };
   Cycle cost = 0;
-  if (agendas().switches_off(wheel, call.at))
+  if (agendas().motors().switches_off(wheel, call.at))
     cost = choose(c.run_left_forward_off, c.run_left_backward_off, c.run_right_forward_off,
                   c.run_right_backward_off) +
            cost_of_half(wheel);

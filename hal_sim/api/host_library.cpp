@@ -100,7 +100,7 @@ void HostLibrary::effect(const Call& call) {
 /// How the two handlers are in each other's way may be other than before; a hair's breadth is not worth a
 /// look at all samples.
 void HostLibrary::follow_ticks(Cycle at) {
-  const Cycle round = rhythm_.round(agendas().tick_cycles()), old = scan().clock().full_round;
+  const Cycle round = rhythm_.round(agendas().shares().tick_cycles()), old = scan().clock().full_round;
   if (std::abs(round - old) > old / 1000) scan().set_round(round, at);
 }
 
@@ -154,11 +154,11 @@ int HostLibrary::vector(int handler) const {
 
 // while its functions run, a tick finds them running, and the handler begins anew
 Cycle HostLibrary::due() const {
-  return agendas().is_walking() ? agendas().tick_after(handler_began_) : agendas().next_interrupt();
+  return agendas().ticks().is_walking() ? agendas().ticks().after(handler_began_) : agendas().ticks().next_interrupt();
 }
 
 Cycle HostLibrary::source_event(int handler, Cycle after) const {
-  return handler == kAgendaHandler ? agendas().tick_after(after) : scan().clock().interrupt_after(after);
+  return handler == kAgendaHandler ? agendas().ticks().after(after) : scan().clock().interrupt_after(after);
 }
 
 Cycle HostLibrary::pending_cycles() const {
@@ -168,7 +168,7 @@ Cycle HostLibrary::pending_cycles() const {
 
 std::uint64_t HostLibrary::share_q32() const {
   std::uint64_t share = 0;
-  if (!(held_ >> kAgendaHandler & 1)) share += agendas().share_q32() - agendas().calling_share_q32();
+  if (!(held_ >> kAgendaHandler & 1)) share += agendas().shares().share_q32() - agendas().shares().calling_share_q32();
   if (!(held_ >> kScanHandler & 1)) share += variables_.share_q32();
   return share;
 }
@@ -192,9 +192,9 @@ HandlerStep HostLibrary::next_in_handler(Cycle at) {
   HandlerStep step;
   const Function function = agendas().next(step.divides_by_zero);
   step.cycles = agendas().take_walk_cost();
-  if (walk_begins_) step.cycles += agendas().nodes() == 0 ? cycles_.walk_empty : cycles_.walk_begin;
+  if (walk_begins_) step.cycles += agendas().list().size() == 0 ? cycles_.walk_empty : cycles_.walk_begin;
   // a walk that begins with no list has no end of its own
-  const bool is_empty = walk_begins_ && agendas().nodes() == 0;
+  const bool is_empty = walk_begins_ && agendas().list().size() == 0;
   walk_begins_ = false;
   step.function = address_of(function);
   if (function) step.cycles += kCallCycles;

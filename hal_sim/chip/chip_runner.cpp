@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <bitset>
 
+#include "dspic30/core/cpu.h"
+#include "dspic30/core/waits.h"
+#include "dspic30/device/chip_parts.h"
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/epuck_params.h"
 #include "hal_sim/chip/endless_wait.h"
@@ -142,6 +145,29 @@ void ChipRunner::program_eeprom() {
 }
 
 // --- time
+
+// Of parts that stand still their heads alone, which say so. (Found by a trace of memory: 120 of the robot's
+// 530 cache lines.)
+void ChipRunner::add_hot(sim::HotMemory& memory) const {
+  constexpr std::size_t kLine = sim::HotMemory::kLine;
+  const auto add = [&memory](const auto& part) { memory.add(&part, sizeof part); };
+  const dspic::Cpu& cpu = processor_->cpu();
+  const dspic::ChipParts& parts = device().parts();
+  add(*this);
+  add(*processor_);
+  memory.add(&cpu, static_cast<std::size_t>(cpu.ram.data() - reinterpret_cast<const std::uint8_t*>(&cpu)));
+  add(*cpu.waits);
+  add(*calls_);
+  memory.add(&parts.bus, kLine);
+  memory.add(&parts.events, 2 * kLine);
+  memory.add(&parts.interrupts, 5 * kLine);
+  memory.add(&parts.adc, kLine);
+  memory.add(&parts.dci, kLine);
+  memory.add(&parts.system, kLine);
+  if (!library_) return;
+  add(*library_);
+  add(library_->drivers());
+}
 
 /// Behind windows that it was idle for: there is nothing in them but time.
 void ChipRunner::catch_up(Cycle now) {
@@ -331,7 +357,7 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
             all.end());
   for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
-  return dated(std::move(all), board_.diagnoses(lived_cycles()));
+  return dated(std::move(all), board_.diagnoses(cycles()));
 }
 
 /// For what no code can set any more. A loop that looks at nothing is none, but the end of a program.

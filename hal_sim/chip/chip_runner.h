@@ -54,6 +54,7 @@ class ChipRunner final : public host::Runner,
     return !watches_.empty() && !processor_->is_asleep() ? 0 : idle_until_;
   }
   void pass_to(Cycle end) override;
+  void add_hot(sim::HotMemory& memory) const override;
   std::uint64_t turns() const override { return turns_; }
   void wake() override {
     idle_until_ = 0;
@@ -64,7 +65,6 @@ class ChipRunner final : public host::Runner,
   void begin_again() override;
 
   Cycle cycles() const override { return end_; }
-  Cycle lived_cycles() const override { return end_; }
   Cycle idle_cycles() const override { return processor_->idle(end_); }
   Cycle waiting_since() const override { return processor_->waiting_since(); }
   bool has_stopped() const override { return !has_clock_; }

@@ -18,8 +18,8 @@ Drivers::Drivers(board::Board& board)
 Drivers::~Drivers() { pins_.attach(nullptr); }
 
 std::optional<double> Drivers::coil_duty(Wheel wheel) const {
-  if (!agendas_.runs(wheel)) return std::nullopt;
-  const int magnitude = std::abs(agendas_.speed(wheel));
+  if (!agendas_.motors().runs(wheel)) return std::nullopt;
+  const int magnitude = std::abs(agendas_.motors().speed(wheel));
   if (magnitude >= kPowerSaveBelow) return 1;
   const int period = magnitude > 0 ? kSpeedUnit / magnitude : 0;
   return period > 0 ? std::min(1.0, static_cast<double>(kPowerSaveTicks) / period) : 0;

@@ -34,10 +34,18 @@ class Drivers final : public board::PinDriver {
   const AdcScan& scan() const { return scan_; }
 
   void bring_motor(Wheel wheel, Cycle at) override { agendas_.stepper(wheel, at); }
-  const Stepper& motor_at(Wheel wheel, Cycle at) const override { return agendas_.stepper_at(wheel, at); }
-  Cycle steps_horizon(Wheel wheel, Cycle at) const override { return agendas_.steps_horizon(wheel, at); }
-  Cycle coils_horizon(Wheel wheel, Cycle at) const override { return agendas_.coils_horizon(wheel, at); }
-  board::RotorCourse motor_course(Wheel wheel, Cycle at) const override { return agendas_.course(wheel, at); }
+  const Stepper& motor_at(Wheel wheel, Cycle at) const override {
+    return agendas_.motors().stepper_at(wheel, at);
+  }
+  Cycle steps_horizon(Wheel wheel, Cycle at) const override {
+    return agendas_.motors().steps_horizon(wheel, at);
+  }
+  Cycle coils_horizon(Wheel wheel, Cycle at) const override {
+    return agendas_.motors().coils_horizon(wheel, at);
+  }
+  board::RotorCourse motor_course(Wheel wheel, Cycle at) const override {
+    return agendas_.motors().course(wheel, at);
+  }
   std::optional<double> coil_duty(Wheel wheel) const override;
   unsigned pulses(Cycle at) const override { return scan_.pulses(at); }
   Cycle pulses_horizon(Cycle at) const override { return scan_.pulses_horizon(at); }

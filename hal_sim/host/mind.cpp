@@ -35,6 +35,10 @@ void FirmwareMind::begin_again(sim::Clicks at) {
 
 void FirmwareMind::power_up(const RunnerFactory& make_runner) {
   runner_ = make_runner(board_);
+  // of the board its first half
+  own_hot_memory().clear();
+  own_hot_memory().add(this, sizeof *this - sizeof board_ / 2);
+  runner_->add_hot(own_hot_memory());
   runner_->to_world_s = [this](Cycle at) { return sim::to_seconds(board_.clock().click_at(at)); };
 }
 

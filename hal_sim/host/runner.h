@@ -23,6 +23,7 @@
 #include "hal_sim/host/observer.h"
 #include "hal_sim/host/place.h"
 #include "hal_sim/host/program_data.h"
+#include "sim_core/base/hot_memory.h"
 
 namespace board {
 class Board;
@@ -88,6 +89,8 @@ class Runner {
   virtual void pass_to(Cycle end) = 0;
   /// Handlers that have returned since it was made; what drivers in closed form do is none.
   virtual std::int64_t interrupts_served() const = 0;
+  /// Adds what each run_until() looks at.
+  virtual void add_hot(sim::HotMemory& /*memory*/) const {}
   /// Grows whenever the program has run: what it knows and did is as it was until then.
   virtual std::uint64_t turns() const = 0;
   /// Something outside changed (a byte came in, the selector was turned): a wait looks again.
@@ -104,16 +107,13 @@ class Runner {
   // --- how it has gone
   /// End of the last window.
   virtual Cycle cycles() const = 0;
-  /// Cycles up to now, or up to where the program was stopped by a trap.
-  virtual Cycle lived_cycles() const = 0;
   /// Of these, cycles in which the processor only waited, a wait that still goes on included.
   virtual Cycle idle_cycles() const = 0;
   /// Since when the program has been in a wait that has not ended; kNever: it is in none.
   virtual Cycle waiting_since() const = 0;
   /// Share of its life in which it did anything but wait, 0 to 1.
   double cpu_load() const {
-    return lived_cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(lived_cycles())
-                              : 0;
+    return cycles() > 0 ? 1 - static_cast<double>(idle_cycles()) / static_cast<double>(cycles()) : 0;
   }
   /// A trap has stopped it for good, or until restart().
   virtual bool has_stopped() const = 0;

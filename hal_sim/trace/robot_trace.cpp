@@ -287,7 +287,7 @@ void RobotTrace::ended(Cycle at) {
 }
 
 void RobotTrace::finish(Cycle now) {
-  if (runner_) now = std::min(now, runner_->lived_cycles());
+  if (runner_) now = std::min(now, runner_->cycles());
   ended(now);
   if (!keeps_spans_) return;
   if (runner_ && runner_->waiting_since() < now) waited(runner_->waiting_since(), now, 0);

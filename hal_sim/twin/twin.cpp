@@ -16,6 +16,7 @@
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/chip/library_sources.h"
 #include "hal_sim/chip/oscillator.h"
+#include "hal_sim/twin/large_pages.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
@@ -289,6 +290,7 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   }
   if (problems.size() != problems_before) return nullptr;
 
+  const LargePages large_pages;
   std::unique_ptr<Twin> twin(new Twin(options));
   std::vector<std::unique_ptr<sim::RobotMind>> minds;
   for (std::size_t i = 0; i < world.robots.size(); ++i)

@@ -65,7 +65,6 @@ class ProgramRunner final : public host::Runner {
   std::uint64_t turns() const override { return turns_; }
   void restart() override;
   Cycle cycles() const override { return end_; }
-  Cycle lived_cycles() const override { return end_; }
   Cycle idle_cycles() const override { return end_; }
   Cycle waiting_since() const override { return board::kNever; }
   bool has_stopped() const override { return has_failed_; }

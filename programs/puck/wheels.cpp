@@ -62,13 +62,13 @@ void Wheels::set_position(int wheel, double rad, Cycle at) {
 }
 
 double Wheels::angle_rad(int wheel, Cycle at) const {
-  return static_cast<double>(agendas_.commanded_steps(wheel_of(wheel), at)) / kStepsPerRad;
+  return static_cast<double>(agendas_.motors().commanded_steps(wheel_of(wheel), at)) / kStepsPerRad;
 }
 
 void Wheels::approach(int wheel, Cycle at) {
   const Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
   if (w.is_free) return;
-  const std::int64_t missing = w.target_steps - agendas_.commanded_steps(wheel_of(wheel), at);
+  const std::int64_t missing = w.target_steps - agendas_.motors().commanded_steps(wheel_of(wheel), at);
   const int most = std::abs(steps_s(w.velocity_rad_s));
   const int speed = static_cast<int>(std::clamp<std::int64_t>(missing * kGain, -most, most));
   if (speed == w.command) return;

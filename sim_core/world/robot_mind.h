@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sim_core/base/clock.h"
+#include "sim_core/base/hot_memory.h"
 
 namespace sim {
 
@@ -66,6 +67,9 @@ class RobotMind {
   /// the world's digest.
   virtual std::uint64_t state_hash() const = 0;
 
+  /// What run_until() looks at each time, for whoever knows ahead whose turn is next.
+  const HotMemory& hot_memory() const { return hot_memory_; }
+
   /// Keeps idle_until in a slot of the simulation's, which looks at a thousand of them and touches no mind.
   void keep_idle_in(Clicks* slot) {
     *slot = *idle_until_;
@@ -80,8 +84,10 @@ class RobotMind {
   /// messages and state_hash() stay, and run_until() need not be called. Written at the end of run_until();
   /// 0 when something from outside reaches the robot.
   void set_idle_until(Clicks at) { *idle_until_ = at; }
+  HotMemory& own_hot_memory() { return hot_memory_; }
 
  private:
+  HotMemory hot_memory_;
   Clicks never_idle_ = 0;
   Clicks* idle_until_ = &never_idle_;
 };

@@ -102,10 +102,10 @@ TEST_F(AssembledPrograms, drives_straight_and_blinks) {
 TEST_F(AssembledPrograms, serial_line_speaks_and_listens) {
   Robot& robot = add_robot(hex(kHello));
   run_for(0.1);
-  EXPECT_EQ(robot.uart1_text(), "hello\r\n");
-  robot.send_uart1("HAL");
+  EXPECT_EQ(robot.uart(1).text(), "hello\r\n");
+  robot.uart(1).send("HAL");
   run_for(0.1);
-  EXPECT_EQ(robot.uart1_text(), "hello\r\nIBM");
+  EXPECT_EQ(robot.uart(1).text(), "hello\r\nIBM");
   expect_no_traps();
 }
 
@@ -121,7 +121,7 @@ TEST_F(AssembledPrograms, images_mix_and_threads_do_not_matter) {
         add_robot(hex(kHello), "talker").at(0.6, 0);
         run_for(0.5);
         EXPECT_GT(robot(0).distance_m(), 0.02);
-        EXPECT_EQ(robot(2).uart1_text(), "hello\r\n");
+        EXPECT_EQ(robot(2).uart(1).text(), "hello\r\n");
         return digest();
       }
     } mixed;

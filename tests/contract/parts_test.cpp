@@ -78,12 +78,12 @@ TEST_P(Parts, says_what_is_expected) {
   auto& robot = add_robot_with_source(source).selector(5);
   choose(way, robot);
   world.proximity.noise_scale = 0;
-  const auto ended = [&] { return robot.uart1_text().find("end\n") != std::string::npos; };
-  EXPECT_TRUE(run_until(ended, 10)) << robot.uart1_text();
+  const auto ended = [&] { return robot.uart(1).text().find("end\n") != std::string::npos; };
+  EXPECT_TRUE(run_until(ended, 10)) << robot.uart(1).text();
   const auto expected = lines_of(text_of(kParts / (part + ".txt")));
-  const auto said = lines_of(robot.uart1_text());
+  const auto said = lines_of(robot.uart(1).text());
   ASSERT_FALSE(expected.empty());
-  ASSERT_EQ(said.size(), expected.size()) << robot.uart1_text();
+  ASSERT_EQ(said.size(), expected.size()) << robot.uart(1).text();
   for (std::size_t i = 0; i < said.size(); ++i) {
     EXPECT_EQ(said[i].name, expected[i].name);
     EXPECT_LE(std::labs(said[i].value - expected[i].value), expected[i].tolerance)

@@ -39,7 +39,7 @@ struct Driven {
   }
   std::int64_t steps_in(Wheel wheel, int speed, double seconds) {
     timer.set_speed(wheel, speed, 0);
-    return timer.commanded_steps(wheel, static_cast<Cycle>(seconds * kSecond));
+    return timer.motors().commanded_steps(wheel, static_cast<Cycle>(seconds * kSecond));
   }
 };
 
@@ -49,11 +49,11 @@ TEST(AgendaMotors, a_step_by_hand_makes_its_node_count) {
   drivers::AgendaCosts costs;
   costs.list = 41, costs.resting = 13, costs.counts = 18, costs.motor_half = costs.motor_off = 96;
   d.timer.set_costs(costs);
-  const std::uint64_t share = d.timer.share_q32();
-  EXPECT_EQ(d.timer.tick_cycles(), 41 + 2 * 13);
+  const std::uint64_t share = d.timer.shares().share_q32();
+  EXPECT_EQ(d.timer.shares().tick_cycles(), 41 + 2 * 13);
   EXPECT_TRUE(d.timer.run_motor(Wheel::Left, 10));
-  EXPECT_EQ(d.timer.tick_cycles(), 41 + 13 + 18);
-  EXPECT_GT(d.timer.share_q32(), share);
+  EXPECT_EQ(d.timer.shares().tick_cycles(), 41 + 13 + 18);
+  EXPECT_GT(d.timer.shares().share_q32(), share);
 }
 
 // one second holds 9997 ticks (14745600 / 1475 = 9997.0); a wheel steps every 10000/|v| ticks
@@ -75,35 +75,35 @@ TEST(AgendaMotors, speeds_are_quantised_as_by_the_library) {
 TEST(AgendaMotors, seven_hundred_steps_every_fourteen_ticks) {
   Driven d;
   d.timer.set_speed(Wheel::Right, 700, 0);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick - 1), 0);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 14 * kTick), 1);
-  EXPECT_EQ(d.timer.steps_horizon(Wheel::Right, 14 * kTick), 28 * kTick);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick - 1), 1);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Right, 28 * kTick), 2);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Right, 14 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Right, 14 * kTick), 1);
+  EXPECT_EQ(d.timer.motors().steps_horizon(Wheel::Right, 14 * kTick), 28 * kTick);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Right, 28 * kTick - 1), 1);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Right, 28 * kTick), 2);
 }
 
 TEST(AgendaMotors, five_hundred_for_ten_seconds_makes_4998_steps) {
   Driven d;
   d.timer.set_speed(Wheel::Left, 500, 0);
   d.timer.set_speed(Wheel::Right, 500, 0);
-  EXPECT_NEAR(d.timer.commanded_steps(Wheel::Left, 10 * kSecond), 4998, 2);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 10 * kSecond).steps(),
-            d.timer.commanded_steps(Wheel::Right, 10 * kSecond));
+  EXPECT_NEAR(d.timer.motors().commanded_steps(Wheel::Left, 10 * kSecond), 4998, 2);
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Left, 10 * kSecond).steps(),
+            d.timer.motors().commanded_steps(Wheel::Right, 10 * kSecond));
 }
 
 // below 601 the coils are on for 15 ticks of each period, above all the time
 TEST(AgendaMotors, power_save_switches_the_coils_off_between_steps) {
   Driven d;
   d.timer.set_speed(Wheel::Right, 100, 0);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 100 * kTick - 1).coils(), 0u);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 100 * kTick).coils(), 0x6u);  // phase 1: B C
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 115 * kTick - 1).coils(), 0x6u);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 115 * kTick).coils(), 0u);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Right, 200 * kTick).coils(), 0x5u);  // phase 2: A C
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Right, 100 * kTick - 1).coils(), 0u);
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Right, 100 * kTick).coils(), 0x6u);  // phase 1: B C
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Right, 115 * kTick - 1).coils(), 0x6u);
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Right, 115 * kTick).coils(), 0u);
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Right, 200 * kTick).coils(), 0x5u);  // phase 2: A C
   d.timer.set_speed(Wheel::Left, 800, 200 * kTick);
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 212 * kTick).coils(),
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Left, 212 * kTick).coils(),
             0x9u);  // left forward: phase falls to 3, A D
-  EXPECT_EQ(d.timer.stepper_at(Wheel::Left, 223 * kTick).coils(), 0x9u);
+  EXPECT_EQ(d.timer.motors().stepper_at(Wheel::Left, 223 * kTick).coils(), 0x9u);
 }
 
 // quirk: each command overwrites the half-phase with the whole period, so both halves take one
@@ -111,12 +111,12 @@ TEST(AgendaMotors, setting_a_low_speed_again_and_again_halves_it) {
   Driven d;
   std::int64_t steps = 0;
   for (Cycle at = 0; at <= kSecond; at += 10 * kTick) d.timer.set_speed(Wheel::Left, 300, at);
-  steps = d.timer.commanded_steps(Wheel::Left, kSecond);
+  steps = d.timer.motors().commanded_steps(Wheel::Left, kSecond);
   EXPECT_NEAR(steps, 303 / 2, 2);
   // above the power-save limit nothing of the kind happens
   Driven fast;
   for (Cycle at = 0; at <= kSecond; at += 10 * kTick) fast.timer.set_speed(Wheel::Left, 700, at);
-  EXPECT_NEAR(fast.timer.commanded_steps(Wheel::Left, kSecond), 714, 1);
+  EXPECT_NEAR(fast.timer.motors().commanded_steps(Wheel::Left, kSecond), 714, 1);
 }
 
 TEST(AgendaMotors, counter_survives_a_stop) {
@@ -124,20 +124,20 @@ TEST(AgendaMotors, counter_survives_a_stop) {
   d.timer.set_speed(Wheel::Left, 100, 0);
   d.timer.set_speed(Wheel::Left, 0, 90 * kTick);  // 90 ticks counted, 10 to go
   d.timer.set_speed(Wheel::Left, 100, 5000 * kTick);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 5010 * kTick - 1), 0);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 5010 * kTick), 1);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 5010 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 5010 * kTick), 1);
 }
 
 TEST(AgendaMotors, a_pause_of_the_motor_agenda_stops_the_wheel) {
   Driven d;
   d.timer.set_speed(Wheel::Left, 1000, 0);
   EXPECT_EQ(d.timer.pause(&left_motor, 100 * kTick), 1);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, kSecond), 10);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, kSecond), 10);
   d.timer.restart(&left_motor, kSecond);
-  EXPECT_GT(d.timer.commanded_steps(Wheel::Left, 2 * kSecond), 1000);
+  EXPECT_GT(d.timer.motors().commanded_steps(Wheel::Left, 2 * kSecond), 1000);
   EXPECT_EQ(d.timer.destroy(&left_motor, 2 * kSecond), 1);
-  const std::int64_t steps = d.timer.commanded_steps(Wheel::Left, 2 * kSecond);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 3 * kSecond), steps);
+  const std::int64_t steps = d.timer.motors().commanded_steps(Wheel::Left, 2 * kSecond);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 3 * kSecond), steps);
   EXPECT_EQ(d.timer.set_cycle(&left_motor, 5, 3 * kSecond), 2);
 }
 
@@ -146,7 +146,7 @@ TEST(AgendaMotors, wheels_turn_smoothly_and_never_run_ahead) {
   d.timer.set_speed(Wheel::Right, 1000, 0);
   double last = 0;
   for (Cycle at = 0; at < kSecond / 10; at += 997) {
-    const board::Stepper motor = d.timer.stepper_at(Wheel::Right, at);
+    const board::Stepper motor = d.timer.motors().stepper_at(Wheel::Right, at);
     const double position = motor.position(at);
     EXPECT_GE(position, last);
     EXPECT_LE(position, static_cast<double>(motor.steps()));
@@ -162,13 +162,13 @@ TEST(AgendaMotors, wheels_turn_smoothly_and_never_run_ahead) {
 TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
   Driven d;
   d.timer.set_cycle(&left_motor, 5, 0);
-  EXPECT_EQ(d.timer.next_interrupt(), 5 * kTick);
+  EXPECT_EQ(d.timer.ticks().next_interrupt(), 5 * kTick);
   bool trap = false;
   d.timer.begin(5 * kTick);
   EXPECT_EQ(d.timer.next(trap), nullptr);
   EXPECT_FALSE(trap);
   d.timer.finish(5 * kTick);
-  EXPECT_EQ(d.timer.next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
+  EXPECT_EQ(d.timer.ticks().next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
   d.timer.begin(20 * kTick);
   d.timer.next(trap);
   EXPECT_TRUE(trap);
@@ -181,7 +181,7 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
   timer.activate(&user_b, 10, 0);
   EXPECT_EQ(timer.activate(&user_a, 3, 0), 1);  // already there: the new cycle is ignored
   timer.start(0);
-  EXPECT_EQ(timer.next_interrupt(), 10 * kTick);
+  EXPECT_EQ(timer.ticks().next_interrupt(), 10 * kTick);
   bool trap;
   timer.begin(10 * kTick);
   EXPECT_EQ(timer.next(trap), &user_b);
@@ -190,7 +190,7 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
   timer.finish(10 * kTick + 500);
   // 7 ticks counted; a cycle of 5 fires at the very next tick
   timer.set_cycle(&user_a, 5, 17 * kTick + 3);
-  EXPECT_EQ(timer.next_interrupt(), 18 * kTick);
+  EXPECT_EQ(timer.ticks().next_interrupt(), 18 * kTick);
 }
 
 TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
@@ -203,9 +203,9 @@ TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
   timer.next(trap);
   timer.next(trap);
   timer.finish(14 * kTick + 100);  // ticks 11 to 14 came: 11 is remembered and runs now, three are lost
-  EXPECT_EQ(timer.ticks_at(14 * kTick + 100), 11);
-  EXPECT_EQ(timer.ticks_at(15 * kTick), 12);
-  EXPECT_EQ(timer.next_interrupt(), 23 * kTick);
+  EXPECT_EQ(timer.ticks().at(14 * kTick + 100), 11);
+  EXPECT_EQ(timer.ticks().at(15 * kTick), 12);
+  EXPECT_EQ(timer.ticks().next_interrupt(), 23 * kTick);
 }
 
 // masked from the middle of tick 3 to that of tick 7: tick 4 is remembered and runs then, 5 to 7 are lost
@@ -213,20 +213,20 @@ TEST(Agendas, a_masked_handler_loses_ticks_but_one_is_remembered) {
   Driven d;
   d.timer.set_speed(Wheel::Left, 1000, 0);  // a step every 10 ticks
   d.timer.hold(3 * kTick + 700);
-  EXPECT_EQ(d.timer.ticks_at(7 * kTick), 3);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 100 * kTick), 0);
+  EXPECT_EQ(d.timer.ticks().at(7 * kTick), 3);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 100 * kTick), 0);
   d.timer.release(7 * kTick + 700);
-  EXPECT_EQ(d.timer.ticks_at(7 * kTick + 700), 4);
-  EXPECT_EQ(d.timer.ticks_at(8 * kTick), 5);
-  EXPECT_EQ(d.timer.lost_ticks(), 3);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 13 * kTick - 1), 0);
-  EXPECT_EQ(d.timer.commanded_steps(Wheel::Left, 13 * kTick), 1);
+  EXPECT_EQ(d.timer.ticks().at(7 * kTick + 700), 4);
+  EXPECT_EQ(d.timer.ticks().at(8 * kTick), 5);
+  EXPECT_EQ(d.timer.ticks().lost(), 3);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 13 * kTick - 1), 0);
+  EXPECT_EQ(d.timer.motors().commanded_steps(Wheel::Left, 13 * kTick), 1);
   // shorter than a tick: nothing is lost, and what came runs at the release
   d.timer.hold(14 * kTick - 10);
   d.timer.release(14 * kTick + 10);
-  EXPECT_EQ(d.timer.ticks_at(14 * kTick + 10), 11);
-  EXPECT_EQ(d.timer.ticks_at(15 * kTick), 12);
-  EXPECT_EQ(d.timer.lost_ticks(), 3);
+  EXPECT_EQ(d.timer.ticks().at(14 * kTick + 10), 11);
+  EXPECT_EQ(d.timer.ticks().at(15 * kTick), 12);
+  EXPECT_EQ(d.timer.ticks().lost(), 3);
 }
 
 TEST(Agendas, negative_cycles_are_huge) {
@@ -234,7 +234,7 @@ TEST(Agendas, negative_cycles_are_huge) {
   AgendaTimer timer{motors.left, motors.right};
   timer.activate(&user_a, -1, 0);
   timer.start(0);
-  EXPECT_EQ(timer.next_interrupt(), 65535 * kTick);
+  EXPECT_EQ(timer.ticks().next_interrupt(), 65535 * kTick);
 }
 
 // --- ticked == closed
@@ -398,8 +398,8 @@ class Twin {
 
   Cycle run_closed(Cycle until) {
     Cycle now = now_;
-    while (closed_.next_interrupt() <= std::max(until, now)) {
-      Cycle at = std::max(closed_.next_interrupt(), now);
+    while (closed_.ticks().next_interrupt() <= std::max(until, now)) {
+      Cycle at = std::max(closed_.ticks().next_interrupt(), now);
       closed_.begin(at);
       while (const void* f = closed_.next(trapped_)) {
         const int function = f == &user_a ? 0 : f == &user_b ? 1 : 2;
@@ -419,10 +419,10 @@ class Twin {
     ASSERT_EQ(closed_log_ == ticked_log_, true) << "callbacks differ at cycle " << now_;
     for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
       const ticked::Motor& want = wheel == Wheel::Left ? ticked_.left : ticked_.right;
-      const board::Stepper got = closed_.stepper_at(wheel, now_);
+      const board::Stepper got = closed_.motors().stepper_at(wheel, now_);
       ASSERT_EQ(got.steps(), want.stepper.steps()) << "cycle " << now_;
       ASSERT_EQ(got.coils(), want.stepper.coils()) << "cycle " << now_;
-      ASSERT_EQ(static_cast<std::int16_t>(closed_.commanded_steps(wheel, now_)), want.steps)
+      ASSERT_EQ(static_cast<std::int16_t>(closed_.motors().commanded_steps(wheel, now_)), want.steps)
           << "cycle " << now_;
       ASSERT_EQ(got.position(now_), want.stepper.position(now_)) << "cycle " << now_;
     }

@@ -71,11 +71,12 @@ TEST(Board, a_reset_stops_everything_and_keeps_the_wheels) {
   EXPECT_EQ(robot.scan().clock().interrupts(5 * kSecond), 0);
   robot.uart(1).exchange(5 * kSecond);
   EXPECT_EQ(sent, "");  // cut off
-  EXPECT_EQ(robot.agendas().next_interrupt(), board::kNever);
+  EXPECT_EQ(robot.agendas().ticks().next_interrupt(), board::kNever);
   // and it can be driven again; the driver's counter starts from 0
   drive(robot, 1000, 1000, 6 * kSecond);
   EXPECT_NEAR(static_cast<double>(robot.motors().left_steps(7 * kSecond) - left), 999, 3);
-  EXPECT_NEAR(static_cast<double>(robot.agendas().commanded_steps(Wheel::Left, 7 * kSecond)), 999, 1);
+  EXPECT_NEAR(static_cast<double>(robot.agendas().motors().commanded_steps(Wheel::Left, 7 * kSecond)), 999,
+              1);
 }
 
 TEST(Board, samples_are_taken_at_world_time) {

@@ -150,7 +150,7 @@ TEST(Injector, chance_has_a_seed_and_threads_change_nothing) {
     b.add("steps_lost share=0.2 at=0.1s");
     b.add("hot_light when='$beats > 20' for=0.2s");
     b.run_for(0.6);
-    return Outcome{b.digest(), b.puck(2).uart1_text(), b.faults().status(2).took_effect_s};
+    return Outcome{b.digest(), b.puck(2).uart(1).text(), b.faults().status(2).took_effect_s};
   };
   const Outcome one = run(1, 3), again = run(1, 3), four = run(4, 3), other = run(1, 4);
   EXPECT_EQ(one.digest, again.digest);

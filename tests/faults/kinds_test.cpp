@@ -111,7 +111,7 @@ std::vector<Row> of_lines() {
        [](Bench& with, Bench& without) {
          EXPECT_EQ(without.look("received"), 20);
          EXPECT_EQ(with.look("received"), 0);
-         EXPECT_GT(with.puck().uart1_text().size(), 1000u);
+         EXPECT_GT(with.puck().uart(1).text().size(), 1000u);
        }},
       {"bytes_garbled share=1 direction=rx", in_the_open,
        [](Bench& with, Bench& without) {
@@ -123,7 +123,7 @@ std::vector<Row> of_lines() {
        }},
       {"line_cut direction=tx", in_the_open,
        [](Bench& with, Bench& without) {
-         const std::string before = without.puck().uart1_text(), after = with.puck().uart1_text();
+         const std::string before = without.puck().uart(1).text(), after = with.puck().uart(1).text();
          EXPECT_NEAR(static_cast<double>(after.size()) / static_cast<double>(before.size()), 1.0 / 1.9, 0.1);
          EXPECT_EQ(with.look("received"), 20);
        }},
@@ -256,7 +256,7 @@ class Kinds : public ::testing::TestWithParam<std::size_t> {};
 /// Both get 20 bytes behind the fault's beginning.
 void run(Bench& b) {
   b.run_for(kBegins + 0.1);
-  b.puck().send_uart1("abcdefghijklmnopqrst");
+  b.puck().uart(1).send("abcdefghijklmnopqrst");
   b.run_for(kLooks - kBegins - 0.1);
 }
 

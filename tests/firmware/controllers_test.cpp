@@ -101,7 +101,8 @@ TEST_F(FirmwareTest, follow_wall_stays_at_the_wall_around_inner_corners) {
 TEST_F(FirmwareTest, selector_demo_drives_straight_in_position_2) {
   Robot& robot = add_robot("selector_demo").selector(2);
   run_for(2);
-  EXPECT_EQ(robot.uart1_text(), "selector 2\r\n");  // once, although the program starts twice after power-up
+  EXPECT_EQ(robot.uart(1).text(),
+            "selector 2\r\n");  // once, although the program starts twice after power-up
   EXPECT_GT(robot.x_m(), 0.05);
   EXPECT_NEAR(robot.y_m(), 0, 0.002);
 }
@@ -122,20 +123,20 @@ TEST_F(FirmwareTest, selector_demo_shows_other_positions_on_the_ring) {
 TEST_F(FirmwareTest, serial_echo_obeys_commands_and_returns_the_rest) {
   Robot& robot = add_robot("serial_echo").selector(7);
   run_for(0.2);
-  EXPECT_EQ(robot.uart1_text(), "serial_echo ready\r\n");
-  robot.send_uart1("hello\r\nC\rL,3,1\n");
+  EXPECT_EQ(robot.uart(1).text(), "serial_echo ready\r\n");
+  robot.uart(1).send("hello\r\nC\rL,3,1\n");
   run_for(0.1);
-  EXPECT_EQ(robot.uart1_text(), "serial_echo ready\r\nhello\r\nc,7\r\nl\r\n");
+  EXPECT_EQ(robot.uart(1).text(), "serial_echo ready\r\nhello\r\nc,7\r\nl\r\n");
   EXPECT_TRUE(robot.led(3));
-  robot.send_uart1("D,500,-500\r");
+  robot.uart(1).send("D,500,-500\r");
   run_for(1);
-  robot.send_uart1("D,0,0\rQ\r");
+  robot.uart(1).send("D,0,0\rQ\r");
   run_for(0.2);
   EXPECT_NEAR(robot.left_steps(), 500, 5);
   EXPECT_NEAR(robot.right_steps(), -500, 5);
   const std::string expected =
       "q," + std::to_string(robot.left_steps()) + "," + std::to_string(robot.right_steps()) + "\r\n";
-  EXPECT_NE(robot.uart1_text().find(expected), std::string::npos) << robot.uart1_text();
+  EXPECT_NE(robot.uart(1).text().find(expected), std::string::npos) << robot.uart(1).text();
   expect_no_traps();
 }
 
@@ -186,7 +187,7 @@ TEST_F(FirmwareTest, calls_without_argument_mean_what_they_meant_in_older_librar
       "  while (1);\n"
       "}\n");
   run_for(0.5);
-  EXPECT_EQ(robot.uart2_text(), "U");
+  EXPECT_EQ(robot.uart(2).text(), "U");
   expect_no_traps();
 }
 
@@ -222,10 +223,10 @@ TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {
       "  while (1);\n"
       "}\n");
   run_for(0.2);
-  EXPECT_EQ(robot.uart1_text(), std::string("I\4\0\1\0\xFE\xFF"
-                                            "EOF\0",
-                                            11));
-  robot.send_uart1(std::string("\4\0\x10\x27\xFF\x00", 6));
+  EXPECT_EQ(robot.uart(1).text(), std::string("I\4\0\1\0\xFE\xFF"
+                                              "EOF\0",
+                                              11));
+  robot.uart(1).send(std::string("\4\0\x10\x27\xFF\x00", 6));
   run_for(0.1);
   EXPECT_EQ(robot.variable("count"), 2);
   EXPECT_EQ(robot.variable<std::int32_t>("got"), 0x00FF2710);

@@ -84,13 +84,13 @@ class UploadTest : public chip_test::ChipTest {
       std::string out;
       for (const std::uint8_t b : bytes)
         if (const int byte = through(b); byte >= 0) out += static_cast<char>(byte);
-      robot.send_uart1(out);
+      robot.uart(1).send(out);
       return true;
     }
     std::optional<std::uint8_t> read(double seconds) override {
       const double end = now_s() + seconds;
       while (true) {
-        const std::string text = robot.uart1_text();
+        const std::string text = robot.uart(1).text();
         while (taken < text.size())
           if (const int byte = through(static_cast<std::uint8_t>(text[taken++])); byte >= 0)
             return static_cast<std::uint8_t>(byte);
@@ -104,7 +104,7 @@ class UploadTest : public chip_test::ChipTest {
     Robot& robot;
     double bad_share;
     std::mt19937 random;
-    std::size_t taken = robot.uart1_text().size();
+    std::size_t taken = robot.uart(1).text().size();
     int spoiled = 0, cut_after = 1 << 30;  // bytes
   };
 
@@ -145,11 +145,11 @@ TEST_F(UploadTest, a_program_is_written_read_back_and_drives) {
   EXPECT_EQ(result.state, State::Verified) << result.why;
   EXPECT_EQ(result.repeated, 0);
   EXPECT_TRUE(holds(plan('A')));
-  const std::size_t before = robot.uart1_text().size();
+  const std::size_t before = robot.uart(1).text().size();
   run_for(0.5);
   EXPECT_TRUE(robot.led(6)) << "the end of an upload lights LED 6";
   run_for(3);
-  EXPECT_EQ(robot.uart1_text().substr(before), "A");
+  EXPECT_EQ(robot.uart(1).text().substr(before), "A");
   EXPECT_GT(robot.distance_m(), 0.05);
   expect_no_traps();
 }
@@ -169,9 +169,9 @@ TEST_F(UploadTest, a_line_that_dies_leaves_no_half_program) {
     EXPECT_TRUE(result.state == State::Refused || result.state == State::Unknown) << bytes;
     EXPECT_EQ(result.why, "the serial line is gone");
     runner().restart();
-    const std::size_t before = robot.uart1_text().size();
+    const std::size_t before = robot.uart(1).text().size();
     run_for(3);
-    const std::string said = robot.uart1_text().substr(before);
+    const std::string said = robot.uart(1).text().substr(before);
     // cut off before the first frame was through, the robot has its old program, all of it
     if (bytes > 300 || !said.empty()) {
       EXPECT_EQ(said, bytes > 300 ? "" : "A") << "after " << bytes << " bytes";
@@ -206,9 +206,9 @@ TEST_F(UploadTest, bad_lines_are_repeated_until_all_is_right) {
       runner().restart();
     }
     // whatever runs now is whole
-    const std::size_t before = robot.uart1_text().size();
+    const std::size_t before = robot.uart(1).text().size();
     run_for(5);
-    const std::string said = robot.uart1_text().substr(before);
+    const std::string said = robot.uart(1).text().substr(before);
     if (result.state == State::Verified) {
       EXPECT_EQ(said, std::string(1, name));
     }
@@ -230,9 +230,9 @@ TEST_F(UploadTest, a_line_that_is_too_bad_is_refused_and_the_robot_waits) {
   EXPECT_NE(result.state, State::Verified);
   EXPECT_NE(result.state, State::Written);
   EXPECT_NE(result.why, "");
-  const std::size_t before = robot.uart1_text().size();
+  const std::size_t before = robot.uart(1).text().size();
   run_for(4);
-  EXPECT_EQ(robot.uart1_text().substr(before), "");
+  EXPECT_EQ(robot.uart(1).text().substr(before), "");
 }
 
 TEST_F(UploadTest, the_bootloader_keeps_its_own_rows) {
@@ -375,9 +375,9 @@ TEST_F(UploadTest, uploaders_that_people_have_write_our_hex_whole) {
         }
       EXPECT_EQ(wrong, 0);
       EXPECT_GT(words, is_linked ? 19000 : 100);
-      const std::size_t before = robot.uart1_text().size();
+      const std::size_t before = robot.uart(1).text().size();
       run_for(3);
-      EXPECT_EQ(robot.uart1_text().substr(before), std::string(1, name));
+      EXPECT_EQ(robot.uart(1).text().substr(before), std::string(1, name));
       // they need that record: without it half of the program is gone, or all
       const std::string cut = text.substr(text.find('\n') + 1);
       EXPECT_TRUE(drops ? OfPeople::read(cut, drops).halves[0].empty()

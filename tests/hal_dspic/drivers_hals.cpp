@@ -163,10 +163,10 @@ int main(void) {
 }
 )");
   run_for(0.5);
-  EXPECT_EQ(robot.uart1_text(), "hello, this is more than a FIFO\r\n");
-  robot.send_uart1("0123456789abcdefghijklmnopqrstuvwxyz");
+  EXPECT_EQ(robot.uart(1).text(), "hello, this is more than a FIFO\r\n");
+  robot.uart(1).send("0123456789abcdefghijklmnopqrstuvwxyz");
   run_for(0.1);
-  EXPECT_EQ(robot.uart2_text(), "0123456789abcdefghijklmnopqrstuvwxyz");
+  EXPECT_EQ(robot.uart(2).text(), "0123456789abcdefghijklmnopqrstuvwxyz");
   expect_no_traps();
 }
 

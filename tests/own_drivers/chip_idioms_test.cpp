@@ -23,8 +23,8 @@ int main(void)
 }
 )"));
   run_for(0.05);
-  EXPECT_EQ(robot.uart1_text(), "one 1\n");
-  EXPECT_EQ(robot.uart2_text(), "two 2\n");
+  EXPECT_EQ(robot.uart(1).text(), "one 1\n");
+  EXPECT_EQ(robot.uart(2).text(), "two 2\n");
   expect_no_traps();
 }
 
@@ -50,7 +50,7 @@ int main(void)
 }
 )"));
   run_for(0.05);
-  EXPECT_EQ(robot.uart1_text(), "1bc1!\n");
+  EXPECT_EQ(robot.uart(1).text(), "1bc1!\n");
   expect_no_traps();
 }
 

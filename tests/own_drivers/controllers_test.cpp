@@ -55,7 +55,7 @@ class Controllers : public ::testing::TestWithParam<Course> {
         seen.y_m = robot.y_m();
         seen.distance_m = robot.distance_m();
         seen.collisions = robot.collisions();
-        seen.sent = robot.uart1_text();
+        seen.sent = robot.uart(1).text();
         seen.diagnoses = robot.diagnoses_text();
         for (const auto& t : robot.traps())
           ADD_FAILURE() << chosen_hal << ": " << t.message << " at " << to_string(t.place);

@@ -221,7 +221,7 @@ class MutationTest : public OwnDrivers {
   Robot& run(const std::string& source, const Driver& driver) {
     Robot& robot = add_robot_with_source(program(source));
     run_for(0.05);
-    if (!driver.serial.empty()) robot.send_uart1(driver.serial);
+    if (!driver.serial.empty()) robot.uart(1).send(driver.serial);
     run_for(driver.seconds - 0.05);
     return robot;
   }

@@ -264,7 +264,7 @@ int main(void)
 )");
   run_for(1.25);
   EXPECT_EQ(robot.variable<std::uint8_t>("halves"), 2);
-  EXPECT_EQ(robot.uart1_text(), "hello tt");
+  EXPECT_EQ(robot.uart(1).text(), "hello tt");
   EXPECT_EQ(robot.variable<std::uint16_t>("con3"), 19);  // TAD = 20 halves of a cycle
   EXPECT_NEAR(robot.variable<std::uint16_t>("counts"), 2048, 10);
   expect_no_traps();

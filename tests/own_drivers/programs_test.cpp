@@ -128,9 +128,9 @@ int main(void)
 }
 )"));
   run_for(0.1);
-  robot.send_uart1("HAL 9000");
+  robot.uart(1).send("HAL 9000");
   run_for(0.1);
-  EXPECT_EQ(robot.uart1_text(), "IBM!:111");
+  EXPECT_EQ(robot.uart(1).text(), "IBM!:111");
   expect_no_traps();
 }
 
@@ -151,7 +151,7 @@ int main(void)
 }
 )"));
   run_for(0.5);
-  EXPECT_EQ(robot.uart1_text(), "count 42\r\n");
+  EXPECT_EQ(robot.uart(1).text(), "count 42\r\n");
   // ten characters, of which one goes to the shift register at once and four wait: five times 10 bits of
   // 16 x 96 cycles, in ticks of 256
   EXPECT_NEAR(robot.variable<std::int32_t>("after") - robot.variable<std::int32_t>("before"), 5 * 60, 12);

@@ -121,7 +121,7 @@ TEST_F(WebotsOnChip, the_lab_s_example_drives_as_in_its_worlds) {
   run_for(4.0);
   EXPECT_NEAR(r.left_steps() - left, 4.0 * 322.6, 15);
   EXPECT_NEAR(r.right_steps() - right, 4.0 * 256.4, 12);
-  EXPECT_EQ(r.uart1_text().substr(0, 2), "v=");  // its text goes to UART 1
+  EXPECT_EQ(r.uart(1).text().substr(0, 2), "v=");  // its text goes to UART 1
   expect_no_traps();
 }
 
@@ -147,7 +147,7 @@ TEST_F(WebotsOnChip, the_same_controller_has_the_settings_of_another_world) {
   wall(-0.2, -0.055, 0.2, -0.055);  // to its right, where ps2 of the product looks
   Robot& r = add_robot("e-puck");
   run_for(1);
-  const std::string text = r.uart1_text();
+  const std::string text = r.uart(1).text();
   const std::size_t last = text.rfind("v=", text.rfind('\n'));
   ASSERT_NE(last, std::string::npos) << text;
   EXPECT_GT(std::atoi(text.c_str() + last + 2), 512) << text;
@@ -290,9 +290,9 @@ TEST_F(WebotsOnChip, another_channel_is_not_heard) {
 TEST_F(WebotsOnChip, without_a_turret_it_says_so_and_goes_on) {
   Robot& r = add_robot_with_source(talk("1", "0"));
   run_for(1);
-  EXPECT_NE(r.uart1_text().find("Warning: wb_receiver_enable(): this robot carries no radio turret"),
+  EXPECT_NE(r.uart(1).text().find("Warning: wb_receiver_enable(): this robot carries no radio turret"),
             std::string::npos)
-      << r.uart1_text();
+      << r.uart(1).text();
   expect_no_traps();
 }
 
@@ -324,7 +324,7 @@ int main(void) {
              wb_light_sensor_get_value(l) > 1000, wb_microphone_get_sample_size(m));
 })");
   run_for(1.5);
-  const std::string text = r.uart1_text();
+  const std::string text = r.uart(1).text();
   EXPECT_NE(text.find("mode 1\n"), std::string::npos) << text;  // cross-compiled
   EXPECT_NE(text.find("Warning: wb_robot_get_device(): got device \"gps\""), std::string::npos) << text;
   EXPECT_NE(text.find("none 0\n"), std::string::npos) << text;

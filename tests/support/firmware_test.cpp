@@ -115,14 +115,17 @@ double Robot::battery_v() const { return mind().board().power().battery().voltag
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
 }
-std::string Robot::serial_text(int port) const {
-  test_->twin();
-  mind().board().exchange(mind().now());
-  return serial_[port - 1]->text();
+
+// --- SerialEnd
+
+std::string SerialEnd::text() const {
+  host::FirmwareMind& mind = test_->twin().mind(robot_);
+  mind.board().exchange(mind.now());
+  return end_->text();
 }
-void Robot::serial_send(int port, const std::string& bytes) {
-  test_->twin();
-  serial_[port - 1]->inject(bytes, mind().now());
+void SerialEnd::send(const std::string& bytes) {
+  host::FirmwareMind& mind = test_->twin().mind(robot_);
+  end_->inject(bytes, mind.now());
 }
 
 // --- FirmwareTest
@@ -231,7 +234,10 @@ void FirmwareTest::start(const Caller& caller) {
   for (auto& r : robots_)
     for (int port = r->keeps_bluetooth_ ? 2 : 1; port <= 2; ++port) {
       auto end = std::make_unique<MemoryEnd>();
-      r->serial_[port - 1] = end.get();
+      SerialEnd& line = r->uart(port);
+      line.test_ = this;
+      line.robot_ = r->index_;
+      line.end_ = end.get();
       end->wake = [mind = &r->mind()] { mind->wake(); };
       r->mind().board().uart(port).connect(std::move(end));
     }

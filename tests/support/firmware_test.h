@@ -37,6 +37,19 @@ struct Caller {
 
 using Cost = chip::CallCost;
 
+/// The test's end of a robot's serial line.
+class SerialEnd {
+ public:
+  std::string text() const;             ///< everything sent so far
+  void send(const std::string& bytes);  ///< arrives at the line's baud rate
+
+ private:
+  friend class FirmwareTest;
+  FirmwareTest* test_ = nullptr;
+  int robot_ = 0;
+  MemoryEnd* end_ = nullptr;  // the UART's
+};
+
 /// One robot of a test. Before the first run it collects settings; afterwards it answers questions.
 class Robot {
  public:
@@ -63,12 +76,10 @@ class Robot {
   int proximity(int sensor) const;     ///< what e_get_prox would give, counts
   int collisions() const;
   double longest_wall_touch_s() const;
-  double cpu_load() const;                                   ///< share of cycles not spent waiting, 0 to 1
-  std::int64_t cycles() const;                               ///< instruction cycles since power-up
-  std::string uart1_text() const { return serial_text(1); }  ///< everything sent so far
-  std::string uart2_text() const { return serial_text(2); }
-  void send_uart1(const std::string& bytes) { serial_send(1, bytes); }  ///< arrives at the line's baud rate
-  void send_uart2(const std::string& bytes) { serial_send(2, bytes); }
+  double cpu_load() const;      ///< share of cycles not spent waiting, 0 to 1
+  std::int64_t cycles() const;  ///< instruction cycles since power-up
+  /// The line of UART 1 or 2.
+  SerialEnd& uart(int port) { return serial_[port - 1]; }
   /// Lines that a program for Webots' interfaces wrote to the simulator's console so far.
   const std::vector<std::string>& console() const { return console_; }
   /// A virtual sensor, as a supervisor defines it.
@@ -110,13 +121,11 @@ class Robot {
   sim::Pose2 pose() const;
   host::FirmwareMind& mind() const;
   void copy_variable(const std::string& name, void* to, std::size_t bytes, const Caller& caller) const;
-  std::string serial_text(int port) const;
-  void serial_send(int port, const std::string& bytes);
 
   FirmwareTest* test_ = nullptr;
   int index_ = 0;
   sim::RobotDesc desc_;
-  MemoryEnd* serial_[2] = {nullptr, nullptr};
+  SerialEnd serial_[2];
   std::vector<std::string> console_;
   bool keeps_bluetooth_ = false, is_measured_ = false;
   std::shared_ptr<chip::Profile> profile_;
@@ -172,6 +181,7 @@ class FirmwareTest : public ::testing::Test {
 
  private:
   friend class Robot;
+  friend class SerialEnd;
   void start(const Caller& caller);
   void step();
 

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "hal_sim/drivers/agenda_shares.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace drivers {
+
+namespace {
+constexpr std::uint64_t kAllTicks = std::uint64_t{1} << 32;
+constexpr AgendaCosts kNoCosts;
+}  // namespace
+
+AgendaShares::AgendaShares(const AgendaTicks& ticks, const AgendaList& list, const AgendaMotors& motors)
+    : ticks_(ticks), list_(list), motors_(motors), costs_(&kNoCosts) {}
+
+/// Ticks that call a function, of all, as a fraction of 2^32. Several agendas that fire at the same tick make
+/// it one: the sum of all is too many by those that two share, which is too few by those that three share ...
+std::uint64_t AgendaShares::calling_ticks_q32() const {
+  constexpr std::size_t kMost = 8;  // beyond that they are taken to meet nowhere
+  struct Rhythm {
+    std::int64_t first, period;
+  };
+  std::vector<Rhythm> rhythms;
+  std::int64_t calling = 0;
+  // When each agenda fires first, and how often.
+  for (const AgendaList::Node& node : list_.nodes()) {
+    const AgendaCount& count = motors_.count_of(node);
+    if (!motors_.needs_handler(node) || !count.counts()) continue;
+    const bool runs = ticks_.is_calling() && node.serial == ticks_.walked();  // its counter will be 0
+    const std::int64_t first = count.tick + (runs ? count.cycle : count.ticks_to_fire());
+    if (rhythms.size() < kMost)
+      rhythms.push_back({first, count.cycle});
+    else
+      calling += static_cast<std::int64_t>(kAllTicks) / count.cycle;
+  }
+  constexpr std::int64_t kNeverMeet = 1 << 20;  // a minute and more
+  // For each choice of agendas: the ticks at which all of them fire, found by joining them one by one.
+  for (unsigned chosen = 1; chosen < 1u << rhythms.size(); ++chosen) {
+    Rhythm all{0, 0};
+    for (std::size_t i = 0; i < rhythms.size() && all.period < kNeverMeet; ++i) {
+      if (!(chosen >> i & 1)) continue;
+      Rhythm one = rhythms[i];
+      if (all.period == 0) {
+        all = one;
+        continue;
+      }
+      if (one.period > all.period) std::swap(one, all);
+      const std::int64_t common = std::gcd(all.period, one.period),
+                         together = all.period / common * one.period;
+      const bool meet = together < kNeverMeet && (one.first - all.first) % common == 0;
+      if (meet)
+        while ((all.first - one.first) % one.period != 0) all.first += all.period;
+      all.period = meet ? together : kNeverMeet;
+    }
+    if (all.period >= kNeverMeet) continue;
+    // counted in and out by turns (inclusion and exclusion)
+    const std::int64_t part = static_cast<std::int64_t>(kAllTicks) / all.period;
+    calling += __builtin_popcount(chosen) % 2 ? part : -part;
+  }
+  return static_cast<std::uint64_t>(
+      std::clamp<std::int64_t>(calling, 0, static_cast<std::int64_t>(kAllTicks)));
+}
+
+void AgendaShares::find() const {
+  const auto share = [](Cycle cycles, std::int64_t ticks) {
+    return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);
+  };
+  if (!(known_ & kTicks)) {
+    tick_cycles_ = list_.size() == 0 ? costs_->empty : costs_->list;
+    for (const AgendaList::Node& node : list_.nodes()) tick_cycles_ += cost_of(node);
+    tick_share_q32_ = share(tick_cycles_, 1);
+    calling_share_q32_ = tick_share_q32_ * (calling_ticks_q32() >> 8) / (kAllTicks >> 8);
+  }
+  for (std::size_t i = 0; i < 2; ++i)
+    if (const AgendaMotor& m = motors_.of(static_cast<board::Wheel>(i)); !(known_ >> i & 1))
+      motor_share_q32_[i] =
+          m.count.counts() && m.speed() != 0
+              ? share(m.saves_power() ? costs_->motor_half + costs_->motor_off : costs_->motor_step,
+                      m.full_period())
+              : 0;
+  known_ = kAll;
+}
+
+}  // namespace drivers
