@@ -2,7 +2,6 @@
 // Controllers whose Makefile says which files they are and where they look: Webots' and those of GNU make.
 #include <gtest/gtest.h>
 
-
 #include "compiler/projects/makefile_project.h"
 #include "tests/cc/bench.h"
 
