@@ -108,7 +108,8 @@ std::vector<std::string> names_of_rule(const std::string& rule) {
     char c = i < rule.size() ? rule[i] : ' ';
     if (c == '\\' && i + 1 < rule.size() && rule[i + 1] == '\n') {
       ++i;
-    } else if (c == '\\' && i + 1 < rule.size() && (rule[i + 1] == ' ' || rule[i + 1] == '#')) {
+    } else if ((c == '\\' && i + 1 < rule.size() && (rule[i + 1] == ' ' || rule[i + 1] == '#')) ||
+               (c == '$' && i + 1 < rule.size() && rule[i + 1] == '$')) {
       name += rule[++i];
     } else if (c == ' ' || c == '\n' || c == '\t') {
       if (!name.empty()) names.push_back(name);

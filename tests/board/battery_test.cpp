@@ -99,6 +99,8 @@ TEST(Power, leds_camera_and_codec_count_while_they_are_on) {
   robot.pins().write_bit('C', 13, true, 30);  // camera out of reset
   robot.pins().write_bit('F', 0, true, 30);   // codec on
   EXPECT_NEAR(robot.power().battery().amps(), kIdleA + 2 * 0.005 + 0.035 + 0.030 + 0.020, 1e-12);
+  robot.pins().write_bit('F', 7, true, 35);  // the first line of infra-red emitters
+  EXPECT_GT(robot.power().battery().amps(), kIdleA + 2 * 0.005 + 0.035 + 0.030 + 0.020 + 0.01);
   robot.processor_reset(40);
   EXPECT_NEAR(robot.power().battery().amps(), kIdleA, 1e-12);
 }

@@ -111,8 +111,12 @@ TEST_F(Lsm330Test, ranges_and_their_ends) {
   EXPECT_EQ(word(0xD4, 2, 2 * kSecond), 3274);
   set(0xD4, 0x23, 0x20, 2 * kSecond);  // 2000 deg/s: 70 mdps
   EXPECT_EQ(word(0xD4, 2, 3 * kSecond), 819);
-  set(0x3C, 0x24, 0x08, 3 * kSecond);  // +-4 g
-  EXPECT_EQ(word(0x3C, 2, 4 * kSecond), 8192);
+  // +-4, 6, 8 and 16 g: 0.122, 0.183, 0.244 and 0.732 mg
+  const int ranges[][2] = {{0x08, 8192}, {0x10, 5461}, {0x18, 4096}, {0x20, 1365}};
+  for (int i = 0; i < 4; ++i) {
+    set(0x3C, 0x24, ranges[i][0], 3 * kSecond + i * kSecond / 5);
+    EXPECT_EQ(word(0x3C, 2, 3 * kSecond + (i + 1) * kSecond / 5), ranges[i][1]) << i;
+  }
   set(0x3C, 0x24, 0x00, 4 * kSecond);
   scene.force_m_s2 = [](sim::Clicks) { return sim::Vec3{30, -30, 0}; };
   EXPECT_EQ(word(0x3C, 0, 5 * kSecond), 32767);

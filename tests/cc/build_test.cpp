@@ -7,16 +7,18 @@
 using namespace cc_test;
 
 TEST(build, a_changed_header_recompiles_who_includes_it) {
-  Folder folder;
-  folder.file("prog/speed.h", "#define SPEED 3\n");
-  folder.file("prog/other.c", "int other(void) { return 1; }");
-  const char* text =
-      "#include <stdio.h>\n#include \"speed.h\"\nint main(void) { printf(\"%d\", SPEED); return 0; }";
-  ASSERT_TRUE(build(folder, text).ok);
-  folder.file("prog/speed.h", "#define SPEED 4\n");
-  auto again = build(folder, text);
-  EXPECT_EQ(again.compiled, 1);
-  EXPECT_EQ(output_of(folder.image()), "4");
+  for (const std::string name : {"speed.h", "my speed.h", "a#b.h", "$x.h"}) {
+    Folder folder;
+    folder.file("prog/" + name, "#define SPEED 3\n");
+    folder.file("prog/other.c", "int other(void) { return 1; }");
+    const std::string text =
+        "#include <stdio.h>\n#include \"" + name + "\"\nint main(void) { printf(\"%d\", SPEED); return 0; }";
+    ASSERT_TRUE(build(folder, text).ok) << name;
+    folder.file("prog/" + name, "#define SPEED 4\n");
+    auto again = build(folder, text);
+    EXPECT_EQ(again.compiled, 1) << name;
+    EXPECT_EQ(output_of(folder.image()), "4") << name;
+  }
 }
 
 TEST(build, the_programs_own_function_replaces_the_librarys) {

@@ -35,6 +35,9 @@ TEST(libc, printf_formats_integers_of_the_robots_width) {
 TEST(libc, printf_formats_floats) {
   EXPECT_EQ(printed("printf(\"%f %.2f %8.3f|%-8.1f|%.0f\", 3.5, 2.345f, -1.5, 9.96, 2.5);"),
             "3.500000 2.35   -1.500|10.0    |2");
+  // exact halves go to the even digit
+  EXPECT_EQ(printed("printf(\"%.1f %.1f %.2f %.0f %.0f\", 0.25, 0.75, 0.125, 1.5, 0.5);"),
+            "0.2 0.8 0.12 2 0");
   EXPECT_EQ(printed("printf(\"%e %.2E %g %g %g %g\", 12345.0, 0.00123, 100000.0, 1000000.0, 0.0001, 0.5);"),
             "1.234500e+04 1.23E-03 100000 1e+06 0.0001 0.5");
   EXPECT_EQ(printed("printf(\"%f %g %e\", 0.0, 0.0, 0.0);"), "0.000000 0 0.000000e+00");
@@ -80,6 +83,11 @@ TEST(libc, numbers_are_converted) {
           "char *e; printf(\"%d %ld %ld %ld %s %.2f %d %ld\", atoi(\" -42x\"), atol(\"70000\"), "
           "strtol(\"0x1F\", 0, 0), strtol(\"777z\", &e, 8), e, atof(\"-1.25e1\"), abs(-5), labs(-70000L));"),
       "-42 70000 31 511 z -12.50 5 70000");
+  // what follows a number is left
+  EXPECT_EQ(
+      printed("char *e, *f, *g; double x = strtod(\"1e\", &e) + strtod(\"2.5e+z\", &f) + strtod(\".\", &g); "
+              "printf(\"%.1f %s %s %s\", x, e, f, g);"),
+      "3.5 e e+z .");
 }
 
 // the linker leaves 512 bytes for it

@@ -230,6 +230,21 @@ long bench_run(void) {
   _memcpy_p2d16(back, place, 8);
   return back[1] != 1001 || back[2] != -5 || back[3] != 1003;
 })"},
+    {"comparisons with 0 as values and as branches", R"(
+volatile long longs[9] = {-70000, -65536, -65535, -1, 0, 1, 65535, 65536, 70000};
+volatile long long wide[9] = {-70000, -65536, -65535, -1, 0, 1, 65535, 65536, 70000};
+volatile int ints[9] = {-30000, -256, -255, -1, 0, 1, 255, 256, 30000};
+volatile int is;
+#define IS(condition, wanted) is = condition; wrong += is != (wanted); is = 0; if (condition) is = 1; wrong += is != (wanted);
+#define ALL(x) IS(x > 0, i > 4) IS(x >= 0, i >= 4) IS(x < 0, i < 4) IS(x <= 0, i <= 4) IS(x == 0, i == 4) IS(x != 0, i != 4)
+long bench_run(void) {
+  int i, wrong = 0;
+  for (i = 0; i < 9; i++) {
+    ALL(longs[i]) ALL(wide[i]) ALL(ints[i])
+    IS(longs[i] > 65535, i > 6) IS(longs[i] < -65535, i < 2) IS((unsigned long)longs[i] > 65536, i > 7 || i < 4)
+  }
+  return wrong;
+})"},
     {"what the program defines takes the place of the libc's", R"(
 #include <stdlib.h>
 static int called;

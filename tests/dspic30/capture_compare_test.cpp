@@ -47,6 +47,17 @@ TEST(InputCapture, modes_choose_their_edges) {
   }
 }
 
+// every second edge; one of the mode before counts no longer
+TEST(InputCapture, interrupts_are_counted_anew_in_another_mode) {
+  Bench b;
+  b.outside.clock({Port::D, 8}, 1000, 500, 200, 6);
+  b.write("T2CON", 0x8000, 0);
+  b.write("IC1CON", 0x0083 | 1 << 5, 0);
+  b.chip.run_to(1100);
+  b.write("IC1CON", 0x0082 | 1 << 5, 1100);  // falling: 1200, 1700
+  EXPECT_EQ(b.flag_rises(irq::Ic1, 1101), 1701);
+}
+
 TEST(InputCapture, fifo_holds_four_and_then_overflows) {
   Bench b;
   b.outside.clock({Port::D, 8}, 1000, 500, 200, 6);

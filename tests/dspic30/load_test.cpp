@@ -63,6 +63,10 @@ TEST(Hex, a_record_runs_on_over_64_kilobytes_but_a_segment_wraps_round) {
   ASSERT_TRUE(dspic::load_firmware(":020000020000FC\n" + record, "x.hex", segment, error)) << error;
   EXPECT_EQ(segment.words,
             (std::map<std::uint32_t, std::uint32_t>{{0, 3}, {2, 4}, {0x7FFC, 1}, {0x7FFE, 2}}));
+  FirmwareFile both;
+  ASSERT_TRUE(dspic::load_firmware(":020000020000FC\n:020000040000FA\n" + record, "x.hex", both, error))
+      << error;
+  EXPECT_EQ(both.words, linear.words) << "the newer record counts";
 }
 
 TEST(Hex, what_is_wrong_is_named_with_its_line) {

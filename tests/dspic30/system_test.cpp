@@ -145,13 +145,17 @@ TEST_F(Eeprom, word_is_erased_and_written) {
   EXPECT_EQ(b.read("NVMCON", 5 + 29491) & 0x8000, 0u);
   EXPECT_EQ(b.chip.table_read(0x7FF004, 30000), 0x1234);
   EXPECT_LE(b.chip.stalled_until(), 30000);  // EEPROM does not hold the processor
+  // the latches are empty again: another word of the same latch is written with ones
+  b.write("NVMADR", 0xF044, 30001);
+  go(0x4004, 30002);
+  EXPECT_EQ(b.chip.table_read(0x7FF044, 60000), 0xFFFF);
   // programming clears bits only
-  b.chip.table_write(0x7FF004, 0xFF0F, 40000);
-  go(0x4004, 40001);
-  EXPECT_EQ(b.chip.table_read(0x7FF004, 80000), 0x1204);
-  b.write("NVMADR", 0xF004, 80001);
-  go(0x4044, 80002);
-  EXPECT_EQ(b.chip.table_read(0x7FF004, 120000), 0xFFFF);
+  b.chip.table_write(0x7FF004, 0xFF0F, 70000);
+  go(0x4004, 70001);
+  EXPECT_EQ(b.chip.table_read(0x7FF004, 110000), 0x1204);
+  b.write("NVMADR", 0xF004, 110001);
+  go(0x4044, 110002);
+  EXPECT_EQ(b.chip.table_read(0x7FF004, 150000), 0xFFFF);
 }
 
 TEST_F(Eeprom, row_of_sixteen_words) {

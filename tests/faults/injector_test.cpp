@@ -7,7 +7,8 @@ namespace {
 using faults_test::Bench;
 
 TEST(Injector, a_fault_that_nobody_felt_is_told) {
-  constexpr const char* kIdle = "#include <p30F6014A.h>\nint main(void) { for (;;); }";
+  constexpr const char* kIdle =
+      "#include <p30F6014A.h>\nvolatile int n = 5;\nint main(void) { n = 5; for (;;); }";
   // each of them on a robot that does nothing
   for (const char* kind : {"sensor_blocked",
                            "sensor_dead",
@@ -29,7 +30,8 @@ TEST(Injector, a_fault_that_nobody_felt_is_told) {
                            "bytes_sent bytes=hello",
                            "selector_turned position=0",
                            "robot_moved to=[0,0,0]",
-                           "pin_forced pin=G6 level=0"}) {
+                           "pin_forced pin=G6 level=0",
+                           "variable_set variable=n value=5"}) {
     Bench b(kIdle);
     b.add(std::string(kind) + " at=0.1s");  // tick 52 of 1/512 s
     b.run_for(0.5);

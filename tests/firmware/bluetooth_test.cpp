@@ -90,7 +90,7 @@ int main(void) {
 }
 
 const char* const kScanner = R"(
-int pucks, status, sent, done, i, k, paired, removed, left, released, after;
+int pucks, status, sent, done, i, k, paired, removed, left, released, after, again, forgotten;
 char own_pin[20], got[40];
 int main(void) {
   e_init_uart1();
@@ -113,6 +113,12 @@ int main(void) {
   released = e_bt_release_SPP_link();
   after = e_bt_release_SPP_link();
   done = 4;
+  pause(200);
+  e_bt_connect_epuck();
+  again = e_bt_list_local_paired_device();
+  e_bt_factory_reset();
+  forgotten = e_bt_list_local_paired_device();
+  done = 5;
   while (1);
 })";
 
@@ -158,6 +164,9 @@ TEST_F(BluetoothFirmware, one_scans_finds_connects_exchanges_and_releases) {
   run_for(0.1);
   EXPECT_FALSE(twin().bluetooth(0).is_linked());
   EXPECT_FALSE(twin().bluetooth(1).is_linked());
+  ASSERT_TRUE(run_until([&] { return a.variable("done") == 5; }, 15));
+  EXPECT_EQ(a.variable("again"), 1);
+  EXPECT_EQ(a.variable("forgotten"), 0) << "a factory reset forgets pairings";
   // the other side is told: indication, link released, two bytes, check 0x69 + 0x0E + 2, by the other, port 1
   const auto end = b.variables<char>("got", 18);
   EXPECT_EQ(std::string(end.begin() + 9, end.end()),

@@ -204,6 +204,27 @@ E-puck { }
   EXPECT_TRUE(r.made.report.empty() || !r.reports(0, {"RectangleArena"})) << r.all_reports();
 }
 
+TEST(Import, an_arena_that_is_turned_by_quarters_has_its_sides_exchanged) {
+  for (const auto& [turn, x_m] :
+       {std::pair{"1.5707963", 1.5}, {"-1.5707963", 1.5}, {"3.1415927", 2}, {"-4.712389", 1.5}}) {
+    const Result r = import(kNew + "RectangleArena { rotation 0 0 1 " + turn + " floorSize 2 1.5 }\n");
+    ASSERT_TRUE(r.world.arena) << turn;
+    EXPECT_NEAR(r.world.arena->size_m.x, x_m, 1e-9) << turn;
+    EXPECT_NEAR(r.world.arena->size_m.y, 3.5 - x_m, 1e-9) << turn;
+  }
+}
+
+// the floor is laid of pieces of at least a quarter of the largest; a plate that lies elsewhere is none
+TEST(Import, a_floor_is_the_rectangle_around_its_larger_pieces) {
+  const auto plate = [](const std::string& x, const std::string& side) {
+    return "Solid { translation " + x + " 0 -0.01 boundingObject Box { size " + side + " 0.8 0.02 } }\n";
+  };
+  const Result r =
+      import(kNew + plate("0", "0.8") + plate("0.6", "0.4") + plate("3", "0.1") + "E-puck { }\n");
+  ASSERT_TRUE(r.world.arena) << r.made.toml;
+  EXPECT_NEAR(r.world.arena->size_m.x, 1.2, 1e-6);
+}
+
 TEST(Import, an_arena_that_lies_askew_becomes_walls) {
   const Result r = import(kNew + "RectangleArena { rotation 0 0 1 0.5 floorSize 1 1 }\n");
   EXPECT_FALSE(r.world.arena);

@@ -104,6 +104,14 @@ TEST(ImportRobots, plain_nodes_that_are_an_e_puck_bring_their_sensors) {
   EXPECT_EQ(*r.sensors[0].proximity.rays, 4);
 }
 
+TEST(ImportRobots, a_world_has_one_unit_of_speed) {
+  const std::string wheels = "DifferentialWheels { axleLength 0.052 wheelRadius 0.0205 ";
+  const auto made = raw(kNew + wheels + "speedUnit 0.1 name \"a\" }\n" + wheels +
+                        "translation 1 0 0 speedUnit 0.2 name \"b\" }\n");
+  EXPECT_EQ(world_of(made).webots.speed_unit_rad_s, 0.1);
+  EXPECT_TRUE(reports(made, 3, "a second speedUnit"));
+}
+
 TEST(ImportRobots, other_robots_stand_there_and_supervisors_run) {
   const auto made = raw(kNew + R"(RectangleArena { floorSize 3 3 }
 Robot { translation 1 0 0.05 name "feeder" controller "food" boundingObject Box { size 0.1 0.1 0.1 } }

@@ -158,9 +158,8 @@ int main(void)
   expect_no_traps();
 }
 
-TEST_F(OwnDrivers, converter_sees_the_reflection_of_an_emitter_that_it_lights) {
-  Robot& robot = add_robot_with_source(program(R"(
-int dark, lit;
+// the converter by hand, and the first emitter
+const std::string kConverter = R"(
 static int convert(int channel)
 {
   ADCHS = channel;
@@ -170,7 +169,7 @@ static int convert(int channel)
   while (!ADCON1bits.DONE);
   return ADCBUF0;
 }
-int main(void)
+static void begin(void)
 {
   pulse_IR0_dir = OUTPUT_PIN;
   pulse_IR0 = 0;
@@ -180,6 +179,15 @@ int main(void)
   ADCON3 = 9;             /* TAD = 5 cycles */
   ADCSSL = 0;
   ADCON1bits.ADON = 1;
+}
+)";
+
+TEST_F(OwnDrivers, converter_sees_the_reflection_of_an_emitter_that_it_lights) {
+  Robot& robot = add_robot_with_source(program(kConverter + R"(
+int dark, lit;
+int main(void)
+{
+  begin();
   while (1) {
     int i;
     dark = convert(IR0);
@@ -203,28 +211,12 @@ int main(void)
 
 // noise belongs to the sample's instant: nothing here looks like a driver of the library
 TEST_F(OwnDrivers, a_driver_of_the_programs_own_finds_as_much_noise_as_the_world_has) {
-  Robot& robot = add_robot_with_source(program(R"(
+  Robot& robot = add_robot_with_source(program(kConverter + R"(
 #define SAMPLES 400
 int reflected[SAMPLES], forward[SAMPLES], right[SAMPLES], taken;
-static int convert(int channel)
-{
-  ADCHS = channel;
-  ADCON1bits.SAMP = 1;
-  { int i; for (i = 0; i < 40; i++) Nop(); }
-  ADCON1bits.SAMP = 0;
-  while (!ADCON1bits.DONE);
-  return ADCBUF0;
-}
 int main(void)
 {
-  pulse_IR0_dir = OUTPUT_PIN;
-  pulse_IR0 = 0;
-  ADPCFG = 0;
-  ADCON1 = 0;
-  ADCON2 = 0;
-  ADCON3 = 9;
-  ADCSSL = 0;
-  ADCON1bits.ADON = 1;
+  begin();
   while (taken < SAMPLES) {
     int i, dark = convert(IR0);
     pulse_IR0 = 1;

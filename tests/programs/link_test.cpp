@@ -66,6 +66,8 @@ TEST(Link, what_is_no_record_is_refused) {
   EXPECT_EQ(error_of({step, 32}, 16), "");
   EXPECT_EQ(error_of({step, 32}, 4), "got a packet that ends within a record");
   EXPECT_EQ(error_of({step, 32}, 8), "got a record that is longer than its packet");
+  EXPECT_EQ(error_of({std::uint64_t{12} << 32 | LINK_STEP, 32, 0}, 24),
+            "got a record that is longer than its packet");
   EXPECT_EQ(error_of({std::uint64_t{8} << 32 | 9999, 32}, 16),
             "got a record of a number that this version does not have");
   EXPECT_EQ(error_of({std::uint64_t{16} << 32 | LINK_STEP, 32, 0}, 24),

@@ -265,7 +265,11 @@ TEST_F(Supervisors, axes_of_older_worlds) {
     wb_supervisor_field_set_sf_rotation(field("PUCK", "rotation"), west);
     v = wb_supervisor_node_get_orientation(wb_supervisor_node_get_from_def("PUCK")); /* about y by 90 degrees: -z becomes -x */
     EXPECT(fabs(v[2] - 1) < 1e-9 && fabs(v[6] + 1) < 1e-9 && fabs(v[0]) < 1e-9);
+    const double speed[6] = {0.1, 0, 0.2, 0, 0, 0};
     wb_supervisor_field_set_sf_vec3f(field("BALL", "translation"), at);
+    wb_supervisor_node_set_velocity(wb_supervisor_node_get_from_def("BALL"), speed);
+    v = wb_supervisor_node_get_velocity(wb_supervisor_node_get_from_def("BALL"));
+    EXPECT(fabs(v[0] - 0.1) < 1e-9 && fabs(v[2] - 0.2) < 1e-9);
     wb_robot_step(16);
     EXPECT(fabs(place("BALL")[1] - 0.02) < 1e-3); /* not into the floor */)");
   expect_pass();

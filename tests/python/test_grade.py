@@ -222,13 +222,16 @@ def test_programs_see_no_files_but_their_own_and_no_network(tmp_path, command):
     (tests / "world.toml").write_text(WORLD)
     (tests / "test_a.py").write_text("def test_a(world, robot):\n    world.run(0.5)\n"
                                      "    assert any(line == 'seen []' for line in robot.console), robot.console\n"
-                                     "    import os\n    assert os.listdir(os.path.dirname(robot.program)) == ['spy']\n")
+                                     "    import os\n    assert os.listdir(os.path.dirname(robot.program)) == ['spy']\n"
+                                     "import pytest\n@pytest.mark.skip\ndef test_b():\n    pass\n")
     (mine / "spy.py").write_text(SPY.format(others=other, tests=tests, mine=mine, port=listening.getsockname()[1]))
     (other / "main.c").write_text("int main(void) { while (1) ; }")
     done = command("grade", tests, "--submissions", tmp_path / "class", "--junitxml", tmp_path / "g.xml")
     assert done.returncode == 0, done.stderr
-    assert re.search(r"^spy +pass +1$", done.stdout, re.M), messages(tmp_path, "spy")
+    assert re.search(r"^spy +pass .* 1$", done.stdout, re.M), messages(tmp_path, "spy")
     assert not (mine / "left_behind").exists()
+    suites = {s.get("name"): s for s in xml.etree.ElementTree.parse(tmp_path / "g.xml").iter("testsuite")}
+    assert (suites["spy"].get("tests"), suites["spy"].get("failures")) == ("2", "0"), "what is skipped has not failed"
     listening.close()
 
 

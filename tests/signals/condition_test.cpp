@@ -75,28 +75,35 @@ TEST_F(ConditionTest, it_is_looked_at_as_things_stand) {
 
 TEST_F(ConditionTest, what_is_no_condition_is_told) {
   const auto says = [&](const std::string& text, const std::string& what, int robot = 0) {
-    EXPECT_NE(refused(text, robot).find(what), std::string::npos) << text << ": " << refused(text, robot);
+    EXPECT_EQ(refused(text, robot), what) << text.substr(0, 20);
   };
-  says("", "got nothing, expected a condition");
+  says("", "got nothing, expected a condition such as x_m > 0.2 && led0");
   says("x_m = 3", "got '=', expected == to compare");
   says("x_m & led0", "got '&', expected &&");
-  says("x_m > 20mm", "got 'mm' behind a number");
-  says("xm > 0.2", "did you mean 'x_m'?");
-  says("abz(x_m) > 0.2", "did you mean 'abs'?");
-  says("epuck.x_m > 0", "got 'epuck', expected a robot; did you mean 'e-puck'?");
-  says("'epuck'.x_m > 0", "did you mean 'e-puck'?");
-  says("x_m > ", "got 'x_m > ', expected a condition such as");
-  says("(x_m > 1", "expected a condition such as");
-  says("x_m > 1, y_m", "without a comma");
-  says("x_m y_m", "y_m");
-  says("x_m > 1; 2", "got '; 2'");
+  says("x_m > 20mm", "got 'mm' behind a number, expected an operator; units are part of the names");
+  says("xm > 0.2",
+       "got 'xm', expected a signal; did you mean 'x_m'?; twinpuck list signals names them, $NAME is a "
+       "variable of the program");
+  says("abz(x_m) > 0.2",
+       "got 'abz(', expected a function: abs min max sqrt exp ln log10 sin cos tan asin acos atan atan2 sign "
+       "mod hypot floor ceil round; did you mean 'abs'?");
+  says("epuck.x_m > 0", "got 'epuck', expected a robot; did you mean 'e-puck'?; the robots are e-puck, b.2");
+  says("'epuck'.x_m > 0",
+       "got 'epuck', expected a robot; did you mean 'e-puck'?; the robots are e-puck, b.2");
+  says("x_m > ",
+       "got 'x_m > ', expected a condition such as x_m > 0.2 && led0: unexpected end of expression");
+  says("(x_m > 1", "got '(x_m > 1', expected a condition such as x_m > 0.2 && led0: missing parenthesis");
+  says("x_m > 1, y_m", "got 'x_m > 1, y_m', expected one condition, without a comma");
+  says("x_m y_m",
+       "got 'x_m y_m', expected a condition such as x_m > 0.2 && led0: unexpected variable \"y_m\" found");
+  says("x_m > 1; 2", "got '; 2', expected a condition of names, numbers and + - * / ^ < > == && || !");
   says("x_m > 0", "got 'x_m' without a robot, expected ROBOT.x_m; the robots are e-puck, b.2", -1);
-  says("$", "expected the name of a signal");
-  says("$(state", "got an open bracket");
-  says("$nothing == 1", "'nothing'");
-  says("b.2.$state == 1", "runs no program");
-  says(std::string(100, '(') + "1", "more than 60 brackets");
-  says(std::string(5000, '1'), "at most 4000");
+  says("$", "got '$', expected the name of a signal");
+  says("$(state", "got an open bracket, expected it closed");
+  says("$nothing == 1", "got 'nothing', expected a variable of the image that is known here");
+  says("b.2.$state == 1", "got a variable of a robot that runs no program");
+  says(std::string(100, '(') + "1", "got more than 60 brackets within one another");
+  says(std::string(5000, '1'), "got a condition of 5000 characters, expected at most 4000");
 }
 
 }  // namespace

@@ -115,14 +115,22 @@ TEST_F(SignalsTest, variables_are_c_and_pins_and_registers_are_the_chips) {
 TEST_F(SignalsTest, what_nothing_has_is_told_with_what_may_be_meant) {
   add_robot_with_source(kDriver, "e-puck");
   run_for(0.1);
-  EXPECT_NE(refused("x_n").find("got 'x_n', expected a signal; did you mean 'x_m'?"), std::string::npos);
-  EXPECT_NE(refused("led10").find("expected a signal"), std::string::npos);
-  EXPECT_NE(refused("x_m", -1).find("got 'x_m' without a robot, expected ROBOT.x_m; the robots are e-puck"),
-            std::string::npos);
-  EXPECT_NE(refused("$sate").find("'sate'"), std::string::npos);
-  EXPECT_NE(refused("$wheels").find("name a member"), std::string::npos);
-  EXPECT_NE(refused("pin(Q3)").find("such as D3"), std::string::npos);
-  EXPECT_NE(refused("reg(T2C0N)"), "");
+  const auto says = [&](const std::string& name, const std::string& what, int robot = 0) {
+    EXPECT_EQ(refused(name, robot), what);
+  };
+  says("x_n",
+       "got 'x_n', expected a signal; did you mean 'x_m'?; twinpuck list signals names them, $NAME is a "
+       "variable of the program");
+  says("led10",
+       "got 'led10', expected a signal; did you mean 'led0'?; twinpuck list signals names them, $NAME is a "
+       "variable of the program");
+  says("x_m", "got 'x_m' without a robot, expected ROBOT.x_m; the robots are e-puck", -1);
+  says("$sate", "got 'sate', expected a variable of the image that is known here");
+  says("$wheels", "got 'wheels', expected a number; name a member or element");
+  says("pin(Q3)", "got pin 'Q3', expected a port and a bit, such as D3");
+  says("reg(T2C0N)",
+       "got 'T2C0N', expected a pin, a port, a register, an interrupt, a UART's line or a variable (got "
+       "'T2C0N', expected a variable of the image that is known here); did you mean 'T2CON'?");
 }
 
 TEST_F(SignalsTest, the_nearest_robot_is_the_gap_between_two_bodies) {

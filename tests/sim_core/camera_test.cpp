@@ -66,6 +66,21 @@ TEST(Camera, red_cylinder_covers_its_angle) {
 }
 
 // 20 mm to the left at 0.2 m: tan = 0.1, 0.1 * 716.5 / 8 = 8.96 columns left of the middle
+// a box 0.2 m from the lens meets the floor 0.028 / 0.2 * 716.5 / 8 = 12.54 rows below the middle; from 10 mm
+// higher 17.02
+TEST(Camera, the_eye_is_as_high_as_its_robot) {
+  Eye eye(std::string("twinpuck = 1\n[floor]\ncolour = [1, 1, 1]\n[[box]]\nposition = [0.28, 0]\n"
+                      "size = [0.1, 0.4, 0.3]\ncolour = [1, 0, 0]\n") +
+          kOneRobot);
+  for (const auto& [z_m, rows] : {std::pair{0.0, 13}, {0.01, 17}}) {
+    eye.simulation().move(0, {}, z_m);
+    const std::vector<Light> image = eye.look();
+    int red = 0;
+    for (std::size_t row = 20; row < 40; ++row) red += image[row * 40 + 20].g < 0.1;
+    EXPECT_EQ(red, rows) << z_m;
+  }
+}
+
 TEST(Camera, left_is_left) {
   Eye eye(std::string("twinpuck = 1\n[[box]]\nposition = [0.23, 0.02]\nsize = [0.002, 0.002, 0.2]\ncolour = "
                       "[0, 0, 1]\n") +

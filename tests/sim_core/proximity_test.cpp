@@ -215,14 +215,15 @@ TEST(Scene, poses_are_carried_on_from_the_tick_before_whenever_they_are_asked_fo
   EXPECT_EQ(fresh->scene().pose(0, -1000).x_m, 3);
 }
 
-// legs that begin at every tick, and at some; each is known by its place
+// legs that begin at every tick, and at some; each is known by its place. Of one instant the last counts
 TEST(Scene, of_many_legs_the_one_that_had_begun_is_found) {
   for (const int every : {1, 2, 5}) {
     sim::Scene scene(world_of("twinpuck = 1\n[world]\nphysics_hz = 512\n[[robot]]\n"), {0.1});
     const sim::Clicks tick = scene.tick_clicks();
     for (int n = 1; n <= 100; ++n) {
       scene.advance_to(n * tick);
-      if (n % every == 0) scene.begin_leg(0, {n * tick, {n * 1.0, 0, 0}, {}, 0, false}, 0, 0);
+      for (const double x_m : {-1.0, -2.0, n * 1.0})
+        if (n % every == 0) scene.begin_leg(0, {n * tick, {x_m, 0, 0}, {}, 0, false}, 0, 0);
     }
     // poses of 40 ms are kept: 20 ticks and a half
     for (int back = 0; back <= 20; ++back) {

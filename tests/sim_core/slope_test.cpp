@@ -150,6 +150,13 @@ model = "one-eyed"
   const sim::RayTrace ray = sim::trace_proximity(s->scene(), 0, 0, s->now()).front();
   EXPECT_TRUE(ray.hit);
   EXPECT_NEAR(ray.distance_m, 0.05 + 0.025 / std::tan(sim::radians(35)) - 0.037, 1e-6);
+  // a black one answers with 0.2 of it: as if it were five times as far away
+  auto black_world = before;
+  black_world.ramps[0].material.colour = {0, 0, 0};
+  auto black = cruising(black_world, 0, 0);
+  run_for(*black, 0.05);
+  EXPECT_NEAR(sim::sense_proximity(black->scene(), 0, 0, black->now()).apparent_distance_m,
+              5 * sim::sense_proximity(s->scene(), 0, 0, s->now()).apparent_distance_m, 1e-6);
   // nose down on a 20 degree slope the eye looks along the slope at a low box beyond its foot
   auto down = cruising(world_of(on_ramp(180, "model = \"one-eyed\"\nposition = [-0.45, 0]\n") +
                                 "[[box]]\nposition = [-0.59, 0]\nsize = [0.1, 0.4, 0.03]\n"),

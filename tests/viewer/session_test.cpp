@@ -191,6 +191,10 @@ TEST_F(Session, edits_are_undone_and_redone) {
   EXPECT_TRUE(page.good({{"do", "state"}}).at("state").at("saved"));
   EXPECT_EQ(page.good({{"do", "redo"}}).at("done"), true);
   EXPECT_FALSE(page.good({{"do", "state"}}).at("state").at("saved"));
+  // what was undone is gone with the next edit
+  page.good({{"do", "undo"}});
+  page.good({{"do", "edit"}, {"op", "set"}, {"thing", wall}, {"values", {{"position", {0.1, 0}}}}});
+  EXPECT_EQ(page.good({{"do", "redo"}}).at("done"), false);
 }
 
 TEST_F(Session, problems_stand_beside_what_they_are_about_and_the_run_goes_on) {

@@ -6,6 +6,12 @@
 static volatile int calls, others;
 static void count(void) { calls++; }
 static void count_others(void) { others++; }
+static volatile unsigned int now, before;
+static void stamp(void) {
+  before = now;
+  now = TMR1;
+  calls++;
+}
 
 int main(void) {
   begin();
@@ -29,5 +35,10 @@ int main(void) {
   say("restarted", calls);
   say("destroyed", e_destroy_agenda(count));
   say("unknown", e_destroy_agenda(count));
+  calls = 0;
+  e_activate_agenda(stamp, 40);
+  T1CON = 0x8000; /* cycles */
+  while (calls < 5) continue;
+  say("period", (long)(now - before));
   end();
 }

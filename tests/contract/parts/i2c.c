@@ -11,6 +11,10 @@ int main(void) {
   e_i2c_enable();
   say("start", e_i2c_start());
   say("write", e_i2c_write(0x10));
+  e_i2c_ack();
+  say("ack", I2CCONbits.ACKDT);
+  e_i2c_nack();
+  say("nack", I2CCONbits.ACKDT);
   say("stop", e_i2c_stop());
   start_clock();
   e_i2c_start();
