@@ -16,7 +16,8 @@ inline constexpr std::uint64_t kMostCacheBytes =
 /// use it. Several at once do no harm. Returns how many bytes are left.
 std::uint64_t keep_within(const std::filesystem::path& folder, std::uint64_t bytes);
 
-/// The same for the user's caches and their bound, once a minute at most, among all programs.
+/// The same for the user's caches and their bound, once a minute at most, among all programs. Full ones take a
+/// sixth of a second, so a run that puts nothing there does not ask.
 void keep_caches_within_bound();
 
 /// Says that a file of a cache is of use, where its time of reading is not kept. Costs a look at most calls.

@@ -140,6 +140,7 @@ void Translations::keep(const fs::path& file, const std::string& text) const {
     fs::rename(half, file, failed);
   else
     fs::remove(half, failed);
+  if (tell_kept_) tell_kept_();
 }
 
 }  // namespace dspic::translate

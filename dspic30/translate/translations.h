@@ -18,9 +18,10 @@ class Translations final : public Translator {
  public:
   /// `library`: the one with the compiler, loaded when it is first needed; without it, nothing is translated.
   /// `folder`: where translations are kept, each library's below it; more than 4000 of this one's are removed
-  /// when one is first asked for. Empty, or one that cannot be written: they are not kept.
-  Translations(std::filesystem::path library, std::filesystem::path folder)
-      : library_(std::move(library)), folder_(std::move(folder)) {}
+  /// when one is first asked for. Empty, or one that cannot be written: they are not kept. `kept` is called
+  /// behind each one that was put there; null: nobody hears of it.
+  Translations(std::filesystem::path library, std::filesystem::path folder, void (*kept)() = nullptr)
+      : library_(std::move(library)), folder_(std::move(folder)), tell_kept_(kept) {}
   Translation translate(const Cpu& cpu, const Decoded* head, bool only_ready) override;
   void note_warm(const Cpu& cpu, const Decoded* head) override;
   int compiled() const { return compiled_; }  ///< not taken from a file
@@ -32,6 +33,7 @@ class Translations final : public Translator {
 
   using Compile = void (*)(const Cpu& cpu, const std::vector<Item>& items, MachineCode& code);
   std::filesystem::path library_, folder_;  // once open: the one of this library
+  void (*tell_kept_)();
   std::mutex mutex_;
   bool is_open_ = false, is_loaded_ = false;
   Compile compile_ = nullptr;

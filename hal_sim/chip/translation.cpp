@@ -15,9 +15,8 @@ fs::path translator_library() { return places::tools_folder() / "twinpuck-transl
 
 dspic::Translator* translation() {
   static const fs::path library = translator_library();
-  static dspic::translate::Translations translations(library, places::cache_folder("translations"));
-  static const bool is_bounded = (places::keep_caches_within_bound(), true);
-  static_cast<void>(is_bounded);
+  static dspic::translate::Translations translations(library, places::cache_folder("translations"),
+                                                     places::keep_caches_within_bound);
   return std::getenv("TWINPUCK_INTERPRET") ? nullptr : &translations;
 }
 

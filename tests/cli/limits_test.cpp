@@ -2,6 +2,8 @@
 // What a build may take: compilers end with whoever started them, have bounded memory, and wait for no pipe.
 #include <sys/stat.h>
 
+#include <chrono>
+
 #include "tests/cli/command.h"
 
 using namespace cli_test;
@@ -169,6 +171,27 @@ TEST_F(Limits, assembler_that_includes_a_pipe_ends) {
   const Said upper = twinpuck("asm '" + path("upper.S") + "' -o " + path("o.hex"), "timeout 600");
   EXPECT_EQ(upper.exit_code, 2);
   EXPECT_NE(upper.text.find("upper.S:2: #define: asm has no preprocessor"), std::string::npos) << upper.text;
+}
+
+/// A look at full caches takes longer than many runs.
+TEST_F(Limits, a_run_that_puts_nothing_into_the_caches_does_not_look_through_them) {
+  const std::string cache = "env XDG_CACHE_HOME=" + path("cache"), stamp = path("cache/twinpuck/bounded");
+  const auto ages_ago = fs::file_time_type::clock::now() - std::chrono::hours(2);
+  for (const bool builds : {true, false}) {
+    if (!builds) fs::last_write_time(stamp, ages_ago);
+    const Said said = twinpuck("run maze --for 0.01", cache);
+    ASSERT_EQ(said.exit_code, 0) << said.text;
+    EXPECT_EQ(fs::last_write_time(stamp) > ages_ago + std::chrono::hours(1), builds);
+  }
+}
+
+/// Each library that is loaded with the program costs every call up to a millisecond.
+TEST_F(Limits, a_start_loads_nothing_that_few_runs_need) {
+  const Said loaded = twinpuck("", "env LD_TRACE_LOADED_OBJECTS=1");
+  EXPECT_NE(loaded.text.find("libbox2d"), std::string::npos) << loaded.text;
+  for (const char* late :
+       {"cairo", "civetweb", "dw.so", "gomp", "jpeg", "LLVM", "muparser", "sndfile", "vpx"})
+    EXPECT_EQ(loaded.text.find(late), std::string::npos) << late << '\n' << loaded.text;
 }
 
 }  // namespace
