@@ -21,6 +21,11 @@ namespace cc {
 
 using namespace llvm;
 
+Value* without_casts(Value* v) {
+  while (auto* c = dyn_cast<CastInst>(v)) v = c->getOperand(0);
+  return v;
+}
+
 namespace {
 
 void wait_before(Instruction* at, unsigned cycles) {
@@ -41,11 +46,6 @@ struct Delay {
   SmallVector<LoadInst*, 2> loads;  // of bounds
   bool keeps_memory = true;
 };
-
-Value* without_casts(Value* v) {
-  while (auto* c = dyn_cast<CastInst>(v)) v = c->getOperand(0);
-  return v;
-}
 
 /// Notes an instruction; false: the loop does more than count.
 bool note(Instruction& i, Delay& d) {

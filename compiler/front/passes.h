@@ -54,6 +54,8 @@ struct KeepEndlessStoresPass : llvm::PassInfoMixin<KeepEndlessStoresPass> {
 struct FreeEndlessStoresPass : llvm::PassInfoMixin<FreeEndlessStoresPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
+/// What a value was before it was cast.
+llvm::Value* without_casts(llvm::Value* v);
 /// -O1: a loop that only counts takes as many cycles a round as XC16's.
 struct DelayRoundsPass : llvm::PassInfoMixin<DelayRoundsPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);

@@ -10,7 +10,7 @@
 namespace api {
 
 inline constexpr unsigned kIec0 = dspic::sfr("IEC0"), kIfs0 = dspic::sfr("IFS0");
-inline constexpr Cycle kReturnCycles = 3;  // RETURN [DS70143 19.1]
+inline constexpr board::Cycle kReturnCycles = 3;  // RETURN [DS70143 19.1]
 
 /// What an agenda is known by: its function's program address. The null pointer is one, too.
 inline constexpr unsigned kNullFunction = 1;  // no function is at an odd address
