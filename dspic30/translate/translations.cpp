@@ -139,8 +139,12 @@ void Translations::keep(const fs::path& file, const std::string& text) const {
   if (std::ofstream out(half, std::ios::binary); out << text << std::flush)
     fs::rename(half, file, failed);
   else
-    fs::remove(half, failed);
-  if (tell_kept_) tell_kept_();
+    failed = std::make_error_code(std::errc::io_error);
+  if (!failed) {
+    if (tell_kept_) tell_kept_();
+    return;
+  }
+  fs::remove(half, failed);
 }
 
 }  // namespace dspic::translate
