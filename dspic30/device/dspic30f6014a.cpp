@@ -203,12 +203,6 @@ void Dspic30f6014a::uart_receive(int uart, const UartFrame& frame, Cycle now) {
   parts_->uarts[static_cast<std::size_t>(uart - 1)].receive(frame, now);
 }
 
-// --- interrupts
-
-Outlook Dspic30f6014a::look(Cycle now) { return parts_->look(now); }
-
-Cycle Dspic30f6014a::interrupt_horizon(int served) { return parts_->interrupt_horizon(served); }
-
 // --- instructions
 
 void Dspic30f6014a::clear_watchdog(Cycle now) {

@@ -73,8 +73,8 @@ class Dspic30f6014a {
   /// Byte address 0x000 to 0x7FF; bits 8 or 16 (a word access ignores address bit 0; the address error of an
   /// odd one is the core's). Result in the low bits. Addresses with nothing behind them read 0.
   std::uint16_t read(unsigned address, unsigned bits, Cycle now);
-  /// Returns the instant with which whoever remembers look().horizon or interrupt_horizon() has to compare
-  /// it: the earlier one of both is true now; 0, or in the past: ask look() again.
+  /// Returns the instant with which whoever remembers next_event() has to compare it: the earlier one of both
+  /// is true now; 0, or in the past: ask again.
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now);
   /// The register's value as a debugger shows it: no FIFO moves, no flag falls, no latch is loaded.
   std::uint16_t peek(unsigned address, Cycle now);
@@ -107,13 +107,8 @@ class Dspic30f6014a {
 
   // --- interrupts
 
-  /// pending(), reset_due() and next_event() at once, for a host that asks again only when it must.
-  Outlook look(Cycle now);
   ChipInterrupts& interrupts() { return interrupts_; }
   const ChipInterrupts& interrupts() const { return interrupts_; }
-  /// The next instant at which something may be served, if no flag but that of the vector whose handler runs
-  /// is set and enabled; else, or in the past: ask look(). Cheaper than that.
-  Cycle interrupt_horizon(int served = kNoVector);
 
   // --- instructions that peripherals know of
 

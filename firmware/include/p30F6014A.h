@@ -65,7 +65,7 @@
 
 /* --- configuration words. _FWDT switches the watchdog on and sets its postscalers; an _FOSC
  *     that does not give 14.7456 million instructions a second from the robot's crystal stops the robot with a
- *     message. The others are accepted, checked for known names, and have no effect. --------------------- */
+ *     message. The others are accepted, checked for known names, and have no effect. */
 #define TP_CONFIGURATION(name, address, value) \
   __attribute__((weak, used, section(".config@" address))) const unsigned int tp_config_##name = (value);
 #define _FOSC(value) TP_CONFIGURATION(fosc, "F80000", value)

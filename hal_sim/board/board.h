@@ -89,10 +89,6 @@ class Board : public Specimen {
   /// For models of the chip: has exchange() put a byte on a wire, since it was last taken note of?
   bool has_wire_news() const { return has_wire_news_; }
   bool take_wire_news() { return std::exchange(has_wire_news_, false); }
-  /// Is a byte on its way to the robot?
-  bool is_receiving(Cycle at) {
-    return is_any_used_ && (uarts_[0].next_arrival(at) < kNever || uarts_[1].next_arrival(at) < kNever);
-  }
   /// Has publish_sound() anything to tell?
   bool has_sound_news() const { return is_any_used_ && codec_.has_news(); }
   /// Tells the air what the loudspeaker began or ended, at the tick boundary `now`.

@@ -5,13 +5,16 @@
 #include <array>
 #include <cstddef>
 
+#include "sim_core/base/check.h"
+
 namespace sim {
 
 class HotMemory {
  public:
-  /// `bytes` from `at` on, which stay there; parts beyond kMost are left out.
+  /// `bytes` from `at` on, which stay there; kMost parts at most.
   void add(const void* at, std::size_t bytes) {
-    if (count_ < kMost) parts_[count_++] = {static_cast<const char*>(at), bytes};
+    CHECK(count_ < kMost, "a turn has few parts");
+    parts_[count_++] = {static_cast<const char*>(at), bytes};
   }
   void clear() { count_ = 0; }
   /// Asks the caches for all of it, and waits for none.

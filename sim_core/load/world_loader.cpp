@@ -307,13 +307,9 @@ LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& m
 
 LoadedWorld parse_world(std::string_view text, const std::string& path, const std::vector<RobotModel>& models,
                         const std::vector<PartKind>& part_kinds, KnownWorld* known) {
+  if (known && !known->tree) known->tree = std::make_shared<TomlTree>();
   return Reader(path, models, part_kinds, known ? known->tree.get() : nullptr).read(text);
 }
-
-KnownWorld::KnownWorld() : tree(std::make_unique<TomlTree>()) {}
-KnownWorld::~KnownWorld() = default;
-KnownWorld::KnownWorld(KnownWorld&&) noexcept = default;
-KnownWorld& KnownWorld::operator=(KnownWorld&&) noexcept = default;
 
 std::string resolve_path(const WorldDesc& world, const std::string& name) {
   const std::size_t slash = world.file.rfind('/');

@@ -38,11 +38,7 @@ LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& m
 class TomlTree;
 /// What was made of a text, for a next one that differs in little: that goes quicker, the result is the same.
 struct KnownWorld {
-  KnownWorld();
-  ~KnownWorld();
-  KnownWorld(KnownWorld&&) noexcept;
-  KnownWorld& operator=(KnownWorld&&) noexcept;
-  std::unique_ptr<TomlTree> tree;
+  std::shared_ptr<TomlTree> tree;  ///< null: of none so far
 };
 
 /// Same for text already in memory; `path` serves messages and relative file names. `known`: of the text

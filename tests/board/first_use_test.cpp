@@ -19,7 +19,7 @@ TEST(FirstUse, a_robot_whose_devices_rest_need_not_be_looked_at) {
   Board robot{board::Setup{}};
   robot.exchange(kAt);
   EXPECT_EQ(robot.horizon(kAt), board::kNever);
-  EXPECT_FALSE(robot.is_receiving(kAt));
+  EXPECT_EQ(robot.uart(1).next_arrival(kAt), board::kNever);
 }
 
 /// What changes when the robot does something with one of its devices.
@@ -60,7 +60,7 @@ TEST(FirstUse, an_end_that_was_idle_is_heard) {
   end->inject("x", kAt);
   EXPECT_EQ(robot.horizon(kAt), kAt);
   robot.exchange(kAt);
-  EXPECT_TRUE(robot.is_receiving(kAt));
+  EXPECT_LT(robot.uart(1).next_arrival(kAt), board::kNever);
 }
 
 TEST(FirstUse, an_end_that_may_speak_at_any_time_is_asked) {
