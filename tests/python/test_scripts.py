@@ -85,6 +85,7 @@ TEXTS = [
     ("docs/x.md", "", OK),
     ("docs/x.md", MACHINE, ["path of somebody's machine: " + MACHINE]),
     ("docs/x.md", "the native" + " way", ["a word of what is gone: the native" + " way"]),
+    ("docs/x.md", "in supervisor" + "/programs", ["a word of what is gone: in supervisor" + "/programs"]),
     ("docs/x.md", "an e-puck", OK),
     ("sim_core/x.txt", "an e-puck", ["sim_core knows no robot by name: an e-puck"]),
     ("tools/x.txt", "\n" * 800, OK),
