@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <set>
+#include <sstream>
 
 #include "sim_core/load/schema.h"
 #include "tests/sim_core/fixture.h"
@@ -18,6 +18,14 @@ namespace {
 class Told {
  public:
   std::string text;
+
+  /// `names`: of the values, with blanks between.
+  template <typename... T>
+  void fields(const std::string& before, const std::string& names, const T&... values) {
+    std::istringstream in(names);
+    std::string name;
+    (((in >> name), (*this)(before + name, values)), ...);
+  }
 
   void operator()(const std::string& name, const std::string& value) { text += name + " '" + value + "'\n"; }
   void operator()(const std::string& name, double value) { text += fmt::format("{} {:.6g}\n", name, value); }
@@ -56,257 +64,125 @@ class Told {
     for (const double value : values) (*this)(name, value);
   }
   void operator()(const std::string& name, const sim::Material& m) {
-    (*this)(name + ".name", m.name);
-    (*this)(name + ".colour", m.colour);
-    (*this)(name + ".ir_reflectance", m.ir_reflectance);
-    (*this)(name + ".roughness", m.roughness);
-    (*this)(name + ".friction", m.friction);
-    (*this)(name + ".restitution", m.restitution);
+    fields(name + ".", "name colour ir_reflectance roughness friction restitution", m.name, m.colour,
+           m.ir_reflectance, m.roughness, m.friction, m.restitution);
   }
   void operator()(const std::string& name, const sim::WheelSettings& w) {
-    (*this)(name + ".noise", w.noise);
-    (*this)(name + ".noise_law", w.noise_law);
-    (*this)(name + ".slip", w.slip);
+    fields(name + ".", "noise noise_law slip", w.noise, w.noise_law, w.slip);
   }
   void operator()(const std::string& name, const sim::ProximitySettings& p) {
-    (*this)(name + ".profile", p.profile);
-    (*this)(name + ".table", p.table);
-    (*this)(name + ".type", p.type);
-    (*this)(name + ".rays", p.rays);
-    (*this)(name + ".aperture_rad", p.aperture_rad);
-    (*this)(name + ".gaussian_width", p.gaussian_width);
-    (*this)(name + ".layout", p.layout);
-    (*this)(name + ".colour_rule", p.colour_rule);
-    (*this)(name + ".noise_law", p.noise_law);
-    (*this)(name + ".noise_scale", p.noise_scale);
+    fields(name + ".",
+           "profile table type rays aperture_rad gaussian_width layout colour_rule noise_law noise_scale",
+           p.profile, p.table, p.type, p.rays, p.aperture_rad, p.gaussian_width, p.layout, p.colour_rule,
+           p.noise_law, p.noise_scale);
   }
   void operator()(const std::string& name, const sim::DeviceDesc& d) {
-    (*this)(name + ".name", d.name);
-    (*this)(name + ".kind", d.kind);
-    (*this)(name + ".channel", d.channel);
-    (*this)(name + ".range_m", d.range_m);
-    (*this)(name + ".baud_rate_bit_s", d.baud_rate_bit_s);
-    (*this)(name + ".infra_red", d.infra_red);
-    (*this)(name + ".width", d.width);
-    (*this)(name + ".height", d.height);
-    (*this)(name + ".at_m", d.at_m);
-    (*this)(name + ".heading_rad", d.heading_rad);
-    (*this)(name + ".fov_rad", d.fov_rad);
-    (*this)(name + ".vertical_fov_rad", d.vertical_fov_rad);
-    (*this)(name + ".near_m", d.near_m);
-    (*this)(name + ".far_m", d.far_m);
-    (*this)(name + ".table", d.table);
-    (*this)(name + ".rays", d.rays);
-    (*this)(name + ".aperture_rad", d.aperture_rad);
+    fields(name + ".",
+           "name kind channel range_m baud_rate_bit_s infra_red width height at_m heading_rad fov_rad "
+           "vertical_fov_rad near_m far_m table rays aperture_rad",
+           d.name, d.kind, d.channel, d.range_m, d.baud_rate_bit_s, d.infra_red, d.width, d.height, d.at_m,
+           d.heading_rad, d.fov_rad, d.vertical_fov_rad, d.near_m, d.far_m, d.table, d.rays, d.aperture_rad);
   }
   void operator()(const std::string& name, const sim::ObjectDesc& o) {
-    (*this)(name + ".kind", o.kind);
-    (*this)(name + ".name", o.name);
-    (*this)(name + ".def", o.def);
-    (*this)(name + ".size_m", o.size_m);
-    (*this)(name + ".radius_m", o.radius_m);
-    (*this)(name + ".corners_m", o.corners_m);
-    (*this)(name + ".pose", o.pose);
-    (*this)(name + ".z_m", o.z_m);
-    (*this)(name + ".movable", o.movable);
-    (*this)(name + ".mass_kg", o.mass_kg);
-    (*this)(name + ".floor_friction", o.floor_friction);
-    (*this)(name + ".rolling_friction", o.rolling_friction);
-    (*this)(name + ".material", o.material);
-    (*this)(name + ".model", o.model);
-    (*this)(name + ".recognition_colours", o.recognition_colours);
-    (*this)(name + ".node", o.node);
+    fields(name + ".",
+           "kind name def size_m radius_m corners_m pose z_m movable mass_kg floor_friction rolling_friction "
+           "material model recognition_colours node",
+           o.kind, o.name, o.def, o.size_m, o.radius_m, o.corners_m, o.pose, o.z_m, o.movable, o.mass_kg,
+           o.floor_friction, o.rolling_friction, o.material, o.model, o.recognition_colours, o.node);
   }
   void operator()(const std::string& name, const sim::Variation& v) {
-    (*this)(name + ".sensor_gain", v.sensor_gain);
-    (*this)(name + ".sensor_offset_counts", v.sensor_offset_counts);
-    (*this)(name + ".left_wheel_ratio", v.left_wheel_ratio);
-    (*this)(name + ".right_wheel_ratio", v.right_wheel_ratio);
-    (*this)(name + ".axle_ratio", v.axle_ratio);
-    (*this)(name + ".clock_ppm", v.clock_ppm);
-    (*this)(name + ".boot_delay_s", v.boot_delay_s);
-    (*this)(name + ".gain_spread", v.gain_spread);
-    (*this)(name + ".offset_spread_counts", v.offset_spread_counts);
-    (*this)(name + ".wheel_spread", v.wheel_spread);
-    (*this)(name + ".axle_spread", v.axle_spread);
-    (*this)(name + ".clock_spread_ppm", v.clock_spread_ppm);
-    (*this)(name + ".boot_spread_s", v.boot_spread_s);
-    (*this)(name + ".acc_offset_m_s2", v.acc_offset_m_s2);
-    (*this)(name + ".gyro_offset_rad_s", v.gyro_offset_rad_s);
-    (*this)(name + ".acc_offset_spread_m_s2", v.acc_offset_spread_m_s2);
-    (*this)(name + ".gyro_offset_spread_rad_s", v.gyro_offset_spread_rad_s);
-    (*this)(name + ".motion_noise_scale", v.motion_noise_scale);
+    fields(name + ".",
+           "sensor_gain sensor_offset_counts left_wheel_ratio right_wheel_ratio axle_ratio clock_ppm "
+           "boot_delay_s gain_spread offset_spread_counts wheel_spread axle_spread clock_spread_ppm "
+           "boot_spread_s acc_offset_m_s2 gyro_offset_rad_s acc_offset_spread_m_s2 gyro_offset_spread_rad_s "
+           "motion_noise_scale",
+           v.sensor_gain, v.sensor_offset_counts, v.left_wheel_ratio, v.right_wheel_ratio, v.axle_ratio,
+           v.clock_ppm, v.boot_delay_s, v.gain_spread, v.offset_spread_counts, v.wheel_spread, v.axle_spread,
+           v.clock_spread_ppm, v.boot_spread_s, v.acc_offset_m_s2, v.gyro_offset_rad_s,
+           v.acc_offset_spread_m_s2, v.gyro_offset_spread_rad_s, v.motion_noise_scale);
   }
   void operator()(const std::string& name, const sim::SoundDesc& s) {
-    (*this)(name + ".name", s.name);
-    (*this)(name + ".kind", s.kind);
-    (*this)(name + ".position_m", s.position_m);
-    (*this)(name + ".level_db", s.level_db);
-    (*this)(name + ".pressure_pa", s.pressure_pa);
-    (*this)(name + ".frequency_hz", s.frequency_hz);
-    (*this)(name + ".band_hz", s.band_hz);
-    (*this)(name + ".file", s.file);
-    (*this)(name + ".loop", s.loop);
-    (*this)(name + ".times_s", s.times_s);
-    (*this)(name + ".every_s", s.every_s);
-    (*this)(name + ".jitter_s", s.jitter_s);
-    (*this)(name + ".seed", s.seed);
-    (*this)(name + ".start_s", s.start_s);
-    (*this)(name + ".stop_s", s.stop_s);
+    fields(name + ".",
+           "name kind position_m level_db pressure_pa frequency_hz band_hz file loop times_s every_s "
+           "jitter_s seed start_s stop_s",
+           s.name, s.kind, s.position_m, s.level_db, s.pressure_pa, s.frequency_hz, s.band_hz, s.file, s.loop,
+           s.times_s, s.every_s, s.jitter_s, s.seed, s.start_s, s.stop_s);
   }
   void operator()(const std::string& name, const sim::WallDesc& w) {
-    (*this)(name + ".points_m", w.points_m);
-    (*this)(name + ".closed", w.closed);
-    (*this)(name + ".thickness_m", w.thickness_m);
-    (*this)(name + ".height_m", w.height_m);
-    (*this)(name + ".z_m", w.z_m);
-    (*this)(name + ".material", w.material);
+    fields(name + ".", "points_m closed thickness_m height_m z_m material", w.points_m, w.closed,
+           w.thickness_m, w.height_m, w.z_m, w.material);
   }
   void operator()(const std::string& name, const sim::RampDesc& r) {
-    (*this)(name + ".name", r.name);
-    (*this)(name + ".pose", r.pose);
-    (*this)(name + ".size_m", r.size_m);
-    (*this)(name + ".low_m", r.low_m);
-    (*this)(name + ".high_m", r.high_m);
-    (*this)(name + ".material", r.material);
+    fields(name + ".", "name pose size_m low_m high_m material", r.name, r.pose, r.size_m, r.low_m, r.high_m,
+           r.material);
   }
   void operator()(const std::string& name, const sim::LampDesc& l) {
-    (*this)(name + ".name", l.name);
-    (*this)(name + ".position_m", l.position_m);
-    (*this)(name + ".intensity_w_m2", l.intensity_w_m2);
-    (*this)(name + ".attenuation", l.attenuation);
-    (*this)(name + ".colour", l.colour);
-    (*this)(name + ".on", l.on);
-    (*this)(name + ".node", l.node);
+    fields(name + ".", "name position_m intensity_w_m2 attenuation colour on node", l.name, l.position_m,
+           l.intensity_w_m2, l.attenuation, l.colour, l.on, l.node);
   }
   void operator()(const std::string& name, const sim::ArenaDesc& a) {
-    (*this)(name + ".size_m", a.size_m);
-    (*this)(name + ".centre_m", a.centre_m);
-    (*this)(name + ".wall_height_m", a.wall_height_m);
-    (*this)(name + ".wall_thickness_m", a.wall_thickness_m);
-    (*this)(name + ".material", a.material);
+    fields(name + ".", "size_m centre_m wall_height_m wall_thickness_m material", a.size_m, a.centre_m,
+           a.wall_height_m, a.wall_thickness_m, a.material);
   }
   void operator()(const std::string& name, const sim::SensorDesc& s) {
     (*this)(name + ".index", s.index);
     (*this)(name, s.proximity);
   }
   void operator()(const std::string& name, const sim::KeyDesc& k) {
-    (*this)(name + ".code", k.code);
-    (*this)(name + ".at_s", k.at_s);
-    (*this)(name + ".hold_s", k.hold_s);
-    (*this)(name + ".address", k.address);
+    fields(name + ".", "code at_s hold_s address", k.code, k.at_s, k.hold_s, k.address);
   }
   void operator()(const std::string& name, const sim::RobotDesc& r) {
-    (*this)(name + ".name", r.name);
-    (*this)(name + ".def", r.def);
-    (*this)(name + ".model", r.model);
-    (*this)(name + ".firmware", r.firmware);
-    (*this)(name + ".args", sim::argument_words(r.args));
-    (*this)(name + ".supervisor", r.supervisor);
-    (*this)(name + ".custom_data", r.custom_data);
-    (*this)(name + ".recognition_colours", r.recognition_colours);
-    (*this)(name + ".node", r.node);
-    (*this)(name + ".selector",
-            static_cast<double>(sim::OwnSettings(puck().keys, r.own).integer("selector")));
-    (*this)(name + ".pose", r.pose);
-    (*this)(name + ".seed", r.seed);
-    (*this)(name + ".battery_v", r.battery_v);
-    (*this)(name + ".battery_wh", r.battery_wh);
-    (*this)(name + ".colour", r.colour);
-    (*this)(name + ".wheels", r.wheels);
-    (*this)(name + ".uart1", r.uart1);
-    (*this)(name + ".uart2", r.uart2);
-    (*this)(name + ".link.number", r.link.number);
-    (*this)(name + ".link.name", r.link.name);
-    (*this)(name + ".link.pin", r.link.pin);
-    (*this)(name + ".link.dropouts", r.link.dropouts);
-    (*this)(name + ".variation", r.variation);
-    (*this)(name + ".proximity", r.proximity);
-    (*this)(name + ".sensors", r.sensors);
-    (*this)(name + ".keys", r.keys);
-    (*this)(name + ".devices", r.devices);
+    fields(name + ".",
+           "name def model firmware args supervisor custom_data recognition_colours node selector pose seed "
+           "battery_v battery_wh colour wheels uart1 uart2 link.number link.name link.pin link.dropouts "
+           "variation proximity sensors keys devices",
+           r.name, r.def, r.model, r.firmware, sim::argument_words(r.args), r.supervisor, r.custom_data,
+           r.recognition_colours, r.node,
+           static_cast<double>(sim::OwnSettings(puck().keys, r.own).integer("selector")), r.pose, r.seed,
+           r.battery_v, r.battery_wh, r.colour, r.wheels, r.uart1, r.uart2, r.link.number, r.link.name,
+           r.link.pin, r.link.dropouts, r.variation, r.proximity, r.sensors, r.keys, r.devices);
   }
   void operator()(const std::string& name, const sim::SupervisorDesc& s) {
-    (*this)(name + ".name", s.name);
-    (*this)(name + ".program", s.program);
-    (*this)(name + ".args", s.args);
-    (*this)(name + ".def", s.def);
-    (*this)(name + ".custom_data", s.custom_data);
-    (*this)(name + ".devices", s.devices);
-    (*this)(name + ".node", s.node);
-    (*this)(name + ".period_s", s.period_s);
+    fields(name + ".", "name program args def custom_data devices node period_s", s.name, s.program, s.args,
+           s.def, s.custom_data, s.devices, s.node, s.period_s);
   }
   void operator()(const sim::WorldDesc& w) {
-    (*this)("title", w.title);
-    (*this)("physics_hz", w.physics_hz);
-    (*this)("engine", w.engine);
-    (*this)("gravity_m_s2", w.gravity_m_s2);
-    (*this)("seed", w.seed);
-    (*this)("ambient_w_m2", w.ambient_w_m2);
-    (*this)("wheels", w.wheels);
-    (*this)("materials", w.materials);
-    (*this)("arena", w.arena);
-    (*this)("floor.colour", w.floor.colour);
-    (*this)("floor.ir_reflectance", w.floor.ir_reflectance);
-    (*this)("floor.image", w.floor.image);
-    (*this)("floor.friction", w.floor.friction);
-    (*this)("floor.tilt_x_rad", w.floor.tilt_x_rad);
-    (*this)("floor.tilt_y_rad", w.floor.tilt_y_rad);
-    (*this)("sky.colour", w.sky.colour);
-    (*this)("sky.light_w_m2", w.sky.light_w_m2);
-    (*this)("ramp", w.ramps);
-    (*this)("wall", w.walls);
-    (*this)("object", w.objects);
-    (*this)("lamp", w.lamps);
-    (*this)("sound", w.sounds);
-    (*this)("proximity", w.proximity);
-    (*this)("radio.model", w.radio.model);
-    (*this)("radio.range_m", w.radio.range_m);
-    (*this)("radio.exponent", w.radio.exponent);
-    (*this)("radio.fading_db", w.radio.fading_db);
-    (*this)("radio.loss", w.radio.loss);
-    (*this)("radio.capture_db", w.radio.capture_db);
-    (*this)("radio.carrier_sense", w.radio.carrier_sense);
-    (*this)("radio.seed", w.radio.seed);
-    (*this)("link.range_m", w.link.range_m);
-    (*this)("link.latency_s", w.link.latency_s);
-    (*this)("link.bandwidth_bit_s", w.link.bandwidth_bit_s);
-    (*this)("link.timeout_s", w.link.timeout_s);
-    (*this)("link.dropouts", w.link.dropouts);
-    (*this)("link.dropout_rate_hz", w.link.dropout_rate_hz);
-    (*this)("link.dropout_span_s", w.link.dropout_span_s);
-    (*this)("webots.time_step_s", w.webots.time_step_s);
-    (*this)("webots.speed_unit_rad_s", w.webots.speed_unit_rad_s);
-    (*this)("webots.sensor_order", w.webots.sensor_order);
-    (*this)("webots.axes", w.webots.axes);
-    (*this)("webots.world", w.webots.world);
-    (*this)("webots.floor_m", w.webots.floor_m);
-    (*this)("robot", w.robots);
-    (*this)("supervisor", w.supervisors);
+    fields("",
+           "title physics_hz engine gravity_m_s2 seed ambient_w_m2 wheels materials arena floor.colour "
+           "floor.ir_reflectance floor.image floor.friction floor.tilt_x_rad floor.tilt_y_rad sky.colour "
+           "sky.light_w_m2 ramp wall object lamp sound proximity radio.model radio.range_m radio.exponent "
+           "radio.fading_db radio.loss radio.capture_db radio.carrier_sense radio.seed link.range_m "
+           "link.latency_s link.bandwidth_bit_s link.timeout_s link.dropouts link.dropout_rate_hz "
+           "link.dropout_span_s webots.time_step_s webots.speed_unit_rad_s webots.sensor_order webots.axes "
+           "webots.world webots.floor_m robot supervisor",
+           w.title, w.physics_hz, w.engine, w.gravity_m_s2, w.seed, w.ambient_w_m2, w.wheels, w.materials,
+           w.arena, w.floor.colour, w.floor.ir_reflectance, w.floor.image, w.floor.friction,
+           w.floor.tilt_x_rad, w.floor.tilt_y_rad, w.sky.colour, w.sky.light_w_m2, w.ramps, w.walls,
+           w.objects, w.lamps, w.sounds, w.proximity, w.radio.model, w.radio.range_m, w.radio.exponent,
+           w.radio.fading_db, w.radio.loss, w.radio.capture_db, w.radio.carrier_sense, w.radio.seed,
+           w.link.range_m, w.link.latency_s, w.link.bandwidth_bit_s, w.link.timeout_s, w.link.dropouts,
+           w.link.dropout_rate_hz, w.link.dropout_span_s, w.webots.time_step_s, w.webots.speed_unit_rad_s,
+           w.webots.sensor_order, w.webots.axes, w.webots.world, w.webots.floor_m, w.robots, w.supervisors);
   }
 };
 
 const std::string kFolder = TWINPUCK_SOURCE_DIR "/tests/sim_core/keys/";
 
-std::string text_of(const std::string& file) {
-  std::ifstream in(kFolder + file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(Keys, arrive_where_they_belong_and_have_the_default_that_is_documented) {
   for (const std::string name : {"every_key", "no_key"}) {
-    const auto loaded = sim::parse_world(text_of(name + ".toml"), kFolder + name + ".toml", {puck()});
+    const auto loaded =
+        sim::parse_world(text_of(kFolder + name + ".toml"), kFolder + name + ".toml", {puck()});
     ASSERT_TRUE(loaded.world) << loaded.report(name);
     Told told;
     told(*loaded.world);
     const std::string kept = testing::TempDir() + name + ".txt";
-    if (told.text != text_of(name + ".txt")) std::ofstream(kept) << told.text;
-    EXPECT_EQ(told.text, text_of(name + ".txt")) << "read what has changed, and copy " << kept;
+    if (told.text != text_of(kFolder + name + ".txt")) std::ofstream(kept) << told.text;
+    EXPECT_EQ(told.text, text_of(kFolder + name + ".txt")) << "read what has changed, and copy " << kept;
   }
 }
 
 TEST(Keys, are_all_in_the_file_that_has_every_key) {
-  const std::string text = text_of("every_key.toml");
+  const std::string text = text_of(kFolder + "every_key.toml");
   for (const sim::SectionSpec& section : sim::world_schema()) {
     const std::string path = section.path;
     const std::string head = path.empty() ? "" : section.many ? "\n[[" + path + "]]\n" : "\n[" + path + "]\n";

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pinned pictures: every shape that is drawn, by place and colour to a pixel, and how many letters. Who changes a picture
 // looks at it (the build keeps the files), and puts the number that the failing test prints.
-#include <sys/stat.h>
-
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -12,16 +10,10 @@
 #include "sim_core/record/sensor_picture.h"
 #include "sim_core/record/share_plot.h"
 #include "tests/sim_core/fixture.h"
-#include "twinpuck_paths.h"
 
 using namespace sim_test;
 
 namespace {
-
-std::string scratch(const std::string& name) {
-  ::mkdir(TWINPUCK_BUILD_DIR "/tests/scratch", 0777);
-  return TWINPUCK_BUILD_DIR "/tests/scratch/" + name;
-}
 
 /// Of an SVG, without what depends on the PC's fonts: the letters' outlines and widths.
 std::string shapes(const std::string& path) {
