@@ -46,10 +46,11 @@ struct Opened {
   std::vector<std::array<board::MemoryEnd*, 2>> lines;  // the boards own them
 
   Opened(sim::WorldDesc desc, const Settings& settings) : world(std::move(desc)), tell(settings.tell) {
-    for (const auto& [robot, program] : settings.firmware)
-      if (robot != "*") options.firmware.push_back({robot, program});
+    // of two that mean a robot the later one counts, so "*" comes first
     if (const auto all = settings.firmware.find("*"); all != settings.firmware.end())
       options.firmware.push_back({"*", all->second});
+    for (const auto& [robot, program] : settings.firmware)
+      if (robot != "*") options.firmware.push_back({robot, program});
     if (!settings.hal.empty() && settings.hal != "sim" && settings.hal != "dspic")
       refuse("settings: hal: got '" + settings.hal + "', expected sim or dspic");
     if (settings.threads < 1)

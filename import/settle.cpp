@@ -412,7 +412,7 @@ class Settler {
     const bool for_robot = std::string(what) == "firmware";
     const auto& is_ours = for_robot ? options_.has_firmware : options_.has_program;
     const bool ours = is_ours && plain == name && is_ours(name);
-    const std::string home = std::string(for_robot ? "firmware/" : "supervisor/programs/") + plain;
+    const std::string home = std::string(for_robot ? "firmware/" : "programs/supervisors/") + plain;
     // The controller's own sources, where they are.
     if (!options_.folder.empty() && plain == name && name.find('/') == std::string::npos && name != "..") {
       const char* kSources[] = {".c", ".cpp", ".cc", ".cxx", ".py", ".java", ".class", ".jar"};

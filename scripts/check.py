@@ -92,8 +92,8 @@ UNTOLD = {"scripts", "examples", "editors", "worlds", "docs", "sim_core", "dspic
 VERBATIM = {"firmware/e-puck/e-puck.c"}  # kept byte for byte as the lab's text prints it
 GENERATED = {"firmware/include/p30F6014A.h", "hal_dspic/codec/sound_samples.c"}
 
-# of ways to run a program that there were once: whoever reads them looks for what is not there
-GONE = re.compile(r"\b(?:native|register|chip) ways?\b|\bfibers?\b|\bdata model\b", re.I)
+# of ways to run a program, and of folders, that there were once: whoever reads them looks for what is not there
+GONE = re.compile(r"\b(?:native|register|chip) ways?\b|\bfibers?\b|\bdata model\b|\bsupervisor/programs\b", re.I)
 
 problems = []
 arrows = {}  # (room, room it includes) -> where

@@ -15,13 +15,13 @@ double seconds(Pace::Wall::duration d) { return std::chrono::duration<double>(d)
 
 void Pace::begin(sim::Clicks now) {
   anchor_ = measured_from_ = now;
-  anchor_wall_ = measured_wall_ = Wall::now();
+  anchor_wall_ = measured_wall_ = wall_();
 }
 
 void Pace::play(bool on, sim::Clicks now) {
   plays_ = on;
   anchor_ = now;
-  anchor_wall_ = Wall::now();
+  anchor_wall_ = wall_();
 }
 
 void Pace::set_speed(double speed, sim::Clicks now) {
@@ -31,7 +31,7 @@ void Pace::set_speed(double speed, sim::Clicks now) {
 
 sim::Clicks Pace::due(sim::Clicks now) {
   if (speed_ == 0) return sim::kEver;
-  const auto wall = Wall::now();
+  const auto wall = wall_();
   if (seconds(wall - anchor_wall_) * speed_ - sim::to_seconds(now - anchor_) > kMostLate_s * speed_) {
     anchor_ = now;
     anchor_wall_ = wall;
@@ -41,11 +41,11 @@ sim::Clicks Pace::due(sim::Clicks now) {
 
 double Pace::wait_s(sim::Clicks now) const {
   if (speed_ == 0) return 0;
-  return sim::to_seconds(now - anchor_) / speed_ - seconds(Wall::now() - anchor_wall_);
+  return sim::to_seconds(now - anchor_) / speed_ - seconds(wall_() - anchor_wall_);
 }
 
 void Pace::measure(sim::Clicks now) {
-  const auto wall = Wall::now();
+  const auto wall = wall_();
   if (!plays_) {
     measured_ = 0;
   } else if (wall - measured_wall_ <= kMeanOver) {

@@ -2,6 +2,8 @@
 // How fast the world runs beside the clock on the wall, and how fast it did.
 #pragma once
 #include <chrono>
+#include <functional>
+#include <utility>
 
 #include "sim_core/base/clock.h"
 
@@ -10,6 +12,10 @@ namespace viewer {
 class Pace {
  public:
   using Wall = std::chrono::steady_clock;
+  using Clock = std::function<Wall::time_point()>;
+
+  /// `wall`: the clock on the wall.
+  explicit Pace(Clock wall = Wall::now) : wall_(std::move(wall)) {}
 
   bool plays() const { return plays_; }
   /// Simulated seconds a second; 0: as fast as possible.
@@ -29,6 +35,7 @@ class Pace {
   void measure(sim::Clicks now);
 
  private:
+  Clock wall_;
   bool plays_ = false;
   double speed_ = 1, measured_ = 0;
   Wall::time_point anchor_wall_{}, measured_wall_{};

@@ -54,7 +54,7 @@ class TWINPUCK_PUBLIC Robot {
   double variable(const std::string& expression) const;
   /// Changes it, cut to the variable's width.
   void set_variable(const std::string& expression, double value);
-  /// Traps and unexpected resets so far, a line each: "MathError: division by zero at drive() (main.c:42)".
+  /// Traps and unexpected resets so far, a line each: "MathError: division by zero at drive (main.c:42)".
   std::vector<std::string> traps() const;
 
  private:

@@ -166,7 +166,7 @@ class World:
         self._options: dict[str, typing.Any] = {
             "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
             "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
-            "uart1": list((uart1 or {}).items()), "uart2": list((uart2 or {}).items()),
+            "uart1": _by_robot(uart1 or {}), "uart2": _by_robot(uart2 or {}),
             "firmware": _choices(firmware, pathlib.Path(self._file).parent)}
         self.traps = traps
         self._callables: list[collections.abc.Callable[[World], object]] = []
@@ -455,7 +455,12 @@ def _choices(firmware: Firmware, folder: pathlib.Path) -> list[tuple[str, str]]:
         return []
     if not isinstance(firmware, collections.abc.Mapping):
         firmware = {"*": firmware}
-    return [(robot, _whole(os.fspath(program), folder)) for robot, program in firmware.items()]
+    return [(robot, _whole(os.fspath(program), folder)) for robot, program in _by_robot(firmware)]
+
+
+def _by_robot(choices: collections.abc.Mapping[str, typing.Any]) -> list[tuple[str, typing.Any]]:
+    """As the simulator takes them: of two that mean a robot the later one, so "*" comes first."""
+    return sorted(choices.items(), key=lambda choice: choice[0] != "*")
 
 
 def _whole(program: str, folder: pathlib.Path) -> str:

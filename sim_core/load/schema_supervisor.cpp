@@ -17,7 +17,7 @@ SectionSpec supervisor_section() {
                into<S>([](S& s, const Value& v) { s.name = v.text; })},
               {"program", ValueType::Text, "", 0, 0, "", "required",
                "a C or C++ file, a folder of such, a shared object, or the name of a folder in "
-               "supervisor/programs/; relative to this file",
+               "programs/supervisors/; relative to this file",
                checked<S>([](S& s, const Value& v, const WorldDesc&) {
                  s.program = v.text;
                  return std::string(v.text.empty() ? "got \"\", expected the name of a program" : "");

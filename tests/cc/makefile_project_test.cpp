@@ -71,6 +71,51 @@ TEST(makefile_project, objects_named_by_functions_of_make_are_found) {
   }
 }
 
+// what each kind of assignment and each function of make gives, as GNU make's manual says: a macro each
+TEST(makefile_project, assignments_and_functions_are_those_of_make) {
+  const std::pair<const char*, int> rows[] = {{"$(SET)", 1},
+                                              {"$(UNSET)", 2},
+                                              {"$(AT_ONCE)", 3},
+                                              {"$(LATE)", 4},
+                                              {"$(subst 5 6,5,$(ADDED))", 5},
+                                              {"$(EXPORTED)${OVERRIDDEN}", 89},
+                                              {"$(if $(SET),11,12)", 11},
+                                              {"$(if $(NOTHING),11,12)", 12},
+                                              {"$(subst x,1,x3x)", 131},
+                                              {"$(patsubst a%b,1%,a4b)", 14},
+                                              {"$(patsubst a%b,1%,15)", 15},
+                                              {"$(NAMES:.o=6)", 16},
+                                              {"$(subst .,,$(suffix one.17))", 17},
+                                              {"$(basename 18.c)", 18},
+                                              {"$(notdir a/b/19)", 19},
+                                              {"$(subst /,,$(dir 20/x))", 20},
+                                              {"$(filter 2%,21 31)", 21},
+                                              {"$(filter-out 2%,21 31)", 31},
+                                              {"$(addprefix 2,2)", 22},
+                                              {"$(addsuffix 3,2)", 23},
+                                              {"$(strip  24 )", 24},
+                                              {"$(foreach n,25,$(n))", 25},
+                                              {"$(subst +,,$(subst $(SET),2+,16))", 26},
+                                              {"$(INCLUDED)", 27}};
+  std::string makefile =
+      "include more.mk\nSET = 1\nSET ?= 99\nUNSET ?= 2\nTHREE = 3\nAT_ONCE := $(THREE)\nLATE = "
+      "$(FOUR)\nTHREE = 99\n"
+      "FOUR = 4\nADDED = 5\nADDED += 6\nexport EXPORTED = 8\noverride OVERRIDDEN := 9\nNAMES = 1.o\nCFLAGS =";
+  std::string program = "#include <stdio.h>\nint main(void) { ", expected;
+  for (std::size_t i = 0; i < std::size(rows); ++i) {
+    makefile += " -DM" + std::to_string(i) + "=" + rows[i].first;
+    program += "printf(\"%d \", M" + std::to_string(i) + "); ";
+    expected += std::to_string(rows[i].second) + " ";
+  }
+  Folder folder;
+  folder.file("controllers/prog/main.c", program + "return 0; }");
+  folder.file("controllers/prog/more.mk", "INCLUDED = 27\n");
+  folder.file("controllers/prog/Makefile", makefile + "\nOBJS = main.o\n");
+  auto built = build_folder(folder);
+  ASSERT_TRUE(built.ok) << text_of(built);
+  EXPECT_EQ(said(folder), expected);
+}
+
 // a part of the program in a folder with a Makefile of its own, which alone says where its headers lie
 TEST(makefile_project, other_folders_are_compiled_as_their_makefiles_say) {
   Folder folder;

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // twinpuck debug: what it does, with either HAL.
+#include <sstream>
+#include <vector>
+
 #include "tests/cli/debug_fixture.h"
 
 namespace {
@@ -108,6 +111,51 @@ TEST_P(Debug, a_trace_has_an_instruction_a_line) {
     ++lines;
   }
   EXPECT_EQ(lines, 50);
+}
+
+/// What a command answered: the lines between it and the next prompt.
+std::vector<std::string> answer(const std::string& text, const std::string& command) {
+  std::vector<std::string> lines;
+  const std::size_t begin = text.find("> " + command + "\n");
+  if (begin == std::string::npos) return {"not asked: " + command};
+  std::istringstream in(text.substr(begin + command.size() + 3));
+  for (std::string line; std::getline(in, line) && line.rfind("> ", 0) != 0;) lines.push_back(line);
+  return lines;
+}
+
+TEST_P(Debug, what_is_shown_is_as_much_as_was_asked_for) {
+  const std::string text =
+      debug("break work\nc\nlist\nlist 3\nlist 36\nx 0x800 4\nx 0x800\nx 0x800 10\ndis\ndis 3\nhelp\n",
+            "--for 0.01");
+  std::vector<std::string> source;
+  std::istringstream in(cli_test::kProgram);
+  for (std::string line; std::getline(in, line);)
+    source.push_back(std::to_string(source.size() + 1) + "\t" + line);
+  ASSERT_EQ(source.size(), 34u);
+  const auto lines = [&](int first, int last) {
+    return std::vector<std::string>(source.begin() + first - 1, source.begin() + last);
+  };
+  // five before and behind: line 19 is work()'s first, the program has 34
+  EXPECT_EQ(answer(text, "list"), lines(14, 24));
+  EXPECT_EQ(answer(text, "list 3"), lines(1, 8));
+  EXPECT_EQ(answer(text, "list 36"), lines(31, 34));
+  const auto four = answer(text, "x 0x800 4"), eight = answer(text, "x 0x800"),
+             ten = answer(text, "x 0x800 10");
+  ASSERT_EQ(four.size(), 1u);
+  EXPECT_EQ(four[0].substr(0, 5), "0800:");
+  EXPECT_NE(four[0].find(" 0001"), std::string::npos) << "one tick";
+  EXPECT_EQ(four[0].size(), 5u + 4 * 5);
+  ASSERT_EQ(eight.size(), 1u);
+  EXPECT_EQ(eight[0].size(), 5u + 8 * 5);
+  ASSERT_EQ(ten.size(), 2u);
+  EXPECT_EQ(ten[0], eight[0]);
+  EXPECT_EQ(ten[1].substr(0, 5), "0810:");
+  EXPECT_EQ(ten[1].size(), 5u + 2 * 5);
+  EXPECT_EQ(answer(text, "dis").size(), 10u);
+  const auto code = answer(text, "dis 3");
+  ASSERT_EQ(code.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(code[i].substr(0, 3), i == 0 ? "=> " : "   ") << code[i];
+  EXPECT_GT(answer(text, "help").size(), 20u);
 }
 
 TEST_P(Debug, editors_speak_with_it) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // twinpuck lab: one line an exercise, the same however many processes, and honest about what fails.
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -102,6 +103,48 @@ TEST_F(Lab, a_bound_that_is_not_kept_fails_with_exit_code_1) {
   const Said bad = twinpuck("lab --full --table " + table("at_most = { standstill_s = 6.9 }\n"));
   EXPECT_EQ(bad.exit_code, 1);
   EXPECT_NE(bad.text.find("X1     FAIL  stand: 0 of 3 stand"), std::string::npos) << bad.text;
+}
+
+TEST_F(Lab, measures_are_of_the_way_that_was_driven) {
+  write(
+      "drive/main.c",
+      "#include <motor_led/e_init_port.h>\n#include <motor_led/e_motors.h>\nint main(void) { e_init_port(); "
+      "e_init_motors(); e_set_speed_left(500); e_set_speed_right(500); for (;;) continue; }\n");
+  const auto world = [&](const std::string& name, const std::string& more) {
+    write(name + ".toml", "twinpuck = 1\n" + more + "[[robot]]\nname = \"puck\"\n");
+    return "worlds = [\"" + path(name) + "\"]\nfirmware = \"" + path("drive") +
+           "\"\nseconds = 4\nseeds = [1, 1]\n";
+  };
+  const auto measured = [&](const std::string& step) {
+    write("l.toml", "[[exercise]]\nid = \"X\"\ntitle = \"x\"\n[[exercise.step]]\nsays = \"drive\"\n" + step);
+    EXPECT_EQ(twinpuck("lab --table " + path("l.toml") + " --csv " + path("l.csv")).exit_code, 0);
+    std::istringstream lines(read(path("l.csv")));
+    std::string names, values, name, value;
+    std::getline(lines, names);
+    std::getline(lines, values);
+    std::map<std::string, double> all;
+    for (std::istringstream n(names), v(values); std::getline(n, name, ',') && std::getline(v, value, ',');)
+      all[name] = std::atof(value.c_str());
+    return all;
+  };
+  // 64 mm/s for a little less than 4 s; a quarter is lost on this floor
+  auto m = measured(world("free", "[world]\nslip = 0.25\n"));
+  EXPECT_NEAR(m["distance_m"], 0.75 * 0.064 * 3.97, 0.004);
+  EXPECT_NEAR(m["slip_m"], 0.25 * 0.064 * 3.97, 0.002);
+  EXPECT_EQ(m["collisions"], 0);
+  EXPECT_NEAR(m["standstill_s"], 0.02 / 0.048, 0.05);  // until it has come on by 2 cm
+  // a wall 63 mm before it, after a second
+  m = measured(world("wall", "[[box]]\nposition = [0.11, 0]\nsize = [0.02, 0.6, 0.1]\n"));
+  EXPECT_NEAR(m["distance_m"], 0.063, 0.001);
+  EXPECT_EQ(m["collisions"], 1);
+  EXPECT_NEAR(m["wall_touch_s"], 2.99, 0.03);
+  EXPECT_NEAR(m["touch_s"], 2.99, 0.03);
+  EXPECT_NEAR(m["standstill_s"], 3, 0.05);
+  EXPECT_NEAR(m["slip_m"], 3 * 0.064, 0.002);
+  // out of a region that ends 2 cm before it, and the run ends
+  m = measured(world("open", "") + "region = [-1, -1, 0.02, 1]\n");
+  EXPECT_NEAR(m["escape_s"], 0.02 / 0.064 + 0.03, 0.01);
+  EXPECT_NEAR(m["distance_m"], 0.02, 0.0005);
 }
 
 TEST_F(Lab, mistakes_are_named_with_their_place) {

@@ -116,6 +116,22 @@ TEST_F(KeptTranslations, of_another_translator_stay) {
   EXPECT_TRUE(fs::exists(old / "0000000000000000"));
 }
 
+// more than 4,000 of them, or notes of so many, are too many to look through: they begin anew
+TEST_F(KeptTranslations, are_thrown_away_when_they_are_too_many) {
+  const int compiled = run(folder);
+  const fs::path home = files().front().parent_path();
+  for (int i = 0; i < 4001; ++i) std::ofstream(home / std::to_string(1000000 + i));
+  EXPECT_EQ(run(folder), compiled);
+  EXPECT_EQ(files().size(), static_cast<std::size_t>(compiled));
+  std::ofstream notes(home / "warm");
+  for (int i = 0; i < 4001; ++i) notes << 1000000 + i << "\n";
+  notes.close();
+  EXPECT_EQ(run(folder), compiled);
+  EXPECT_FALSE(fs::exists(home / "warm"));
+  for (int i = compiled; i < 4000; ++i) std::ofstream(home / std::to_string(1000000 + i));
+  EXPECT_EQ(run(folder), 0) << "4,000 are not";
+}
+
 TEST_F(KeptTranslations, are_not_kept_where_no_folder_can_be) {
   std::ofstream(folder) << "a file";
   EXPECT_GE(run(folder), 1);

@@ -272,4 +272,21 @@ TEST(Spi, words_queue_and_overflow) {
   EXPECT_EQ(b.read("SPI2BUF", 3001), 0xEEEEu);
 }
 
+TEST(Spi, what_waits_is_gone_when_it_is_switched_off) {
+  Bench b;
+  b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);
+  b.write("SPI2STAT", 0x8000, 0);
+  b.write("SPI2BUF", 0x1111, 100);
+  b.write("SPI2BUF", 0x2222, 101);
+  b.write("SPI2STAT", 0, 200);
+  b.write("SPI2STAT", 0x8000, 300);
+  EXPECT_EQ(b.read("SPI2STAT", 301) & 3, 0u);
+  b.chip.run_to(5000);
+  EXPECT_TRUE(b.outside.spi.empty());
+  b.write("SPI2BUF", 0x3333, 5000);
+  b.chip.run_to(7000);
+  ASSERT_EQ(b.outside.spi.size(), 1u);
+  EXPECT_EQ(b.outside.spi[0].first, 0x3333);
+}
+
 }  // namespace

@@ -284,6 +284,87 @@ std::string name_of(const ::testing::TestParamInfo<std::size_t>& info) {
 }
 INSTANTIATE_TEST_SUITE_P(Table, Kinds, ::testing::Range<std::size_t>(0, rows().size()), name_of);
 
+/// Two of a kind: the first from 0.3 to 0.7 s, the second from 0.4 to 0.5 s. What there is to see with the first
+/// alone, with both, with the first again, and after both.
+struct Pair {
+  const char *first, *second;
+  std::function<double(Bench&)> look;
+  double one, both, none;
+};
+
+const board::Damage& damage(Bench& b) { return *b.twin().mind(0).board().damage(); }
+const board::WireDamage& to_robot(Bench& b) { return b.twin().mind(0).board().uart(1).damage()->to_robot; }
+
+void expect_joined(const std::vector<Pair>& pairs) {
+  Bench b;
+  b.puck().settings().variation.clock_ppm = 1000;
+  for (const Pair& pair : pairs) {
+    b.add(std::string(pair.first) + " at=0.3s for=0.4s");
+    b.add(std::string(pair.second) + " at=0.4s for=0.1s");
+  }
+  for (const auto& [until_s, is_first, is_second] :
+       {std::tuple(0.38, true, false), {0.48, true, true}, {0.68, true, false}, {0.88, false, false}}) {
+    b.run_for(until_s - b.now_s());
+    for (const Pair& pair : pairs) {
+      const double expected = is_second ? pair.both : is_first ? pair.one : pair.none;
+      EXPECT_NEAR(pair.look(b), expected, 0.05 * std::max(0.2, std::abs(expected)))
+          << pair.second << " at " << until_s << " s";
+    }
+  }
+}
+
+TEST(KindsTable, two_of_a_kind_join_and_each_ends_for_itself) {
+  expect_joined({
+      {"sensor_dirty sensor=2 transmits=0.5", "sensor_dirty transmits=0.4",
+       [](Bench& b) { return damage(b).sensors[2].transmits.now(); }, 0.5, 0.2, 1},
+      {"hot_light sensor=5 w_m2=8", "hot_light w_m2=2",
+       [](Bench& b) { return damage(b).sensors[5].lamp_w_m2.now(); }, 8, 10, 0},
+      {"sensor_dead sensor=0", "sensor_dead part=receiver",
+       [](Bench& b) {
+         return damage(b).sensors[0].emitter_dead.now() + 2 * damage(b).sensors[0].receiver_dead.now();
+       },
+       1, 3, 0},
+      {"sensor_blocked sensor=1 reflects=0 gap_mm=50", "sensor_blocked sensor=3",
+       [](Bench& b) { return damage(b).sensors[1].cover.now() < 0 ? -1 : 1; }, 1, 1, -1},
+      {"bytes_lost share=0.5", "bytes_lost share=0.2", [](Bench& b) { return to_robot(b).lost.now(); }, 0.5,
+       0.6, 0},
+      {"bytes_garbled share=0.4", "bytes_garbled share=0.5",
+       [](Bench& b) { return to_robot(b).garbled.now(); }, 0.4, 0.7, 0},
+      {"line_cut", "line_cut", [](Bench& b) { return to_robot(b).cut.now(); }, 1, 1, 0},
+      {"battery_sag drop_v=0.1", "battery_sag drop_v=0.2",
+       [](Bench& b) {
+         const auto& mind = b.twin().mind(0);
+         const auto& cell = mind.board().power().battery();
+         return cell.sound_voltage(mind.now()) - cell.voltage(mind.now());
+       },
+       0.1, 0.3, 0},
+      {"microphone_silent microphone=1", "microphone_silent",
+       [](Bench& b) { return damage(b).deaf[1].now() + 2 * damage(b).deaf[0].now(); }, 1, 3, 0},
+      {"led_dead led=3", "led_dead led=5", [](Bench& b) { return damage(b).dead_leds; }, 8, 40, 0},
+      {"pin_forced pin=G7 level=1", "pin_forced pin=G7 level=0",
+       [](Bench& b) { return b.puck().pin('G', 7); }, 1, 0, 0},
+      // a thousandth faster than the world, less what the faults take
+      {"crystal_slow ppm=100000", "crystal_slow ppm=50000",
+       [](Bench& b) {
+         const auto before = b.puck().cycles();
+         b.run_for(5.0 / 512);
+         return static_cast<double>(b.puck().cycles() - before) / 144 - 1000;
+       },
+       1 - 100, 1 - 150, 1},
+  });
+  expect_joined({
+      {"wheel_slip share=0.5", "wheel_slip share=0.4",
+       [](Bench& b) { return sim::length(b.twin().simulation().state(0).velocity_m_s) / (400 * 0.1288e-3); },
+       0.5, 0.3, 1},
+  });
+  expect_joined({
+      {"lifted height_m=0.1", "lifted height_m=0.3",
+       [](Bench& b) { return b.twin().simulation().scene().z_m(0); }, 0.1, 0.3, 0},
+      {"wheel_stuck wheel=left", "wheel_stuck",
+       [](Bench& b) { return damage(b).steps[0].is_active() + 2 * damage(b).steps[1].is_active(); }, 1, 3, 0},
+  });
+}
+
 TEST(KindsTable, each_kind_is_tried) {
   std::set<std::string> tried{"camera_covered", "accelerometer_stuck"};  // below
   for (const Row& row : rows()) tried.insert(kind_of(row));

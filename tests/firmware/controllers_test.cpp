@@ -213,23 +213,63 @@ TEST_F(FirmwareTest, a_fast_copy_makes_complex_numbers) {
 }
 
 TEST_F(FirmwareTest, matlab_messages_have_the_documented_bytes) {
-  Robot& robot = add_robot_with_source(
-      "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n#include <matlab/matlab.h>\n"
-      "int data[2] = {1, -2}; int got[4]; int count = -1;\n"
-      "int main(void) {\n"
-      "  e_init_port(); e_init_uart1();\n"
-      "  e_send_int_to_matlab(data, 2);\n"
-      "  count = e_receive_int_from_matlab(got, 4);\n"
-      "  while (1);\n"
-      "}\n");
+  const auto program = [](const std::string& receives) {
+    return "#include <motor_led/e_init_port.h>\n#include <uart/e_uart_char.h>\n#include <matlab/matlab.h>\n"
+           "int data[2] = {1, -2}, got[4], counts[3], received; char text[5];\n"
+           "int main(void) {\n  e_init_port(); e_init_uart1();\n" +
+           receives + "  while (1);\n}\n";
+  };
+  Robot& ints =
+      add_robot_with_source(program("  e_send_int_to_matlab(data, 2);\n"
+                                    "  for (; received < 3; received++)\n"
+                                    "    counts[received] = e_receive_int_from_matlab(got, 4);\n"));
+  Robot& chars =
+      add_robot_with_source(program("  e_send_char_to_matlab(\"hey\", 3);\n"
+                                    "  for (; received < 2; received++)\n"
+                                    "    counts[received] = e_receive_char_from_matlab(text, 3);\n"))
+          .at(0.5, 0);
+  const auto receive = [&](Robot& robot, const std::string& bytes) {
+    robot.uart(1).send(bytes);
+    run_for(0.1);
+  };
   run_for(0.2);
-  EXPECT_EQ(robot.uart(1).text(), std::string("I\4\0\1\0\xFE\xFF"
-                                              "EOF\0",
-                                              11));
-  robot.uart(1).send(std::string("\4\0\x10\x27\xFF\x00", 6));
+  EXPECT_EQ(ints.uart(1).text(), std::string("I\4\0\1\0\xFE\xFF"
+                                             "EOF\0",
+                                             11));
+  EXPECT_EQ(chars.uart(1).text(), std::string("C\3\0heyEOF\0", 10));
+  receive(ints, std::string("\4\0\x10\x27\xFF\x00", 6));
+  EXPECT_EQ(ints.variable<std::int32_t>("got"), 0x00FF2710);
+  // what fills the array is not too long
+  receive(ints, std::string("\x8\0\1\0\2\0\3\0\4\0", 10));
+  EXPECT_EQ(ints.variables("got", 4), (std::vector<std::int16_t>{1, 2, 3, 4}));
+  EXPECT_FALSE(ints.led(4));
+  receive(ints, std::string("\xA\0\5\0\6\0\7\0\x8\0\x9\0", 12));
+  EXPECT_EQ(ints.variables("got", 4), (std::vector<std::int16_t>{5, 6, 7, 8}));
+  EXPECT_TRUE(ints.led(4)) << "a word too long";
+  EXPECT_EQ(ints.variables("counts", 3), (std::vector<std::int16_t>{2, 4, 4}));
+  receive(chars, std::string("\3\0abc", 5));
+  receive(chars, std::string("\4\0wxyz", 6));
+  EXPECT_EQ(chars.variables<char>("text", 4), (std::vector<char>{'w', 'x', 'y', 0}));
+  EXPECT_EQ(chars.variables("counts", 2), (std::vector<std::int16_t>{3, 3}));
+  EXPECT_FALSE(chars.led(4));
+}
+
+// position 10 is the turret's: it has the debugger's pins AN0 and AN1, too, and a higher priority
+TEST_F(FirmwareTest, the_scan_of_the_turrets_position_has_its_inputs_and_its_priority) {
+  const char* const program =
+      "#include <p30F6014A.h>\n#include <motor_led/e_init_port.h>\n#include "
+      "<a_d/advance_ad_scan/e_ad_conv.h>\n"
+      "unsigned inputs, priority;\n"
+      "int main(void) {\n  e_init_port();\n  e_init_ad_scan(MICRO_ONLY);\n  inputs = ADPCFG;\n  priority = "
+      "IPC2 >> 12 & 7;\n"
+      "  while (1);\n}\n";
+  add_robot_with_source(program).selector(10);
+  add_robot_with_source(program).at(0.5, 0).selector(9);
   run_for(0.1);
-  EXPECT_EQ(robot.variable("count"), 2);
-  EXPECT_EQ(robot.variable<std::int32_t>("got"), 0x00FF2710);
+  EXPECT_EQ(robot(0).variable("inputs"), 0);
+  EXPECT_EQ(robot(0).variable("priority"), 6);
+  EXPECT_EQ(robot(1).variable("inputs"), 3);
+  EXPECT_EQ(robot(1).variable("priority"), 4);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "hal_sim/runs/run.h"
 #include "tests/support/firmware_test.h"
 
 namespace firmware_test {
@@ -121,4 +122,19 @@ TEST_F(Fixture, a_program_that_does_not_compile_is_told_with_the_line_that_runs_
 }
 
 }  // namespace
+TEST(Run, is_refused_with_what_is_wrong_with_its_coverage_or_its_supervisors) {
+  twin::Options options;
+  std::vector<std::string> problems;
+  EXPECT_NE(runs::Run::open({}, options, {}, problems), nullptr);
+  EXPECT_TRUE(problems.empty());
+  EXPECT_EQ(runs::Run::open({}, options, {"nobodys"}, problems), nullptr);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].rfind("supervisor 'nobodys': ", 0), 0u) << problems[0];
+  problems.clear();
+  options.coverage = testing::TempDir() + "nothing.info";
+  EXPECT_EQ(runs::Run::open({}, options, {}, problems), nullptr);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_NE(problems[0].find("--coverage"), std::string::npos) << problems[0];
+}
+
 }  // namespace firmware_test

@@ -235,4 +235,46 @@ TEST_F(PartTest, the_example_reads_the_floor) {
   expect_no_traps();
 }
 
+// what a program wrote into its parts is gone when the robot is put back, as if the world began
+TEST_F(PartTest, each_is_as_at_first_when_its_robot_begins_anew) {
+  Robot& robot = add_robot_with_source(R"(
+#include <I2C/e_I2C_protocol.h>
+#include <motor_led/e_init_port.h>
+static const unsigned char devices[] = {0xC0, 0xE0, 0x7E, 0xA2, 0x52};
+unsigned char seen[5 * 8], after[5 * 8];
+int rounds;
+int main(void) {
+  int d, r, i;
+  long pause;
+  e_init_port();
+  e_i2cp_init();
+  e_i2cp_enable();
+  for (i = 0; i < 2; i++) {
+    for (d = 0; d < 5; d++)
+      for (r = 0; r < 8; r++) (i ? after : seen)[8 * d + r] = e_i2cp_read(devices[d], r);
+    for (d = 0; d < 5 && !i; d++)
+      for (r = 2; r < 8; r++) e_i2cp_write(devices[d], r, 5);
+    e_i2cp_write(0xE0, 0, 81);
+    for (pause = 0; pause < 200000; pause++) asm("nop");
+    rounds++;
+  }
+  while (1);
+}
+)");
+  robot.settings().parts = {part("compass"), part("ultrasonic-ranger"), part("radio"), part("lis-turret"),
+                            part("floor-colour")};
+  std::vector<unsigned char> first[2];
+  for (auto& seen : first) {
+    run_for(2);
+    EXPECT_EQ(robot.variable("rounds"), 2);
+    seen = robot.variables<unsigned char>("seen", 40);
+    EXPECT_NE(seen, robot.variables<unsigned char>("after", 40)) << "writing has changed them";
+    twin().mind(0).runner()->restart();
+    twin().simulation().move(0, {0, 0, 0});
+    twin().begin_again(0);
+    twin().simulation().begin_again();
+  }
+  EXPECT_EQ(first[0], first[1]);
+}
+
 }  // namespace

@@ -4,6 +4,7 @@
 #include "flash/upload.h"
 
 #include <cstdlib>
+#include <deque>
 #include <random>
 #include <sstream>
 
@@ -408,7 +409,8 @@ std::string problem_of(const dspic::FirmwareFile& file) {
 
 TEST(UploadPlan, the_way_in_is_the_programs_and_the_reset_vector_the_bootloaders) {
   dspic::FirmwareFile file;
-  file.words = {{0, 0x040200}, {2, 0}, {0x200, 0x37FFFF}, {0x7FF000, 0xFF1234}, {0xF80000, 0xFFE6}};
+  file.words = {{0, 0x040200},     {2, 0}, {0x200, 0x37FFFF}, {0x17F10, 0x123456}, {0x7FF000, 0xFF1234},
+                {0xF80000, 0xFFE6}};
   flash::UploadPlan plan;
   std::string error;
   ASSERT_TRUE(flash::plan_upload(file, "p.hex", plan, error)) << error;
@@ -418,6 +420,7 @@ TEST(UploadPlan, the_way_in_is_the_programs_and_the_reset_vector_the_bootloaders
   EXPECT_EQ(plan.rows[0][2], 0xFFFFFFu);
   EXPECT_EQ(plan.rows[0x200][0], 0x37FFFFu);
   EXPECT_EQ(plan.rows[0x17F00][0], 0u) << "a lost byte does not make it the end";
+  EXPECT_EQ(plan.rows[0x17F00][8], 0x123456u) << "what the program has there stays";
   EXPECT_EQ(plan.rows[0x17F00][28], 0xEB0000u);
   EXPECT_EQ(plan.way_in, (std::array<std::uint32_t, 4>{0x040200, 0, 0xFFFFFF, 0xFFFFFF}));
   EXPECT_EQ(plan.notes.size(), 2u);
@@ -446,6 +449,92 @@ TEST(UploadPlan, what_cannot_be_written_is_refused) {
   EXPECT_EQ(problem_of(file),
             "p.hex: address 0x017f3a: the program reaches into the bootloader's words, 0x017f38 to 0x017ffe; "
             "make it smaller");
+}
+
+// --- a bootloader of a few lines, whose answers a test spoils
+
+struct FakeBootloader : flash::SerialLine {
+  bool write(const std::vector<std::uint8_t>& bytes) override {
+    for (const std::uint8_t byte : bytes) {
+      if (frame.empty() && byte == 0xC1) {
+        answers.insert(answers.end(), {'q', 'K'});
+        continue;
+      }
+      frame.push_back(byte);
+      if (frame.size() == 4 && frame[0] == 100) ended = true, frame.clear();
+      if (frame.size() == 101) take();
+    }
+    return true;
+  }
+  void take() {
+    unsigned sum = 0;
+    for (const std::uint8_t byte : frame) sum += byte;
+    const std::uint32_t address = frame[0] | frame[1] << 8 | frame[2] << 16;
+    if (frame[3] == 0x60 && (sum & 0xFF) == 0) {
+      ++writes[address];
+      rows[address].assign(frame.begin() + 4, frame.end() - 1);
+      answers.push_back('K');
+    } else if (frame[3] == 0xFE && (sum & 0xFF) == 1 && can_read) {
+      ++reads[address];
+      std::vector<std::uint8_t> row = rows[address];
+      if (spoils[address] > 0 && spoils[address]--) ++row[5], --row[6];  // which adds up all the same
+      unsigned total = 0;
+      for (const std::uint8_t byte : row) total += byte;
+      answers.push_back('R');
+      answers.insert(answers.end(), row.begin(), row.end());
+      answers.push_back(static_cast<std::uint8_t>(0 - total));
+    } else {
+      answers.push_back('N');
+    }
+    frame.clear();
+  }
+  std::optional<std::uint8_t> read(double seconds) override {
+    if (answers.empty()) {
+      now += seconds;
+      return std::nullopt;
+    }
+    const std::uint8_t byte = answers.front();
+    answers.pop_front();
+    now += 1e-4;
+    return byte;
+  }
+  double now_s() const override { return now; }
+
+  bool can_read = true, ended = false;
+  double now = 0;
+  std::vector<std::uint8_t> frame;
+  std::deque<std::uint8_t> answers;
+  std::map<std::uint32_t, std::vector<std::uint8_t>> rows;
+  std::map<std::uint32_t, int> writes, reads, spoils;
+};
+
+TEST(UploadRows, one_answer_that_is_wrong_is_asked_for_again_and_two_are_believed) {
+  dspic::FirmwareFile file;
+  file.words = {{0, 0x040200}, {2, 0}, {0x200, 0x37FFFF}, {0x240, 0x123456}};
+  flash::UploadPlan plan;
+  std::string error;
+  ASSERT_TRUE(flash::plan_upload(file, "p.hex", plan, error)) << error;
+  for (const int spoilt : {0, 1, 2}) {
+    FakeBootloader robot;
+    robot.spoils[0x200] = spoilt;
+    std::string told;
+    const flash::Upload result = flash::upload(robot, plan, {}, [&](const char* phase, int done, int total) {
+      if (done == total) told += std::string(phase) + " " + std::to_string(total) + " ";
+    });
+    EXPECT_EQ(result.state, State::Verified) << result.why;
+    EXPECT_EQ(result.repeated, spoilt == 2) << spoilt;
+    EXPECT_EQ(robot.writes[0x200], spoilt == 2 ? 2 : 1) << spoilt;
+    EXPECT_EQ(robot.reads[0x200], spoilt == 0 ? 1 : spoilt == 1 ? 2 : 3) << spoilt;
+    EXPECT_EQ(robot.writes[0x240], 1);
+    EXPECT_EQ(told, spoilt == 2 ? "written 4 verified 4 verified 4 " : "written 4 verified 4 ");
+    EXPECT_TRUE(robot.ended) << "the program is begun";
+    // the way in is the last that is written, at the end of the bootloader's row: goto 0x200
+    const auto& row = robot.rows[flash::kBootloaderRow];
+    EXPECT_EQ(std::vector<int>(row.begin() + 84, row.begin() + 90), (std::vector<int>{0, 2, 4, 0, 0, 0}));
+  }
+  FakeBootloader deaf;
+  deaf.can_read = false;
+  EXPECT_EQ(flash::upload(deaf, plan, {}, [](const char*, int, int) {}).state, State::Written);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "hal_sim/board/part.h"
 #include "import/import.h"
 #include "sim_core/load/world_loader.h"
+#include "twinpuck_paths.h"
 
 namespace {
 
@@ -430,6 +431,57 @@ TEST(Import, what_our_worlds_have_no_room_for_is_reported) {
   EXPECT_EQ(names.world.robots.at(0).name, "a_b");
   EXPECT_TRUE(names.reports(0, {"the name \"a,b\"", "a_b"})) << names.all_reports();
   EXPECT_TRUE(names.reports(0, {"a device of so long a name"})) << names.all_reports();
+}
+
+// worlds/*.toml were checked by hand against Webots' documentation and the numbers in the .wbt beside them
+TEST(Import, each_node_and_each_field_becomes_what_the_world_beside_it_says) {
+  for (const std::string name : {"defaults", "looks", "shapes"}) {
+    const auto text_of = [&](const std::string& ending) {
+      std::ifstream in(TWINPUCK_SOURCE_DIR "/tests/import/worlds/" + name + ending, std::ios::binary);
+      return std::string{std::istreambuf_iterator<char>(in), {}};
+    };
+    const std::string made = import(text_of(".wbt")).made.toml, kept = testing::TempDir() + name + ".toml";
+    if (made != text_of(".toml")) std::ofstream(kept) << made;
+    EXPECT_EQ(made, text_of(".toml")) << "read what has changed, and copy " << kept;
+  }
+}
+
+// textures/half.png is half red, half blue; blue.jpg is 0.2, 0.4, 0.8; broken.png is no picture
+TEST(Import, pictures_beside_the_world_become_their_average_colour) {
+  const auto box = [](int i, const std::string& look) {
+    return "SolidBox { translation " + std::to_string(i) + " 0 0.05 size 0.1 0.1 0.1 appearance " + look +
+           " }\n";
+  };
+  const Result r = import(
+      kNew +
+          "RectangleArena { floorSize 2 1 floorTileSize 2 1 floorAppearance PBRAppearance { baseColorMap "
+          "ImageTexture { url \"textures/half.png\" } } }\n" +
+          box(2,
+              "PBRAppearance { baseColor 1 1 0.5 baseColorMap ImageTexture { url \"textures/half.png\" } }") +
+          box(3, "Appearance { texture ImageTexture { url \"blue.jpg\" } }") +
+          box(4, "PBRAppearance { baseColorMap ImageTexture { url \"textures/broken.png\" } }") +
+          box(5, "PBRAppearance { baseColorMap ImageTexture { url \"elsewhere/half.png\" } }"),
+      TWINPUCK_SOURCE_DIR "/tests/import/worlds");
+  EXPECT_EQ(r.world.floor.image, "textures/half.png");
+  ASSERT_EQ(r.world.objects.size(), 4u);
+  const double expected[][3] = {{0.5, 0, 0.25}, {0.2, 0.4, 0.8}, {1, 1, 1}, {0.5, 0, 0.5}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const sim::Colour& c = r.world.objects[i].material.colour;
+    EXPECT_NEAR(c.r, expected[i][0], 0.01) << i;
+    EXPECT_NEAR(c.g, expected[i][1], 0.01) << i;
+    EXPECT_NEAR(c.b, expected[i][2], 0.01) << i;
+  }
+  EXPECT_TRUE(r.reports(5, {"textures/broken.png", "cannot be read", "the colour without it"}))
+      << r.all_reports();
+  const Result repeated = import(
+      kNew +
+          "RectangleArena { floorSize 2 1 floorTileSize 1 1 floorAppearance PBRAppearance { baseColorMap "
+          "ImageTexture { url \"textures/half.png\" } } }\nRectangleArena { }\n",
+      TWINPUCK_SOURCE_DIR "/tests/import/worlds");
+  EXPECT_EQ(repeated.world.floor.image, "");
+  EXPECT_NEAR(repeated.world.floor.colour.r, 0.5, 1e-6);
+  EXPECT_TRUE(repeated.reports(2, {"a picture that is repeated", "its average colour"}))
+      << repeated.all_reports();
 }
 
 }  // namespace

@@ -252,7 +252,7 @@ Robot { name "t" supervisor TRUE controller "rules" controllerArgs [ "fast" ] }
   // supervisors are the PC's programs: C++ is all right, ours have another place
   ASSERT_EQ(world.supervisors.size(), 2u);
   EXPECT_EQ(world.supervisors[0].program, "../controllers/referee");
-  EXPECT_TRUE(reports(made, 8, "supervisor/programs/rules has its name and runs in its place"));
+  EXPECT_TRUE(reports(made, 8, "programs/supervisors/rules has its name and runs in its place"));
   EXPECT_EQ(world.supervisors[1].args, "fast");
 }
 

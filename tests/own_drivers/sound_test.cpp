@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hal_sim/board/sound_bank.h"
+#include "hal_sim/signals/signals.h"
 #include "sim_core/sound/sound_field.h"
 #include "tests/own_drivers/fixture.h"
 
@@ -146,6 +147,7 @@ TEST_F(Sound, own_handler_plays_a_square_wave) {
   const int before = player.variable<std::uint16_t>("interrupts");
   run_for(1);
   EXPECT_NEAR(player.variable<std::uint16_t>("interrupts") - before, 1800, 1);
+  EXPECT_NEAR(signals::find(twin(), 0, "speaker").value(twin()), 100 * 8000.0 / 32768, 0.1);
   EXPECT_EQ(robot(0).diagnoses_text().find("codec"), std::string::npos) << robot(0).diagnoses_text();
   expect_no_traps();
 }

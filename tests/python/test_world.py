@@ -388,3 +388,12 @@ def test_a_program_that_an_interpreter_leaves_open_does_not_hold_it():
     done = subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=600, check=True)
     assert done.stdout.strip() == "1.0" and done.stderr == ""
     assert os.getpid() and signal.getsignal(signal.SIGINT)
+
+
+def test_a_robot_that_is_named_has_its_own_program_wherever_the_others_stand(programs):
+    mine, others = programs("int who = 1; int main(void) { while (1) ; }"), programs("int who = 2; int main(void) { while (1) ; }")
+    table = {**ARENA, "robot": [{"name": "a", "position": [0, 0]}, {"name": "b", "position": [0.2, 0]}]}
+    for firmware in ({"a": mine, "*": others}, {"*": others, "a": mine}):
+        with twinpuck.World(table, firmware=firmware) as world:
+            world.run(0.1)
+            assert [robot.variable("who") for robot in world.robots] == [1, 2]

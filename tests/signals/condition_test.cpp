@@ -10,7 +10,10 @@ using signals::Condition;
 class ConditionTest : public firmware_test::FirmwareTest {
  protected:
   void SetUp() override {
-    add_robot_with_source("int state = 3; long far = 100000; int main(void) { for (;;) ++far; }", "e-puck")
+    add_robot_with_source(
+        "int state = 3; int row[2][2] = {{1, -2}, {30, 40}}; struct { int in[2]; } s = {{7, 8}}, *ps = &s; "
+        "long far = 100000; int main(void) { for (;;) ++far; }",
+        "e-puck")
         .at(0.25, 0.5, 90)
         .selector(5);
     add_robot("", "b.2").at(0.5, 0.5);
@@ -58,6 +61,9 @@ TEST_F(ConditionTest, names_are_the_robots_own_or_have_a_robot_before_them) {
   EXPECT_EQ(value("$state"), 3);
   EXPECT_EQ(value("e-puck.$state == 3 && e-puck.var(state * 2) == 6", -1), 1);
   EXPECT_EQ(value("$far > 100000"), 1);
+  EXPECT_EQ(value("$row[1][0] + $row[0][1] == 28 && $s.in[1] > 7"), 1);
+  EXPECT_EQ(value("(1+$ps->in[0])*2 + $(row[1][1] - row[(1)][0])"), 16 + 10);
+  EXPECT_EQ(refused("$row[1"), "got an open bracket, expected it closed");
   EXPECT_EQ(value("$(state + 1) * 2"), 8);
 }
 

@@ -2,36 +2,22 @@
 // Films: that what is read back is what was drawn, when frames are taken, and what is in a file that
 // was never finished.
 #include <sys/resource.h>
-#include <sys/stat.h>
 
 #include <array>
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "sim_core/record/film.h"
 #include "sim_core/record/frame_encoder.h"
 #include "tests/sim_core/fixture.h"
 #include "tests/support/film_reader.h"
-#include "twinpuck_paths.h"
 
 using namespace sim_test;
 using film_test::Read;
 
 namespace {
-
-std::string scratch(const std::string& name) {
-  ::mkdir(TWINPUCK_BUILD_DIR "/tests/scratch", 0777);
-  return TWINPUCK_BUILD_DIR "/tests/scratch/" + name;
-}
-
-std::string bytes_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// A red square of 16 px on white that moves right by 8 px a frame; the frame is 64 x 48.
 std::vector<std::uint32_t> square_at(int frame) {
@@ -244,10 +230,10 @@ TEST(Film, two_films_of_a_run_are_the_same_to_the_byte) {
         film.sample(s->scene(), s->minds());
       }
       film.finish();
-      if (round == 0) first = bytes_of(path);
+      if (round == 0) first = text_of(path);
     }
     EXPECT_GT(first.size(), 1000u);
-    EXPECT_TRUE(first == bytes_of(scratch(std::string("twin") + ending))) << ending;
+    EXPECT_TRUE(first == text_of(scratch(std::string("twin") + ending))) << ending;
   }
 }
 

@@ -2,8 +2,11 @@
 // What the world's tests share: a test robot's model, minds of three lines, worlds from a raw string.
 #pragma once
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,8 +16,21 @@
 #include "sim_core/load/world_loader.h"
 #include "sim_core/simulation.h"
 #include "tests/support/cruise.h"
+#include "twinpuck_paths.h"
 
 namespace sim_test {
+
+/// A file in the build's folder, for pictures and recordings; people may look at them after the tests.
+inline std::string scratch(const std::string& name) {
+  ::mkdir(TWINPUCK_BUILD_DIR "/tests/scratch", 0777);
+  return TWINPUCK_BUILD_DIR "/tests/scratch/" + name;
+}
+
+/// All that a file has in it.
+inline std::string text_of(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
 
 /// A puck of 37 mm with eight level sensors 33 mm from its middle, numbered like a clock from front right.
 inline sim::RobotModel puck() {

@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Heat maps: which cell a robot's time counts for, in numbers and in colours.
-#include <sys/stat.h>
-
-#include <fstream>
-#include <iterator>
-
 #include "sim_core/record/heatmap.h"
 #include "tests/sim_core/fixture.h"
-#include "twinpuck_paths.h"
 
 using namespace sim_test;
 
 namespace {
-
-std::string scratch(const std::string& name) {
-  ::mkdir(TWINPUCK_BUILD_DIR "/tests/scratch", 0777);
-  return TWINPUCK_BUILD_DIR "/tests/scratch/" + name;
-}
-
-std::string text_of(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 // at 128 Hz a tick is 1/128 s
 const char* kTwo =

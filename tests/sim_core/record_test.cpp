@@ -15,11 +15,6 @@ using namespace sim_test;
 
 namespace {
 
-std::string scratch(const std::string& name) {
-  ::mkdir(TWINPUCK_BUILD_DIR "/tests/scratch", 0777);
-  return TWINPUCK_BUILD_DIR "/tests/scratch/" + name;
-}
-
 std::vector<std::string> lines_of(const std::string& path) {
   std::ifstream in(path);
   std::vector<std::string> lines;

@@ -151,7 +151,7 @@ class FirmwareTest : public ::testing::Test {
   Robot& add_robot(const std::string& firmware, const std::string& name = "");
   /// A robot with a controller written in the test itself.
   Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
-  /// A supervisor: a name under supervisor/programs/, a file or a folder (docs/connecting.md). Runs stop when
+  /// A supervisor: a name under programs/supervisors/, a file or a folder (docs/connecting.md). Runs stop when
   /// it ends them.
   void add_supervisor(const std::string& program, double period_s = 0);
   /// A supervisor written in the test itself; "cpp" or "c".
