@@ -30,12 +30,6 @@ TEST_F(BadLuck, a_port_in_use_is_named) {
   EXPECT_NE(s.text.find(port), std::string::npos) << s.text;
 }
 
-TEST_F(BadLuck, a_full_disk_ends_the_run_with_7_and_says_so) {
-  const Said s = twinpuck("run maze --for 60 --record /dev/full");
-  EXPECT_EQ(s.exit_code, 7) << s.text;
-  EXPECT_NE(s.text.find("No space left"), std::string::npos) << s.text;
-}
-
 TEST_F(BadLuck, every_output_on_a_full_disk_ends_with_7_and_is_named) {
   for (const char* name : {"x.png", "x.svg", "x.csv", "x.webm", "x.apng", "x"})
     fs::create_symlink("/dev/full", folder / name);

@@ -81,10 +81,10 @@ class CommandTest : public ::testing::Test {
                             "' && export PATH='" TWINPUCK_BUILD_DIR "':\"$PATH\" && { " + line +
                             "\n} 2>&1 </dev/null #");
   }
-  /// For EXPECT_EQ(as(wanted, said), wanted), as in messages.txt: @ is this test's folder, ~ the project's.
-  std::string as(const std::string& wanted, const std::string& said) const {
-    return wording::as(wanted, said,
-                       {{folder.string(), "@"}, {TWINPUCK_BUILD_DIR, "~/build"}, {TWINPUCK_SOURCE_DIR, "~"}});
+  /// For EXPECT_TRUE(reads(said, wanted)), as in messages.txt: @ is this test's folder, ~ the project's.
+  testing::AssertionResult reads(const std::string& said, const std::string& wanted) const {
+    return wording::reads(
+        said, wanted, {{folder.string(), "@"}, {TWINPUCK_BUILD_DIR, "~/build"}, {TWINPUCK_SOURCE_DIR, "~"}});
   }
 
   const fs::path folder;

@@ -67,9 +67,8 @@ TEST_F(Hal, image_for_another_table_of_functions_is_refused) {
   write("old.elf", bytes.replace(at, 4, other));
   const Said run = twinpuck("run maze --for 0.001 --fw " + path("old.elf"));
   EXPECT_EQ(run.exit_code, 2) << run.text;
-  const std::string told =
-      "@/old.elf: image: got one linked with another hal_sim, expected one of this twinpuck";
-  EXPECT_EQ(as(told, run.text), told);
+  EXPECT_TRUE(reads(run.text,
+                    "@/old.elf: image: got one linked with another hal_sim, expected one of this twinpuck"));
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Texts held word for word, where some words depend on the PC, the day or the compiler.
 #pragma once
+#include <gtest/gtest.h>
+
 #include <cctype>
 #include <cstring>
-#include <initializer_list>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace wording {
 
@@ -29,12 +31,16 @@ inline bool is_as(const char* said, const char* wanted) {
   return !*said;
 }
 
-/// For EXPECT_EQ(as(wanted, said), wanted): what was said, or `wanted` where it is that. Each pair's first text, such
-/// as a test's folder, is seen as its second.
-inline std::string as(const std::string& wanted, std::string said,
-                      std::initializer_list<std::pair<std::string, std::string>> names = {}) {
+using Names = std::vector<std::pair<std::string, std::string>>;
+
+/// For EXPECT_TRUE(reads(said, wanted)): that it is said word for word, but for a line end behind it. Each pair's first
+/// text, such as a test's folder, is read as its second.
+inline testing::AssertionResult reads(std::string said, const std::string& wanted, const Names& names = {}) {
   for (const auto& [what, by] : names) said = replaced(said, what, by);
-  return is_as(said.c_str(), wanted.c_str()) ? wanted : said;
+  if (!said.empty() && said.back() == '\n') said.pop_back();
+  if (is_as(said.c_str(), wanted.c_str())) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "got\n  " << testing::PrintToString(said) << "\nexpected\n  "
+                                     << testing::PrintToString(wanted) << "\n";
 }
 
 }  // namespace wording
