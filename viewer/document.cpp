@@ -157,8 +157,9 @@ std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) c
   const auto op = request.at("op").get<std::string>();
   // The piece that is meant; keys are judged before anything is written.
   const auto piece = [&]() -> const sim::WorldText::Element& {
-    const auto* element = next.find(request.at("thing").get<int>());
-    if (!element) refuse("thing: got one that is not there");
+    const int id = request.at("thing");
+    const auto* element = next.find(id);
+    if (!element) refuse("thing: got " + std::to_string(id) + ", expected the id of a thing of the world");
     return *element;
   };
   const auto set = [&](int id, const std::string& path, const Json& values) {
@@ -198,8 +199,9 @@ std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) c
     }
     next.add_inner(piece().id, path, values);
   } else if (op == "remove_inner") {
-    if (!next.remove_inner(piece().id, request.at("path").get<std::string>(), request.at("index").get<int>()))
-      refuse("index: got one that is not there");
+    const int index = request.at("index");
+    if (!next.remove_inner(piece().id, request.at("path").get<std::string>(), index))
+      refuse("index: got " + std::to_string(index) + ", expected that of a piece of the thing");
   } else if (op == "text") {
     if (request.contains("base") && request.at("base") != base())
       throw Refusal("base: the text was changed meanwhile",
@@ -254,7 +256,7 @@ std::string Document::text_of(const std::vector<int>& ids) const {
   std::string out;
   for (const int id : ids) {
     std::string text = text_.text_of(id);
-    if (text.empty()) refuse("things: got one that is not there");
+    if (text.empty()) refuse("things: got " + std::to_string(id) + ", expected ids of things of the world");
     while (!text.empty() && text.back() == '\n') text.pop_back();
     out += text + "\n\n";
   }
@@ -304,7 +306,8 @@ void Document::save_as(const std::string& folder, const std::string& name, bool 
   const std::string file = (fs::path(folder) / name).string();
   std::error_code none;
   const fs::file_status there = fs::symlink_status(file, none);
-  if (fs::is_symlink(there)) refuse("name: got '" + name + "', which is a link to somewhere else");
+  if (fs::is_symlink(there))
+    refuse("name: got '" + name + "', which is a link, expected a file of the world's folder");
   if (fs::exists(there) && !fs::is_regular_file(there)) refuse("name: got '" + name + "', which is no file");
   if (fs::exists(there) && !overwrite)
     refuse("name: got '" + name + "', which is there already; overwrite it?");

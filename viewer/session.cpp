@@ -295,7 +295,9 @@ void Session::debug_robot(int robot) {
     throw std::runtime_error("robot: too much was done to this run to repeat it (200 MB); restart it");
   const std::string name = twin.world().robots[static_cast<std::size_t>(robot)].name;
   auto* const runner = dynamic_cast<chip::ChipRunner*>(twin.mind(robot).runner());
-  if (!runner) throw std::runtime_error("robot: got '" + name + "', which runs no firmware");
+  if (!runner)
+    throw std::runtime_error("robot: got '" + name +
+                             "', which runs no firmware, expected one with a program of the robot");
   const debug::Cycle from = twin.mind(robot).cycle_at(now());
   // The debugger opens the same world, with the same images.
   debug::Session::Setup setup;

@@ -102,8 +102,8 @@ void DapServer::refuse(const Json& request, const std::string& why) {
 void DapServer::handle(const Json& request) {
   try {
     answer(request);
-  } catch (const Json::exception& e) {  // a field of the wrong kind
-    refuse(request, e.what());
+  } catch (const Json::exception&) {  // a field that is missing or of the wrong kind
+    refuse(request, "arguments: got none or others, expected those of the Debug Adapter Protocol");
   }
 }
 
@@ -217,7 +217,8 @@ void DapServer::answer(const Json& request) {
       {"stepBack", by_instruction ? Plan::BackInstruction : Plan::BackLine},
       {"reverseContinue", Plan::BackContinue}};
   const auto plan = plans.find(command);
-  if (plan == plans.end()) return refuse(request, "got '" + command + "', which is not supported");
+  if (plan == plans.end())
+    return refuse(request, "command: got '" + command + "', expected one of the Debug Adapter Protocol");
   respond(request, command == "continue" ? Json{{"allThreadsContinued", true}} : Json::object());
   begin_run(plan->second);
 }

@@ -130,7 +130,8 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
       begin = end + 1;
       // The first line says of what run this is.
       if (number++ == 0) {
-        if (line.at("twinpuck_inputs").get<int>() != 1) throw std::runtime_error("version: expected 1");
+        if (const int version = line.at("twinpuck_inputs"); version != 1)
+          throw std::runtime_error(fmt::format("version: got {}, expected 1", version));
         Opening& o = replay->opening;
         o.file = line.at("file").get<std::string>();
         o.text = line.at("text").get<std::string>();
@@ -139,7 +140,7 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
         // what recordings of before have beside it
         const std::string way = line.value("way", "");
         if (way == "native")
-          throw std::runtime_error("way: got native, which is gone; record the inputs anew");
+          throw std::runtime_error("way: got native, which is gone, expected chip; record the inputs anew");
         if (way == "chip" && o.options.hal.empty()) o.options.hal = "dspic";
         o.options.optimisation = line.at("opt").get<std::string>();
         o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
@@ -152,15 +153,21 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
         replay->end_ = line.at("at").get<sim::Clicks>();
         replay->digest_ = std::stoull(line.at("digest").get<std::string>(), nullptr, 16);
       } else {
-        if (line.at("at").get<sim::Clicks>() < 0) throw std::runtime_error("at: expected 0 or more");
+        if (const sim::Clicks at = line.at("at"); at < 0)
+          throw std::runtime_error(fmt::format("at: got {}, expected 0 or more (clicks)", at));
         replay->inputs_.push_back(line);
         if (line.at("do") == "program")
           replay->inputs_.back()["image"] = beside(path, line.at("image").get<std::string>());
       }
     }
-    if (number == 0) throw std::runtime_error("got an empty file, expected a recording of inputs");
-  } catch (const std::exception& e) {
+    if (number == 0) throw std::runtime_error("inputs: got an empty file, expected a recording");
+  } catch (const std::runtime_error& e) {
     problems.push_back(fmt::format("{}:{}: {}", path, number, e.what()));
+    return nullptr;
+  } catch (const std::exception&) {  // of what is no JSON, or not of its kind
+    problems.push_back(fmt::format(
+        "{}:{}: inputs: got a line of another kind, expected one that view --record-inputs writes", path,
+        number));
     return nullptr;
   }
   return replay;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "compiler/build/build.h"
+#include "tests/support/wording.h"
 
 namespace cc_test {
 
@@ -37,5 +38,10 @@ std::string printed_by(const std::string& main_c, const std::string& level = "-O
 
 /// All errors, conflicts and warnings as one text.
 std::string text_of(const cc::BuildResult& result);
+/// wording::reads() where @ is the folder.
+inline testing::AssertionResult reads(const Folder& folder, const std::string& said,
+                                      const std::string& wanted) {
+  return wording::reads(said, wanted, {{folder.path.string(), "@"}});
+}
 
 }  // namespace cc_test

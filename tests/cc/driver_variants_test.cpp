@@ -64,7 +64,9 @@ TEST(driver_variants, a_driver_that_is_not_linked_owns_no_timer) {
   folder.file("prog/main.c", kBasicHeader + "#include <camera/fast_2_timer/e_poxxxx.h>\n" + kDrive);
   auto built = build_it(folder);
   ASSERT_EQ(built.conflicts.size(), 2u);
-  EXPECT_NE(built.conflicts[0].find("Timer 4: got two owners"), std::string::npos) << built.conflicts[0];
+  EXPECT_TRUE(reads(folder, built.conflicts[0],
+                    "main.c: warning: Timer 4: got two owners (the basic motors and the camera), expected "
+                    "one; the later one silences the other"));
   folder.file("prog/a.mcp",
               mcp("file_000=main.c\r\nfile_001=C:\\lib\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
   built = build_it(folder);
@@ -82,7 +84,10 @@ TEST(driver_variants, files_that_include_headers_of_two_forms_share_one_driver) 
   EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
   EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
   ASSERT_EQ(built.conflicts.size(), 1u);
-  EXPECT_NE(built.conflicts[0].find("motors: got headers of several drivers"), std::string::npos);
+  EXPECT_TRUE(reads(folder, built.conflicts[0],
+                    "@/prog: warning: motors: got headers of several drivers "
+                    "(motor_led/advance_one_timer/e_motors.h and motor_led/e_motors.h), expected one; "
+                    "motor_led/advance_one_timer/e_motors.c is linked for the whole program"));
 }
 
 // main.c has the library's header by its path, which labels the function; the program brings

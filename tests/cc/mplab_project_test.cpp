@@ -44,9 +44,11 @@ TEST(mplab_project, files_that_the_project_does_not_list_are_left_alone) {
   auto built = build_folder(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(said(folder), "1");
-  EXPECT_NE(text_of(built).find("robot.mcp: project: lists 2 of the folder's 5 C files and 0 elsewhere"),
-            std::string::npos)
-      << text_of(built);
+  EXPECT_TRUE(reads(
+      folder, text_of(built),
+      "@/prog/robot.mcp: project: lists 2 of the folder's 5 C files and 0 elsewhere; files that it does not "
+      "list are linked only where something asks for them\n@/prog/broken.c: does not compile and is left "
+      "out, as it is no part of the program: @/prog/broken.c:1:1: error: unknown type name 'this'"));
 }
 
 TEST(mplab_project, what_the_project_forgets_is_linked_where_it_is_asked_for) {
@@ -216,7 +218,10 @@ TEST(mplab_project, two_projects_of_different_programs_decide_nothing) {
   folder.file("prog/b.mcp", mcp("file_000=second.c\r\n"));
   auto built = build_folder(folder);
   EXPECT_FALSE(built.ok);
-  EXPECT_NE(text_of(built).find("main(): got 2 definitions"), std::string::npos) << text_of(built);
+  EXPECT_TRUE(reads(folder, text_of(built),
+                    "@/prog: main(): got 2 definitions (main.c, second.c), expected 1; give each program a "
+                    "folder of its own\n@/prog: project: got several that list different files (a.mcp and "
+                    "b.mcp), expected one; none is taken, remove all but one"));
 }
 
 TEST(mplab_project, without_one_the_main_nearest_to_the_folder_is_the_programs) {
@@ -229,8 +234,9 @@ TEST(mplab_project, without_one_the_main_nearest_to_the_folder_is_the_programs) 
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(said(folder), "8");
   ASSERT_EQ(built.warnings.size(), 1u) << text_of(built);
-  EXPECT_NE(built.warnings[0].find("main(): got 2 definitions, expected 1; main.c is taken"),
-            std::string::npos);
+  EXPECT_TRUE(reads(folder, built.warnings[0],
+                    "@/prog: main(): got 2 definitions, expected 1; main.c is taken, and of the folders of "
+                    "the others what it asks for"));
 }
 
 TEST(mplab_project, a_header_is_found_from_the_folder_above_its_own) {
@@ -296,16 +302,24 @@ TEST(mplab_project, of_two_projects_the_complete_or_the_newer_one_is_taken_and_n
   auto built = build_folder(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(said(folder), "2");
-  EXPECT_NE(text_of(built).find("robot.X/nbproject/configurations.xml is taken, since all others list more"),
-            std::string::npos)
-      << text_of(built);
+  EXPECT_TRUE(
+      reads(folder, text_of(built),
+            "@/prog: project: got several that list different files (robot.X/nbproject/configurations.xml "
+            "and robot.mcp), expected one; robot.X/nbproject/configurations.xml is taken, since all others "
+            "list more files that are missing\n@/prog/robot.X/nbproject/configurations.xml: project: lists 2 "
+            "of the folder's 3 C files and 0 elsewhere; files that it does not list are linked only where "
+            "something asks for them"));
 
   folder.file("prog/robot.mcp", mcp("file_000=main.c\r\nfile_001=part.c\r\n"));
   built = build_folder(folder);
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(said(folder), "2");
-  EXPECT_NE(text_of(built).find("is taken, since it is the project of the newer MPLAB X"), std::string::npos)
-      << text_of(built);
+  EXPECT_TRUE(reads(
+      folder, text_of(built),
+      "@/prog: project: got several that list different files (robot.X/nbproject/configurations.xml and "
+      "robot.mcp), expected one; robot.X/nbproject/configurations.xml is taken, since it is the project of "
+      "the newer MPLAB X\n@/prog/robot.X/nbproject/configurations.xml: project: lists 2 of the folder's 3 C "
+      "files and 0 elsewhere; files that it does not list are linked only where something asks for them"));
 
   folder.file("prog/robot.X/nbproject/configurations.xml",
               "<itemPath>../main.c</itemPath><itemPath>../gone.c</itemPath>");

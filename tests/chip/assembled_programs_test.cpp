@@ -2,57 +2,18 @@
 // Programs assembled here, run as .hex files in a world.
 #include "tests/chip/chip_fixture.h"
 #include "tests/chip/onlooker.h"
+#include "tests/support/wording.h"
 
 namespace {
 
 using firmware_test::Robot;
 
-// steps of both motors, `pause` loops of 5 cycles between two, for ever; LED 0 changes every 512 steps
-const std::string kDrive = R"(
-    config __FOSC, 0xFFE6
-    config __FWDT, 0x7FFF
-__reset: mov #__SP_init, w15
-    mov #__SPLIM_init, w0
-    mov w0, SPLIM
-    nop
-    mov #0xFF00, w0
-    mov w0, TRISD
-    bclr TRISA, #6
-    mov #psvpage(left), w0
-    mov w0, PSVPAG
-    bset CORCON, #PSV
-    clr w1
-    clr w4
-step: and w1, #3, w2
-    mov #psvoffset(left), w3
-    mov.b [w3+w2], w5
-    mov #psvoffset(right), w3
-    mov.b [w3+w2], w6
-    ze w5, w5
-    ze w6, w6
-    sl w6, #4, w6
-    ior w5, w6, w5
-    mov w5, LATD
-    inc w1, w1
-    inc steps
-    btst.c w1, #9
-    bra nc, 1f
-    bset LATA, #6
-    bra 2f
-1:  bclr LATA, #6
-2:  mov #pause, w0
-3:  dec w0, w0
-    nop
-    nop
-    bra nz, 3b
-    bra step
-    .section .const, psv
-left: .byte 0xA, 0x9, 0x5, 0x6
-right: .byte 0xA, 0x6, 0x5, 0x9
-    .bss
-steps: .space 2
-)";
-constexpr int kPause = 5898;  // of 5 cycles: 500 steps a second
+// steps of both motors, 5898 loops of 5 cycles between two, 500 a second, for ever; LED 0 changes every 512 steps
+std::string text_of(const std::string& file) {
+  std::ifstream in(TWINPUCK_SOURCE_DIR + file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+const std::string kDrive = text_of("/tests/fuzz/seeds/assembler/drive.s");
 
 const std::string kHello = R"(
 __reset: mov #7, w0
@@ -83,7 +44,7 @@ text: .asciz "hello\r\n"
 
 class AssembledPrograms : public chip_test::ChipTest {
  protected:
-  std::string drive() { return hex("    .equ pause, " + std::to_string(kPause) + "\n" + kDrive); }
+  std::string drive() { return hex(kDrive); }
 };
 
 // 500 steps/s of 0.1288 mm: 64 mm/s
@@ -171,8 +132,8 @@ TEST_F(AssembledPrograms, waits_are_no_load) {
     } one;
     return one.run(text);
   };
-  EXPECT_LT(load_of(kHello), 0.05);                                                       // polls
-  EXPECT_LT(load_of("    .equ pause, " + std::to_string(kPause) + "\n" + kDrive), 0.05);  // a delay loop
+  EXPECT_LT(load_of(kHello), 0.05);  // polls
+  EXPECT_LT(load_of(kDrive), 0.05);  // a delay loop
   EXPECT_LT(load_of("__reset: repeat #16383\n nop\n bra __reset\n"), 0.05);
   EXPECT_GT(load_of("__reset: clr w0\n1: inc w0, w0\n inc w1, w1\n bra 1b\n"), 0.95);  // two values change
   EXPECT_GT(load_of("__reset: mov #0x800, w1\n mov #0x7ff, w2\n1: mov [w1++], w0\n and w1, w2, w1\n bset w1, "
@@ -197,14 +158,19 @@ TEST_F(AssembledPrograms, resets_that_nobody_asked_for_are_told) {
                     "__AddressError: .pword 0x018001"));
   run_for(0.1);
   ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("illegal opcode"), std::string::npos) << robot.traps()[0].message;
-  EXPECT_NE(robot.diagnoses_text().find("AddressError at 0x"), std::string::npos) << robot.diagnoses_text();
+  EXPECT_TRUE(wording::reads(robot.traps()[0].message,
+                             "an illegal opcode resets the processor: the program ran into what is no code"));
+  EXPECT_TRUE(wording::reads(robot.diagnoses_text(),
+                             "AddressError at 0x000106: trap: AddressError at 0x000106: the program goes on "
+                             "at the trap's vector; at sub_000104() (0x000106); twinpuck dis shows the "
+                             "instruction there; without a handler of its own a program resets"));
 }
 
 TEST_F(AssembledPrograms, broken_files_are_named) {
   for (const auto& [bytes, wanted] :
-       {std::pair{":0400000000010400F6\n:00000001FF\n", "line 1: checksum got 0xf6, expected 0xf7"},
-        std::pair{":0400000000010400F7\n", "is it cut off?"}}) {
+       {std::pair{":0400000000010400F6\n:00000001FF\n", "…: line 1: checksum got 0xf6, expected 0xf7"},
+        std::pair{":0400000000010400F7\n",
+                  "…: the file ends without an end record (:00000001FF); is it cut off?"}}) {
     std::vector<std::string> problems;
     sim::WorldDesc desc = world;
     sim::RobotDesc robot;
@@ -214,7 +180,7 @@ TEST_F(AssembledPrograms, broken_files_are_named) {
     with.firmware = {{"puck", write(bytes)}};
     EXPECT_EQ(twin::Twin::open(desc, with, problems), nullptr);
     ASSERT_EQ(problems.size(), 1u);
-    EXPECT_NE(problems[0].find(wanted), std::string::npos) << problems[0];
+    EXPECT_TRUE(wording::reads(problems[0], wanted));
   }
 }
 

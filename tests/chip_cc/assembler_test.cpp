@@ -9,6 +9,7 @@
 #include "compiler/cache/object_cache.h"
 #include "dspic30/core/disassembler.h"
 #include "dspic30/core/instruction_table.h"
+#include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -73,7 +74,9 @@ TEST(ChipAssembler, data_in_code_fill_the_lower_half_of_words) {
         .byte 1, 2, 3, 4
         .asciz "ab"
 )");
-  EXPECT_NE(made.messages.find("odd number of bytes"), std::string::npos) << made.messages;
+  EXPECT_TRUE(wording::reads(made.messages,
+                             "…/assembler/x.s:6:16: warning: an odd number of bytes in code; a zero "
+                             "follows\n        .asciz \"ab\"\n               ^"));
   const std::string expected("\x34\x12\0\0\x78\x56\0\0\xDE\xBC\x9A\0\1\2\0\0\3\4\0\0ab\0\0\0\0\0\0", 28);
   EXPECT_EQ(made.object.section(".table"), expected);
 }
@@ -87,20 +90,39 @@ TEST(ChipAssembler, words_in_data_are_aligned_but_not_shorts) {
 
 TEST(ChipAssembler, mistakes_say_what_is_wrong) {
   for (const auto& [text, message] : {
-           std::pair{".section .x, code, wide", "x.s:1:10: error: .section: unknown attribute 'wide'"},
-           std::pair{".section .x, code, address(0x100)", "code at an address"},
-           std::pair{".section .x, data, address(where)", ".section: address: got no number"},
-           std::pair{".section .x, data, align(3)", "alignment: got 3, expected a power of two"},
-           std::pair{".text\n .org 0x200", "the linker says where code lies"},
-           std::pair{".data\n .pword 1", ".pword outside a code section"},
-           std::pair{".text\n .palign 3", "alignment: got 3, expected a power of two"},
-           std::pair{".text\n .palign 1 << 40", "expected a power of two up to 32768"},
-           std::pair{"config __FXYZ, 1", "config: unknown word '__FXYZ'"},
-           std::pair{"config __FOSC, NO_SUCH", "config: got no value: NO_SUCH"},
-           std::pair{"config __FOSC", "config: expected a word's name and its value"},
+           std::pair{".section .x, code, wide",
+                     "…/assembler/x.s:1:10: error: .section: unknown attribute 'wide'\n.section .x, code, "
+                     "wide\n         ^"},
+           std::pair{".section .x, code, address(0x100)",
+                     "…/assembler/x.s:1:10: error: .section: code at an address: `twinpuck asm` does "
+                     "that\n.section .x, code, address(0x100)\n         ^"},
+           std::pair{".section .x, data, address(where)",
+                     "…/assembler/x.s:1:10: error: .section: address: got no number\n.section .x, data, "
+                     "address(where)\n         ^"},
+           std::pair{".section .x, data, align(3)",
+                     "…/assembler/x.s:1:10: error: alignment: got 3, expected a power of two up to "
+                     "32768\n.section .x, data, align(3)\n         ^"},
+           std::pair{".text\n .org 0x200",
+                     "…/assembler/x.s:2:7: error: the linker says where code lies; `twinpuck asm` takes "
+                     "whole programs\n .org 0x200\n      ^"},
+           std::pair{".data\n .pword 1",
+                     "…/assembler/x.s:2:9: error: .pword outside a code section\n .pword 1\n        ^"},
+           std::pair{".text\n .palign 3",
+                     "…/assembler/x.s:2:10: error: alignment: got 3, expected a power of two up to 32768\n "
+                     ".palign 3\n         ^"},
+           std::pair{".text\n .palign 1 << 40",
+                     "…/assembler/x.s:2:10: error: alignment: got 1099511627776, expected a power of two up "
+                     "to 32768\n .palign 1 << 40\n         ^"},
+           std::pair{"config __FXYZ, 1",
+                     "…/assembler/x.s:1:1: error: config: unknown word '__FXYZ'\nconfig __FXYZ, 1\n^"},
+           std::pair{"config __FOSC, NO_SUCH",
+                     "…/assembler/x.s:1:1: error: config: got no value: NO_SUCH\nconfig __FOSC, NO_SUCH\n^"},
+           std::pair{
+               "config __FOSC",
+               "…/assembler/x.s:1:1: error: config: expected a word's name and its value\nconfig __FOSC\n^"},
        }) {
     const Assembled made(std::string(text) + "\n");
-    EXPECT_NE(made.messages.find(message), std::string::npos) << text << "\n" << made.messages;
+    EXPECT_TRUE(wording::reads(made.messages, message));
     EXPECT_FALSE(made.object.ok) << text;
   }
 }

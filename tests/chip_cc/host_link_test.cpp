@@ -12,6 +12,7 @@
 #include "dspic30/memory/host_places.h"
 #include "dspic30/memory/program_memory.h"
 #include "hal_sim/api/host_table.h"
+#include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -342,8 +343,8 @@ TEST(TwoHals, copy_of_a_driver_is_the_programs) {
   const std::string motors =
       "void e_init_motors(void) {}\nint left;\nvoid e_set_speed_left(int v) { left = v; }\n";
   const Pair pair = program(std::string(kIncludes) + "int main(void) { START; for (;;) ; }\n", motors);
-  EXPECT_NE(pair.notes().find("agenda: the program's own driver, since "), std::string::npos) << pair.notes();
-  EXPECT_NE(pair.notes().find("other.c:1 has e_init_motors()"), std::string::npos) << pair.notes();
+  EXPECT_TRUE(wording::reads(
+      pair.notes(), "agenda: the program's own driver, since …/program/other.c:1 has e_init_motors()"));
   EXPECT_FALSE(is_filled(pair.sim, "e_init_motors"));
   EXPECT_TRUE(is_filled(pair.sim, "e_init_ad_scan"));
   expect_same_places(pair, "copy");
@@ -357,7 +358,8 @@ TEST(TwoHals, library_driver_on_the_same_timer) {
       "void f(void) {}\n"
       "int main(void) { e_init_motors(); e_set_speed_left(1); e_configure_timer(1); "
       "e_activate_agenda(f, 10); for (;;) ; }\n");
-  EXPECT_NE(pair.notes().find("agenda: the chip's own driver, since "), std::string::npos) << pair.notes();
+  EXPECT_TRUE(wording::reads(
+      pair.notes(), "agenda: the chip's own driver, since library(e_agenda_fast.c) has _T2Interrupt()"));
   EXPECT_FALSE(is_filled(pair.sim, "e_set_speed_left"));
   EXPECT_EQ(pair.of_sim.conflicts, pair.of_dspic.conflicts);
   expect_same_places(pair, "fast agenda");
@@ -408,7 +410,10 @@ TEST(TwoHals, limits_are_the_chips) {
     options.hal = hal;
     const cc::BuildResult result = cc::build_image(options);
     ASSERT_FALSE(result.errors.empty()) << hal;
-    EXPECT_NE(result.errors[0].find("RAM: no room for"), std::string::npos) << result.errors[0];
+    EXPECT_TRUE(wording::reads(result.errors[0],
+                               "link: error: RAM: no room for big, 7300 bytes in 0x0800 to 0x27FF; largest: "
+                               "big 7300, e_mic_scan 600, e_acc_scan 300, e_ambient_and_reflected_ir 20, "
+                               "e_ambient_ir 20, left_wheel 6, right_wheel 6, agendas 2"));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "compiler/build/build.h"
 #include "compiler/cache/object_cache.h"
 #include "dspic30/load/firmware_file.h"
+#include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -205,28 +206,40 @@ TEST(ChipLinker, objects_in_coff_are_refused_by_name) {
   const auto alone = cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(),
                                       (work / "main.o").string(), (work / "old.o").string()});
   EXPECT_NE(alone.status, 0);
-  EXPECT_NE(alone.output.find("old.o: got an object in COFF, C30's first format, expected ELF"),
-            std::string::npos)
-      << alone.output;
+  EXPECT_TRUE(wording::reads(alone.output,
+                             "link: error: @/old.o: got an object in COFF, C30's first format, expected ELF; "
+                             "have it compiled with -omf=elf, or give its source",
+                             {{work.string(), "@"}}));
   const auto packed =
       cc::run_process({compiler, "--link", "-o", (work / "x.elf").string(), (work / "main.o").string(),
                        (work / "start.o").string(), "--library", (work / "libold.a").string()});
   EXPECT_NE(packed.status, 0);
-  EXPECT_NE(packed.output.find("main.c:2: error: main() calls old(): got no definition"), std::string::npos)
-      << packed.output;
-  EXPECT_NE(packed.output.find("libold.a holds COFF"), std::string::npos) << packed.output;
+  EXPECT_TRUE(wording::reads(
+      packed.output,
+      "…/coff_object/main.c:2: error: main() calls old(): got no definition, expected one in the program or "
+      "the library; @/libold.a holds COFF, C30's first format, which is not read",
+      {{work.string(), "@"}}));
 }
 
 // its name says which conversions the format has
 TEST(ChipLinker, formatted_output_of_xc16_is_the_librarys) {
-  for (const auto& [called, expected] : {std::pair{"__ours_0", "calls _ours_0(): got no definition"},
-                                         {"__sprintf_", "calls _sprintf_(): got no definition"},
-                                         {"__sprintf_0", "calls sprintf(): got no definition"},
-                                         {"__vfprintf_cdfFnopuxX", "calls vfprintf(): got no definition"}}) {
+  for (const auto& [called, expected] :
+       {std::pair{"__ours_0",
+                  "…/vendor_printf/theirs.o: error: theirs() calls _ours_0(): got no definition, expected "
+                  "one in the program or the library"},
+        {"__sprintf_",
+         "…/vendor_printf/theirs.o: error: theirs() calls _sprintf_(): got no definition, expected one in "
+         "the program or the library"},
+        {"__sprintf_0",
+         "…/vendor_printf/theirs.o: error: theirs() calls sprintf(): got no definition, expected one in the "
+         "program or the library"},
+        {"__vfprintf_cdfFnopuxX",
+         "…/vendor_printf/theirs.o: error: theirs() calls vfprintf(): got no definition, expected one in the "
+         "program or the library"}}) {
     const auto run =
         link(object(kHandleInData, called), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
     EXPECT_NE(run.status, 0);
-    EXPECT_NE(run.output.find(expected), std::string::npos) << run.output;
+    EXPECT_TRUE(wording::reads(run.output, expected));
   }
 }
 
@@ -262,8 +275,9 @@ TEST(ChipLinker, archive_beside_a_program_is_linked) {
 TEST(ChipLinker, unknown_relocation_is_named) {
   const auto run = link(object(kUnknown), fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_object_unknown");
   EXPECT_NE(run.status, 0);
-  EXPECT_NE(run.output.find(".ndata: relocation of type 52 to _theirs is not known here"), std::string::npos)
-      << run.output;
+  EXPECT_TRUE(wording::reads(run.output,
+                             "link: error: …/vendor_object_unknown/theirs.o: .ndata: relocation of type 52 "
+                             "to _theirs is not known here"));
 }
 
 TEST(ChipLinker, call_farther_than_rcall_reaches_goes_by_way_of_a_jump) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Bad input: clear lines, the documented exit code, nothing lost. messages.txt is the table of all that is said to
-// arguments and files; add what is new there. (World files have many more in tests/sim_core/loader_test.cpp.)
+// Bad luck: clear lines, the documented exit code, nothing lost.
 #include <netinet/in.h>
 #include <sys/socket.h>
 
@@ -12,66 +11,6 @@
 using namespace cli_test;
 
 namespace {
-
-/// A row of messages.txt.
-struct Bad {
-  std::string name;
-  int exit_code = 0;
-  std::string arguments, says;
-  std::vector<std::pair<std::string, std::string>> files;  // "-> x": a link
-};
-
-std::string replaced(std::string text, const std::string& what, const std::string& by) {
-  for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-    text.replace(at, what.size(), by);
-  return text;
-}
-/// Characters as they stand in a row, and back.
-std::string in_a_row(const std::string& text) {
-  return replaced(replaced(replaced(text, "\\", "\\\\"), "\t", "\\t"), "\n", "\\n");
-}
-std::string of_a_row(const std::string& text) {
-  return replaced(replaced(replaced(text, "\\n", "\n"), "\\t", "\t"), "\\\\", "\\");
-}
-
-std::vector<Bad> rows() {
-  std::vector<Bad> all;
-  std::ifstream in(TWINPUCK_SOURCE_DIR "/tests/cli/messages.txt");
-  for (std::string line; std::getline(in, line);) {
-    if (line[0] == '#') continue;
-    std::istringstream cells(line);
-    Bad row;
-    std::string cell;
-    std::getline(cells, row.name, '\t');
-    std::getline(cells, cell, '\t');
-    row.exit_code = std::stoi(cell);
-    std::getline(cells, row.arguments, '\t');
-    std::getline(cells, row.says, '\t');
-    while (std::getline(cells, cell, '\t'))
-      row.files.emplace_back(cell.substr(0, cell.find('=')), of_a_row(cell.substr(cell.find('=') + 1)));
-    all.push_back(std::move(row));
-  }
-  return all;
-}
-
-class BadInput : public CommandTest, public ::testing::WithParamInterface<Bad> {};
-
-TEST_P(BadInput, is_refused_with_a_clear_line) {
-  const Bad& bad = GetParam();
-  for (const auto& [name, text] : bad.files)
-    if (text.rfind("-> ", 0) == 0)
-      fs::create_symlink(text.substr(3), folder / name);
-    else
-      write(name, text);
-  const Said s = twinpuck(replaced(bad.arguments, "@/", folder.string() + "/"));
-  std::string text = replaced(replaced(s.text, folder.string(), "@"), TWINPUCK_SOURCE_DIR, "~");
-  if (!text.empty() && text.back() == '\n') text.pop_back();
-  EXPECT_EQ(in_a_row(text), bad.says);
-  EXPECT_EQ(s.exit_code, bad.exit_code);
-}
-
-INSTANTIATE_TEST_SUITE_P(Kind, BadInput, ::testing::ValuesIn(rows()),
-                         [](const auto& info) { return info.param.name; });
 
 class BadLuck : public CommandTest {};
 
@@ -89,12 +28,6 @@ TEST_F(BadLuck, a_port_in_use_is_named) {
   close(fd);
   EXPECT_EQ(s.exit_code, 2);
   EXPECT_NE(s.text.find(port), std::string::npos) << s.text;
-}
-
-TEST_F(BadLuck, a_full_disk_ends_the_run_with_7_and_says_so) {
-  const Said s = twinpuck("run maze --for 60 --record /dev/full");
-  EXPECT_EQ(s.exit_code, 7) << s.text;
-  EXPECT_NE(s.text.find("No space left"), std::string::npos) << s.text;
 }
 
 TEST_F(BadLuck, every_output_on_a_full_disk_ends_with_7_and_is_named) {

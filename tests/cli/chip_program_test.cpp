@@ -173,115 +173,6 @@ TEST_F(ChipProgram, translated_code_changes_no_result) {
   }
 }
 
-TEST_F(ChipProgram, cycles_are_exact_and_held_against_budgets) {
-  const std::string elf = (folder / "obstacle.elf").string();
-  ASSERT_EQ(twinpuck("build obstacle --hal dspic -o '" + elf + "'").exit_code, 0);
-  const auto exact = twinpuck("cycles '" + elf + "' --for 0.5");
-  EXPECT_EQ(exact.exit_code, 0) << exact.text;
-  EXPECT_NE(exact.text.find("exact cycles at 14.7456 MHz, callees included, in 0.5 s of maze"),
-            std::string::npos)
-      << exact.text;
-  EXPECT_NE(exact.text.find("\ncontrol_tick                             5         5         5"),
-            std::string::npos)
-      << exact.text;
-  EXPECT_EQ(exact.text.find("\n_T2Interrupt"), std::string::npos) << "the library's are not shown";
-  EXPECT_NE(twinpuck("cycles '" + elf + "' --for 0.5 --all").text.find("\n_T2Interrupt (interrupt)"),
-            std::string::npos);
-  const auto budget = [&](const std::string& text) {
-    return twinpuck("cycles '" + elf + "' --for 0.5 --budgets '" + file("b.toml", text) + "'");
-  };
-  const auto kept =
-      budget("[function.control_tick]\nmax_cycles = 5\n[interrupt.T2]\nmax_us = 100\nmerged = 0\n");
-  EXPECT_EQ(kept.exit_code, 0) << kept.text;
-  EXPECT_NE(kept.text.find("pass  control_tick: max 5 of 5 cycles"), std::string::npos) << kept.text;
-  const auto broken = budget("[function.control_tick]\nmax_cycles = 4\n[program]\nmax_stack = 10\n");
-  EXPECT_EQ(broken.exit_code, 1);
-  EXPECT_NE(broken.text.find("FAIL  control_tick: max 5 of 4 cycles"), std::string::npos) << broken.text;
-  EXPECT_NE(broken.text.find("FAIL  program: max_stack"), std::string::npos) << broken.text;
-  // without a file
-  EXPECT_EQ(twinpuck("cycles '" + elf + "' --for 0.5 --budget control_tick=5 --budget drive=1000").exit_code,
-            0);
-  EXPECT_EQ(twinpuck("cycles '" + elf + "' --for 0.1 --budget control_tick=4").exit_code, 1);
-}
-
-// one sentence, whoever is asked: `weight` is in main() and step(), `both` has a copy there
-// and code of its own
-TEST_F(ChipProgram, a_function_that_is_part_of_others_is_told_how_it_is_measured) {
-  file("main.c",
-       "volatile int n, m;\nint weight(int x) { return 3 * x + m; }\n"
-       "int both(int x) { return x + m; }\nint (*volatile pointer)(int) = both;\n"
-       "__attribute__((noinline)) void step(void) { n = weight(n) + both(2); }\n"
-       "int main(void) { n = pointer(weight(m)); while (1) step(); }\n");
-  const std::string
-      advice = "; to measure it alone, declare it __attribute__((noinline)), or build with --opt -O0",
-      weight = "got function 'weight', which is part of main(), step()" + advice,
-      both = "; its copies in step() are not counted" + advice, mine = "'" + folder.string() + "'";
-  std::ofstream(folder / "b.toml") << "[function.weight]\nmax_us = 1\n";
-  std::ofstream(folder / "both.toml") << "[function.both]\nmax_us = 1000\n";
-  const std::string toml = "'" + (folder / "b.toml").string() + "'";
-  std::ofstream(folder / "script") << "break weight\nbreak wieght\nc\nq\n";
-  const std::string debug = "debug wall --fw " + mine + " -x '" + (folder / "script").string() + "'";
-  struct Case {
-    std::string arguments, says;
-    int exit_code;
-  };
-  for (const Case& c : {
-           Case{"cycles " + mine + " --budget weight=100", "command line: --budget: " + weight, 2},
-           Case{"cycles " + mine + " --budgets " + toml, "b.toml:2:1: " + weight, 2},
-           Case{"run wall --fw " + mine + " --for 0.1 --budgets " + toml, "b.toml:2:1: " + weight, 2},
-           Case{"run wall --hal dspic --fw " + mine + " --for 0.1 --budgets " + toml, "b.toml:2:1: " + weight,
-                2},
-           Case{"cycles " + mine + " --for 0.1 --budget both=100", both, 0},
-           Case{"run wall --fw " + mine + " --for 0.1 --budgets '" + (folder / "both.toml").string() + "'",
-                both, 0},
-           Case{"cycles " + mine + " --for 0.1", "part of others" + advice, 0},
-           // as it says
-           Case{"cycles " + mine + " --for 0.1 --opt -O0 --budget weight=100", "pass  weight: max ", 0},
-           Case{"cycles " + mine + " --budget wieght=1",
-                "which is not in the program; did you mean 'weight'?", 2},
-           Case{debug, "breakpoint 1 at ", 0},
-           Case{debug, "weight() is part of main(), step()" + advice, 0},
-           Case{debug,
-                "got 'wieght', expected a function, file:line, or an address of code such as "
-                "0x1a0; as a function, it is not in the program; did you mean 'weight'?",
-                0},
-           Case{debug, "> c\nbreakpoint 1", 0},
-       }) {
-    const auto said = twinpuck(c.arguments);
-    EXPECT_EQ(said.exit_code, c.exit_code) << c.arguments << "\n" << said.text;
-    EXPECT_NE(said.text.find(c.says), std::string::npos) << c.arguments << "\n" << said.text;
-  }
-}
-
-// what was not called is held against its code
-TEST_F(ChipProgram, cycles_tells_what_code_takes_without_a_run) {
-  const std::string source = file("main.c",
-                                  "volatile int n;\n"
-                                  "void __attribute__((noinline)) never(void) {\n"
-                                  "  n = 1;\n"
-                                  "}\n"
-                                  "static void part(void) { n = 3; }\n"
-                                  "int main(void) {\n"
-                                  "  if (n == 5) never();\n"
-                                  "  part();\n"
-                                  "  while (1);\n"
-                                  "}\n");
-  const std::string cycles = "cycles '" + folder.string() + "' --for 0.1";
-  const auto said = twinpuck(cycles + " --lines");
-  ASSERT_EQ(said.exit_code, 0) << said.text;
-  // mov #1, w0; mov w0, n; return
-  EXPECT_TRUE(std::regex_search(said.text, std::regex("\nnever +0 +5 +[^ ]*main.c:2\n"))) << said.text;
-  EXPECT_TRUE(std::regex_search(said.text, std::regex("\npart +part of main +[^ ]*main.c:5\n"))) << said.text;
-  EXPECT_TRUE(std::regex_search(said.text,
-                                std::regex("\nmain +runs on .*only a run tells: it loops \\(main.c:9\\)\n")))
-      << said.text;
-  EXPECT_TRUE(std::regex_search(said.text, std::regex("\n +4 +1 +3  \\}\n"))) << said.text;
-  const auto kept = twinpuck(cycles + " --budget never=5"), broken = twinpuck(cycles + " --budget never=4");
-  EXPECT_EQ(kept.exit_code, 0) << kept.text;
-  EXPECT_NE(kept.text.find("pass  never: max 5 of 5 cycles, by its code"), std::string::npos) << kept.text;
-  EXPECT_EQ(broken.exit_code, 1) << broken.text;
-}
-
 // a RETURN before an interrupt is a cycle shorter, else the code is right
 TEST_F(ChipProgram, what_code_tells_holds_in_runs) {
   static const std::regex row(
@@ -396,21 +287,6 @@ TEST_F(ChipProgram, every_controller_drives_alike_with_either_hal) {
   EXPECT_GE(controllers, 19);
 }
 
-TEST_F(ChipProgram, quoted_characters_end_at_their_quote) {
-  const std::string source = file("letters.s", R"(
-__reset: mov.b #'K', w2 ; 'x'
-    mov.b #'\n',w3
-    mov.b #',', w4
-    mov.b #'a, w5
-)");
-  const std::string hex = (folder / "letters.hex").string();
-  const auto made = twinpuck("asm '" + source + "' -o '" + hex + "'");
-  ASSERT_EQ(made.exit_code, 0) << made.text;
-  const std::string shown = twinpuck("dis '" + hex + "'").text;
-  for (const char* part : {"mov.b #0x4b, w2", "mov.b #0xa, w3", "mov.b #0x2c, w4", "mov.b #0x61, w5"})
-    EXPECT_NE(shown.find(part), std::string::npos) << part << " in:\n" << shown;
-}
-
 // the bootloader's own image in a robot, and the command at the other end of a real line
 TEST_F(ChipProgram, flash_writes_a_program_into_a_robot) {
   const std::string source = file("blink.s", kBlink), hex = (folder / "blink.hex").string();
@@ -428,18 +304,6 @@ TEST_F(ChipProgram, flash_writes_a_program_into_a_robot) {
                    "wait $p; exit $r' sh");
   EXPECT_EQ(flashed.exit_code, 0) << flashed.text;
   EXPECT_NE(flashed.text.find("rows written and verified"), std::string::npos) << flashed.text;
-}
-
-TEST_F(ChipProgram, flash_refuses_what_is_no_program_or_no_line) {
-  const auto no_file = twinpuck("flash /nowhere.hex --port /dev/null");
-  EXPECT_EQ(no_file.exit_code, 2);
-  EXPECT_EQ(no_file.text, "/nowhere.hex: cannot be read, expected a .hex or .elf file\n");
-  const std::string source = file("blink.s", kBlink), good = (folder / "blink.hex").string();
-  ASSERT_EQ(twinpuck("asm '" + source + "' -o '" + good + "'").exit_code, 0);
-  const auto no_line = twinpuck("flash '" + good + "' --port /dev/null");
-  EXPECT_EQ(no_line.exit_code, 2);
-  EXPECT_EQ(no_line.text,
-            "/dev/null: got a file, expected a serial device such as /dev/rfcomm0 or /dev/ttyUSB0\n");
 }
 
 }  // namespace

@@ -10,8 +10,11 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <vector>
 
+#include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
 namespace cli_test {
@@ -70,6 +73,18 @@ class CommandTest : public ::testing::Test {
   static std::string read(const std::string& file) {
     std::ifstream in(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  /// A line of the shell in this test's folder, where `twinpuck` is found.
+  Said in_folder(const std::string& line) const {
+    return twinpuck("", "cd '" + folder.string() +
+                            "' && export PATH='" TWINPUCK_BUILD_DIR "':\"$PATH\" && { " + line +
+                            "\n} 2>&1 </dev/null #");
+  }
+  /// For EXPECT_TRUE(reads(said, wanted)), as in messages.txt: @ is this test's folder, ~ the project's.
+  testing::AssertionResult reads(const std::string& said, const std::string& wanted) const {
+    return wording::reads(
+        said, wanted, {{folder.string(), "@"}, {TWINPUCK_BUILD_DIR, "~/build"}, {TWINPUCK_SOURCE_DIR, "~"}});
   }
 
   const fs::path folder;

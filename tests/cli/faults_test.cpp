@@ -71,14 +71,4 @@ TEST_F(FaultsOfARun, without_any_the_summary_has_no_list) {
   EXPECT_FALSE(nlohmann::json::parse(read(path("s.json"))).contains("faults"));
 }
 
-TEST(FaultLists, name_kinds_and_signals) {
-  const Said faults = twinpuck("list faults");
-  EXPECT_EQ(faults.exit_code, 0);
-  EXPECT_NE(faults.text.find("battery_sag"), std::string::npos);
-  EXPECT_NE(faults.text.find("drop_v: 0 to 2 V, usually 0.6"), std::string::npos) << faults.text;
-  const Said signals = twinpuck("list signals");
-  EXPECT_EQ(signals.exit_code, 0);
-  EXPECT_NE(signals.text.find("proximity0 to proximity7"), std::string::npos);
-}
-
 }  // namespace

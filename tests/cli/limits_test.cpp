@@ -166,11 +166,6 @@ TEST_F(Limits, assembler_that_includes_a_pipe_ends) {
     EXPECT_EQ(made.exit_code, folder == "macro" ? made.exit_code : 2) << made.text;
     EXPECT_NE(made.exit_code, 124) << made.text;
   }
-  // which has no preprocessor, and says so
-  write("upper.S", "\n#define N 5\n        mov #N, w0\n");
-  const Said upper = twinpuck("asm '" + path("upper.S") + "' -o " + path("o.hex"), "timeout 600");
-  EXPECT_EQ(upper.exit_code, 2);
-  EXPECT_NE(upper.text.find("upper.S:2: #define: asm has no preprocessor"), std::string::npos) << upper.text;
 }
 
 /// A look at full caches takes longer than many runs.

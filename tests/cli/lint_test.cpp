@@ -150,33 +150,4 @@ TEST_F(Lint, names_each_plain_variable_that_a_handler_writes_and_what_xc16_does)
   }
 }
 
-// a program of the PC as well, which may be flashed
-TEST_F(Lint, looks_at_a_program_for_webots_as_at_one_of_the_robot) {
-  write("p/p.c",
-        "#include <webots/robot.h>\nint main(void) {\n  int n;\n  wb_robot_init();\n  n = 70000;\n"
-        "  while (wb_robot_step(64) != -1) n = n + 1;\n  return n;\n}\n");
-  const auto said = twinpuck("lint " + path("p"));
-  EXPECT_EQ(said.exit_code, 1);
-  EXPECT_NE(
-      said.text.find(
-          "p.c:5:7: warning: implicit conversion from 'long' to 'int' changes value from 70000 to 4464"),
-      std::string::npos)
-      << said.text;
-  EXPECT_EQ(std::count(said.text.begin(), said.text.end(), '\n'), 1) << said.text;
-}
-
-// an agenda is a handler too; the library calls it
-TEST_F(Lint, names_what_an_agenda_writes) {
-  write("p/main.c",
-        "#include <motor_led/advance_one_timer/e_agenda.h>\nint flag;\nvoid tick(void) { flag = 0; }\n"
-        "int main(void) {\n  e_activate_agenda(tick, 1);\n  e_start_agendas_processing();\n  flag = 1;\n"
-        "  while (flag);\n  while (1);\n}\n");
-  const auto said = twinpuck("lint " + path("p"));
-  EXPECT_EQ(said.exit_code, 1);
-  EXPECT_NE(
-      said.text.find("main.c:8: warning: flag: written by tick(); got a plain variable, expected volatile"),
-      std::string::npos)
-      << said.text;
-}
-
 }  // namespace

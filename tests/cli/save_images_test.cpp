@@ -27,13 +27,6 @@ TEST_F(SaveImages, every_picture_of_every_filming_robot_is_a_file) {
   EXPECT_EQ(first.substr(16, 8), std::string("\0\0\0\x27\0\0\0\x18", 8));
 }
 
-TEST_F(SaveImages, a_file_in_the_way_is_said_before_the_run) {
-  write("images", "no folder");
-  const Said s = twinpuck("run red_ball --for 3 -q --save-images " + path("images"));
-  EXPECT_EQ(s.exit_code, 2);
-  EXPECT_NE(s.text.find("--save-images: got "), std::string::npos) << s.text;
-}
-
 TEST(DecodePicture, widens_565_takes_grey_and_pairs_chroma) {
   board::CameraPicture picture{board::SensorSetup::Format::Rgb565, 2, 1, 1, 0, {0xF8, 0x00, 0x04, 0x1F}};
   // pure red; green 32 of 63 is 130, blue 31 is 255

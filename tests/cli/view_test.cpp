@@ -40,14 +40,4 @@ TEST_F(View, a_replay_that_diverges_is_an_invalid_run) {
   EXPECT_NE(replay.text.find("replay: got digest "), std::string::npos) << replay.text;
 }
 
-TEST_F(View, a_file_that_is_no_recording_is_told) {
-  std::ofstream(folder / "none.jsonl") << "{\"a\": 1}\n";
-  const Said replay = twinpuck("run --replay " + path("none.jsonl"));
-  EXPECT_EQ(replay.exit_code, 2);
-  EXPECT_NE(replay.text.find("none.jsonl:1: "), std::string::npos) << replay.text;
-  EXPECT_EQ(twinpuck("run").exit_code, 2);
-  EXPECT_EQ(twinpuck("run maze --replay " + path("none.jsonl")).exit_code, 2);
-  EXPECT_EQ(twinpuck("view nowhere").exit_code, 2);
-}
-
 }  // namespace

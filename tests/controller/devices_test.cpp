@@ -35,6 +35,7 @@
 #include <cstring>
 
 #include "tests/controller/fake_simulator.h"
+#include "tests/support/wording.h"
 
 using fake::Packet;
 using fake::Simulator;
@@ -125,9 +126,20 @@ TEST(ControllerDevices, wrong_tags_are_told_and_harmless) {
   int lines = 0;
   for (const char c : sim.errors()) lines += c == '\n';
   EXPECT_LT(lines, 40) << sim.errors();
-  EXPECT_NE(sim.errors().find("got the tag of \"led0\""), std::string::npos);
-  EXPECT_NE(sim.errors().find("which are not shown"), std::string::npos);
-  EXPECT_NE(sim.errors().find("\"ps0\", which is not enabled"), std::string::npos) << sim.errors();
+  std::string told;
+  for (int i = 0; i < 20; ++i)
+    told +=
+        "Warning: wb_distance_sensor_enable(): got the tag of \"led0\", expected a device of this function's "
+        "kind\n";
+  EXPECT_TRUE(wording::reads(
+      sim.errors(),
+      told +
+          "Warning: there are more warnings of this kind, which are not shown\nWarning: wb_gps_get_values(): "
+          "got tag 0, expected one of wb_robot_get_device()\nWarning: wb_distance_sensor_get_value(): got "
+          "tag 200, expected one of wb_robot_get_device()\nWarning: wb_motor_set_velocity(): got tag 0, "
+          "expected one of wb_robot_get_device()\nWarning: wb_led_set(): got tag 65535, expected one of "
+          "wb_robot_get_device()\nWarning: wb_distance_sensor_get_value(): got \"ps0\", which is not "
+          "enabled, expected one with a sampling period"));
 }
 
 TEST(ControllerDevices, an_unknown_name_is_asked_for_and_told) {
@@ -480,7 +492,11 @@ TEST(ControllerDevices, kinds_that_no_robot_has_are_harmless) {
   sim.welcome(puck());
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "1 abc there " + std::to_string(int{WB_CAMERA_COLOR}));
-  EXPECT_NE(sim.errors().find("wb_lidar_enable(): got tag 0"), std::string::npos);
+  EXPECT_TRUE(
+      wording::reads(sim.errors(),
+                     "Warning: wb_lidar_enable(): got tag 0, expected one of wb_robot_get_device()\nWarning: "
+                     "wb_radio_send(): got tag 0, expected one of wb_robot_get_device()\nWarning: "
+                     "wb_lidar_get_range_image(): got tag 0, expected one of wb_robot_get_device()"));
 }
 
 TEST(ControllerDevices, battery_and_window_answer_as_without_one) {

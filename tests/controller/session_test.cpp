@@ -15,6 +15,7 @@
 #include <fstream>
 
 #include "tests/controller/fake_simulator.h"
+#include "tests/support/wording.h"
 
 using fake::Packet;
 using fake::Simulator;
@@ -124,13 +125,18 @@ TEST(ControllerSession, garbage_of_the_simulator_ends_the_program_with_a_message
   Packet welcome_again;
   welcome_again.add(LINK_FIELD, 1, 1, 1, "text");
   const std::string out_of_place(static_cast<const char*>(welcome_again.bytes()), welcome_again.size());
-  for (const std::string& garbage : {std::string("xyz"), short_record, unknown, too_long, out_of_place}) {
+  for (const auto& [garbage, said] :
+       {std::pair{std::string("xyz"), "a packet that ends within a record (record 0)"},
+        std::pair{short_record, "a record whose members are not those of its number (record 11)"},
+        std::pair{unknown, "a record of a number that this version does not have (record 99)"},
+        std::pair{too_long, "a record that is longer than its packet (record 11)"},
+        std::pair{out_of_place, "record 63 within a step, expected samples and DONE or END"}}) {
     Simulator sim(steps_until_the_end);
     sim.welcome({});
     sim.until_step();
     sim.send_bytes(garbage);
     EXPECT_EQ(sim.wait(), 1);
-    EXPECT_NE(sim.errors().find("libcontroller: the simulator: got "), std::string::npos) << sim.errors();
+    EXPECT_TRUE(wording::reads(sim.errors(), std::string("libcontroller: the simulator: got ") + said));
   }
 }
 
@@ -140,7 +146,9 @@ TEST(ControllerSession, another_version_is_named) {
   world.version = LINK_VERSION + 1;
   sim.welcome(world);
   EXPECT_EQ(sim.wait(), 1);
-  EXPECT_NE(sim.errors().find("got version 2 of the link, expected 1"), std::string::npos) << sim.errors();
+  EXPECT_TRUE(wording::reads(
+      sim.errors(),
+      "libcontroller: the simulator: got version 2 of the link, expected 1; build the program anew"));
 }
 
 TEST(ControllerSession, a_refusal_is_told) {
@@ -149,7 +157,8 @@ TEST(ControllerSession, a_refusal_is_told) {
   sim.until_step();
   sim.send(Packet().add(LINK_REFUSED, "you spoke in riddles"));
   EXPECT_EQ(sim.wait(), 1);
-  EXPECT_NE(sim.errors().find("you spoke in riddles"), std::string::npos);
+  EXPECT_TRUE(
+      wording::reads(sim.errors(), "libcontroller: the simulator ended the program: you spoke in riddles"));
 }
 
 TEST(ControllerSession, a_program_without_a_simulation_says_what_to_do) {
@@ -161,7 +170,10 @@ TEST(ControllerSession, a_program_without_a_simulation_says_what_to_do) {
     wb_robot_init();
   });
   EXPECT_EQ(sim.wait(), 1);
-  EXPECT_NE(sim.errors().find("twinpuck run WORLD --extern ROBOT"), std::string::npos) << sim.errors();
+  EXPECT_TRUE(wording::reads(sim.errors(),
+                             "libcontroller: this program belongs to a simulation, and none waits for it. "
+                             "Let a world start it (twinpuck run WORLD), or start a simulation that waits "
+                             "(twinpuck run WORLD --extern ROBOT) and then this program"));
   rmdir(folder);
 }
 
@@ -305,5 +317,6 @@ TEST(ControllerSession, a_command_that_fits_no_packet_is_dropped_and_the_rest_se
   EXPECT_EQ(texts, 200000u) << "four of 50000, not the one of 200000";
   sim.done(32000000);
   EXPECT_EQ(sim.wait(), 0);
-  EXPECT_NE(sim.errors().find("a command is dropped"), std::string::npos);
+  EXPECT_TRUE(wording::reads(sim.errors(),
+                             "Warning: a command is dropped: got 200016 bytes, expected at most 131072"));
 }

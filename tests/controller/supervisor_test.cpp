@@ -11,6 +11,7 @@
 #include <cstdlib>
 
 #include "tests/controller/fake_simulator.h"
+#include "tests/support/wording.h"
 
 using fake::Packet;
 using fake::Record;
@@ -58,7 +59,12 @@ TEST(ControllerSupervisor, a_robot_without_the_right_is_told) {
   EXPECT_TRUE(sim.next().empty());
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "1 1");
-  EXPECT_NE(sim.errors().find("supervisor TRUE"), std::string::npos);
+  EXPECT_TRUE(wording::reads(
+      sim.errors(),
+      "Warning: wb_supervisor_node_get_root(): this robot is no supervisor; in the world it needs supervisor "
+      "TRUE\nWarning: wb_supervisor_node_get_from_def(): this robot is no supervisor; in the world it needs "
+      "supervisor TRUE\nWarning: wb_supervisor_simulation_quit(): this robot is no supervisor; in the world "
+      "it needs supervisor TRUE"));
 }
 
 TEST(ControllerSupervisor, a_node_is_one_reference) {
@@ -175,10 +181,14 @@ TEST(ControllerSupervisor, fields_have_types) {
   sim.done(32000000);
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "translation SFVec3f -1 1 2 1 ball 1");
-  EXPECT_NE(sim.errors().find("got \"translation\", a SFVec3f, expected a SFFloat"), std::string::npos)
-      << sim.errors();
-  EXPECT_NE(sim.errors().find("got nan, expected a finite number"), std::string::npos);
-  EXPECT_NE(sim.errors().find("got \"mass\", expected a field that the node has"), std::string::npos);
+  EXPECT_TRUE(
+      wording::reads(sim.errors(),
+                     "Warning: wb_supervisor_field_set_sf_vec3f(): got nan, expected a finite "
+                     "number\nWarning: wb_supervisor_field_set_sf_float(): got \"translation\", a SFVec3f, "
+                     "expected a SFFloat\nWarning: wb_supervisor_field_set_sf_vec3f(): got NULL, expected a "
+                     "field\nWarning: wb_supervisor_field_get_sf_rotation(): got \"translation\", a SFVec3f, "
+                     "expected a SFRotation\nWarning: wb_supervisor_node_get_field(): got \"mass\", expected "
+                     "a field that the node has"));
 }
 
 TEST(ControllerSupervisor, lists_grow_and_shrink) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "dspic30/load/firmware_file.h"
+#include "tests/support/wording.h"
 
 namespace {
 
@@ -107,7 +108,10 @@ TEST(Image, what_is_none_is_named) {
         0u)
         << error;
   }
-  EXPECT_NE(error_of("\x36\x12").find("; take the .hex that was made beside it"), std::string::npos);
+  EXPECT_TRUE(
+      wording::reads(error_of("\x36\x12"),
+                     "x.hex: firmware image: got a COFF of the dsPIC, as MPLAB C30 made by default, expected "
+                     "the .hex or .elf of a dsPIC30F; take the .hex that was made beside it"));
 }
 
 // --- ELF

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the library does something else with than its name says is told, once (docs/controllers.md).
 #include "tests/support/firmware_test.h"
+#include "tests/support/wording.h"
 
 namespace {
 
@@ -41,10 +42,12 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   e_set_speed_right(-1001); e_set_speed_right(-2000); while (1); })");
   run_for(0.1);
   ASSERT_EQ(r.diagnoses().size(), 2u) << r.diagnoses_text();
-  EXPECT_NE(r.diagnoses_text().find("e_set_speed_left(): speed out of range left: got 1200 steps/s, expected "
-                                    "-1000 to 1000"),
-            std::string::npos)
-      << r.diagnoses_text();
+  EXPECT_TRUE(wording::reads(
+      r.diagnoses_text(),
+      "e_set_speed_left(): speed out of range left: got 1200 steps/s, expected -1000 to 1000; the library "
+      "takes the nearest of these; called at main() (main.c:11); the motors are not "
+      "faster\ne_set_speed_right(): speed out of range right: got -1001 steps/s, expected -1000 to 1000; the "
+      "library takes the nearest of these; called at main() (main.c:12); the motors are not faster"));
   EXPECT_EQ(r.diagnoses()[1].count, 2);
 }
 
@@ -64,8 +67,10 @@ int main(void) { e_init_port(); e_init_motors(); e_set_speed_left(300); e_start_
   EXPECT_EQ(never.diagnoses_text(),
             "e_init_motors(): motors stand: speed set, but e_init_motors() was never called: no motor turns; "
             "set at main() (main.c:10); call e_init_motors() before the loop\n");
-  EXPECT_NE(asleep.diagnoses_text().find("e_start_agendas_processing() was never called"), std::string::npos)
-      << asleep.diagnoses_text();
+  EXPECT_TRUE(wording::reads(asleep.diagnoses_text(),
+                             "e_start_agendas_processing(): motors stand: speed set, but "
+                             "e_start_agendas_processing() was never called: no motor turns; set at main() "
+                             "(main.c:10); call e_start_agendas_processing() before the loop"));
   EXPECT_EQ(fine.diagnoses_text(), "");
 }
 
@@ -77,12 +82,11 @@ int main(void) { e_init_port(); e_activate_agenda(tick, 320);
   while (due == 0 && calls < 3) ;
   other = 1; while (1); })");
   run_for(0.1);
-  EXPECT_NE(
-      r.diagnoses_text().find("endless wait: the program waits here for `due` and `calls`; nothing will "
-                              "ever set it: only tick() (main.c:11) and work() (main.c:8) could, and no "
-                              "interrupt is enabled that calls them"),
-      std::string::npos)
-      << r.diagnoses_text();
+  EXPECT_TRUE(wording::reads(
+      r.diagnoses_text(),
+      "main (…/main.c:13): endless wait: the program waits here for `due` and `calls`; nothing will ever set "
+      "it: only tick() (main.c:11) and work() (main.c:8) could, and no interrupt is enabled that calls them; "
+      "start the agendas or the timer, or enable the interrupt whose handler ends the wait"));
 }
 
 // what looks for writers in the sources must not overflow the stack
@@ -93,7 +97,11 @@ int main(void) { e_init_port();
   while (due[0] == 0) ;
   set(); while (1); })");
   run_for(0.1);
-  EXPECT_NE(r.diagnoses_text().find("waits here for `due`"), std::string::npos) << r.diagnoses_text();
+  EXPECT_TRUE(
+      wording::reads(r.diagnoses_text(),
+                     "main (…/main.c:11): endless wait: the program waits here for `due`; nothing will ever "
+                     "set it: only set() (main.c:9) could, and no interrupt is enabled that calls it; start "
+                     "the agendas or the timer, or enable the interrupt whose handler ends the wait"));
 }
 
 TEST_F(Misuse, an_agenda_without_a_period_is_told_unless_it_gets_one) {
@@ -103,9 +111,10 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   e_activate_agenda(work, 0); e_activate_agenda(other, 0); e_set_agenda_cycle(other, 100); while (1); })");
   run_for(0.1);
   ASSERT_EQ(r.diagnoses().size(), 1u) << r.diagnoses_text();
-  EXPECT_NE(r.diagnoses_text().find("e_activate_agenda(): agenda without a period: got cycle 0"),
-            std::string::npos)
-      << r.diagnoses_text();
+  EXPECT_TRUE(wording::reads(r.diagnoses_text(),
+                             "e_activate_agenda(): agenda without a period: got cycle 0, expected 1 to 65535 "
+                             "(0.1 ms each): the agenda's function is never called; called at main() "
+                             "(main.c:12); give it a cycle, now or with e_set_agenda_cycle()"));
   EXPECT_GT(r.variable("calls"), 5);
 }
 

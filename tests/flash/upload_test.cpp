@@ -11,6 +11,7 @@
 #include "compiler/build/build.h"
 #include "dspic30/memory/program_memory.h"
 #include "tests/chip/chip_fixture.h"
+#include "tests/support/wording.h"
 
 namespace {
 
@@ -249,10 +250,9 @@ TEST_F(UploadTest, the_bootloader_keeps_its_own_rows) {
     settings.tries = 5;
     const flash::Upload result = flash::upload(line, p, settings, [](const char*, int, int) {});
     EXPECT_EQ(result.state, State::Refused);
-    EXPECT_NE(
-        result.why.find("was not taken in 5 tries, 5 of them answered 'N'; the bootloader protects this row"),
-        std::string::npos)
-        << result.why;
+    EXPECT_TRUE(wording::reads(
+        result.why,
+        "row … was not taken in 5 tries, 5 of them answered 'N'; the bootloader protects this row"));
   }
   EXPECT_EQ(flash(flash::kBootloaderEntry), entry);
   EXPECT_EQ(flash(0x17EC0), extension);

@@ -3,6 +3,7 @@
 // tables in program memory, the second vector table, registers by attribute, blocks of registers, assembler.
 // Expectations from the documents of chip and compiler.
 #include "tests/own_drivers/fixture.h"
+#include "tests/support/wording.h"
 
 namespace own_drivers {
 namespace {
@@ -153,7 +154,9 @@ int main(void)
 )"));
   run_for(0.01);
   ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("no _AltT1Interrupt()"), std::string::npos);
+  EXPECT_TRUE(wording::reads(
+      robot.traps()[0].message,
+      "the interrupt of T1 is enabled, but the program has no _AltT1Interrupt(), so the processor resets"));
 }
 
 TEST_F(OwnDrivers, the_default_interrupt_takes_what_has_no_handler) {

@@ -3,6 +3,7 @@
 // by pointer and by number, assembler on variables, flags that are not volatile, configuration words.
 // Expectations from the chip's documents.
 #include "tests/own_drivers/fixture.h"
+#include "tests/support/wording.h"
 
 namespace own_drivers {
 namespace {
@@ -359,7 +360,9 @@ TEST_F(OwnDrivers, a_clock_that_the_robot_has_not_is_told) {
       add_robot_with_source(configured("_FOSC(CSW_FSCM_OFF & EC_PLL8);", "int main(void) { while (1); }\n"));
   run_for(0.02);
   ASSERT_EQ(robot.traps().size(), 1u);
-  EXPECT_NE(robot.traps()[0].message.find("FOSC"), std::string::npos) << robot.traps()[0].message;
+  EXPECT_TRUE(wording::reads(robot.traps()[0].message,
+                             "configuration word FOSC: got 0xFFEE, a source of clock that the robot has not, "
+                             "expected its crystal of 7.3728 MHz, as with XT_PLL8"));
 }
 
 }  // namespace

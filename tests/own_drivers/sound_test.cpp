@@ -8,6 +8,7 @@
 #include "hal_sim/signals/signals.h"
 #include "sim_core/sound/sound_field.h"
 #include "tests/own_drivers/fixture.h"
+#include "tests/support/wording.h"
 
 namespace own_drivers {
 namespace {
@@ -171,8 +172,11 @@ TEST_F(Sound, frames_at_another_rate_than_the_codecs_are_told) {
   ASSERT_GT(heard.samples.size(), 200u);
   for (std::size_t i = 10; i < 200; ++i)
     EXPECT_EQ(heard.samples[i], heard.samples[i - 2] == 8000 ? -8000 : 8000) << i;
-  EXPECT_NE(robot(0).diagnoses_text().find("7200 samples a second, frames come 14400"), std::string::npos)
-      << robot(0).diagnoses_text();
+  EXPECT_TRUE(
+      wording::reads(robot(0).diagnoses_text(),
+                     "codec: codec rate: codec: its registers 3 and 4 and the bit clock give 7200 samples a "
+                     "second, frames come 14400 times a second; choose the divider N1 and multiplier M1 in "
+                     "the codec's registers 3 and 4 for the rate of the DCI's frames"));
 }
 
 // multiplied by 40 instead of 20

@@ -15,6 +15,7 @@
 #include <thread>
 
 #include "compiler/cache/child_process.h"
+#include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -504,11 +505,14 @@ TEST_F(BuildTest, an_interpreter_that_is_not_here_is_told) {
   ASSERT_TRUE(prepare(at)) << all_problems();
   EXPECT_EQ(output(), "5\n");
   ASSERT_EQ(told_.size(), 3u);
-  EXPECT_NE(told_[0].find("runtime.ini:3: got section [colours]"), std::string::npos) << told_[0];
-  EXPECT_NE(told_[1].find("runtime.ini:5: got a line without ="), std::string::npos) << told_[1];
-  EXPECT_NE(told_[2].find("got /opt/local/bin/python3.8, which is not here; python3 is taken"),
-            std::string::npos)
-      << told_[2];
+  EXPECT_TRUE(wording::reads(told_[0],
+                             "…/controllers/mac/runtime.ini:3: got section [colours], expected environment "
+                             "variables, python, java or matlab"));
+  EXPECT_TRUE(wording::reads(told_[1],
+                             "…/controllers/mac/runtime.ini:5: got a line without =, expected NAME = VALUE"));
+  EXPECT_TRUE(wording::reads(told_[2],
+                             "…/controllers/mac/runtime.ini: python.COMMAND: got /opt/local/bin/python3.8, "
+                             "which is not here; python3 is taken"));
 }
 
 TEST_F(BuildTest, of_several_python_files_one_must_be_the_main_one) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "hal_sim/twin/twin.h"
+#include "tests/support/wording.h"
 
 namespace {
 
@@ -45,7 +46,10 @@ TEST_F(FindTest, a_folder_without_a_program_is_none) {
   program("controllers/empty_one", "notes.txt");
   EXPECT_EQ(find("empty_one"), "");
   ASSERT_EQ(problems_.size(), 1u);
-  EXPECT_NE(problems_[0].find("a program of the PC"), std::string::npos) << problems_[0];
+  EXPECT_TRUE(
+      wording::reads(problems_[0],
+                     "empty_one: firmware: got a name that is neither a file nor a controller, expected an "
+                     "image, a folder with C files, a program of the PC or a folder under firmware/"));
 }
 
 TEST_F(FindTest, a_controller_of_the_project_is_found_by_its_name) {

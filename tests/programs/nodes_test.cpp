@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Nodes of worlds of ours, which no file of Webots stands behind.
 #include "tests/programs/nodes_fixture.h"
+#include "tests/support/wording.h"
 
 using namespace nodes_test;
 
@@ -73,7 +74,7 @@ TEST_F(NodesTest, what_is_not_there_is_nothing_with_a_reason) {
   open(kOurs);
   const Reply none = ask(LINK_FIND_NODE, {{2, 0}, {}, "Z"});
   EXPECT_EQ(none.number, LINK_NOTHING);
-  EXPECT_NE(none.texts.at(0).find("'Z'"), std::string::npos);
+  EXPECT_TRUE(wording::reads(none.texts.at(0), "got 'Z', expected the DEF of a node"));
   EXPECT_EQ(ask(LINK_FIND_NODE, {{3, 999}, {}, ""}).number, LINK_NOTHING);
   EXPECT_EQ(ask(LINK_FIND_NODE, {{1, 0}, {}, ""}).number, LINK_NOTHING) << "nobody said whose program it is";
   EXPECT_EQ(ask(LINK_FIND_NODE, {{77, 0}, {}, ""}).number, LINK_NOTHING);
@@ -195,7 +196,8 @@ TEST_F(NodesTest, a_robot_tells_more_than_in_webots) {
   EXPECT_TRUE(host_.has("it can only be read"));
   const Reply variable = get(a, "variable:count");
   EXPECT_EQ(variable.number, LINK_NOTHING);
-  EXPECT_NE(variable.texts.at(0).find("no firmware"), std::string::npos);
+  EXPECT_TRUE(wording::reads(variable.texts.at(0),
+                             "A.variable:count: got a robot that runs no firmware, expected one that does"));
   EXPECT_EQ(field(a, "sensor:"), 0);
   EXPECT_EQ(field(def("C"), "collisions"), 0) << "of robots only";
 }

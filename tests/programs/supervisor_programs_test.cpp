@@ -4,6 +4,7 @@
 #include "programs/team/names.h"
 #include "sim_core/light/proximity.h"
 #include "tests/programs/supervisor_fixture.h"
+#include "tests/support/wording.h"
 
 namespace {
 
@@ -314,7 +315,10 @@ TEST(SupervisorsOfTheCommandLine, take_the_place_of_the_worlds) {
   EXPECT_TRUE(problems.empty());
   named(two, {"mine.py"}, problems);
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].find("expected NAME=PROGRAM"), std::string::npos) << problems[0];
+  EXPECT_TRUE(
+      wording::reads(problems[0],
+                     "command line: --supervisor: got 'mine.py' for a world with several (referee, camera), "
+                     "expected NAME=PROGRAM: whose place it takes, or another name to add it"));
 }
 
 // --- without a program: what Simulation offers to whoever attends it

@@ -4,6 +4,7 @@
 #include "sim_core/light/explain.h"
 
 #include "tests/sim_core/fixture.h"
+#include "tests/support/wording.h"
 
 using namespace sim_test;
 
@@ -218,11 +219,14 @@ rays = 2
       notices[0],
       "note: robot a, sensors 0 to 7: gaussian_width is 0: only the ray on the axis counts, the weight of "
       "the other 3 is 0");
-  EXPECT_NE(notices[1].find("robot b, sensors 0 to 2, 6, 7: gaussian_width is 0"), std::string::npos)
-      << notices[1];
-  EXPECT_NE(notices[2].find("robot b, sensor 4: aperture is 0: one ray on the axis instead of 4"),
-            std::string::npos);
-  EXPECT_NE(notices[3].find("none of the 2 rays lies on the axis"), std::string::npos) << notices[3];
+  EXPECT_TRUE(wording::reads(notices[1],
+                             "note: robot b, sensors 0 to 2, 6, 7: gaussian_width is 0: only the ray on the "
+                             "axis counts, the weight of the other 3 is 0"));
+  EXPECT_TRUE(
+      wording::reads(notices[2], "note: robot b, sensor 4: aperture is 0: one ray on the axis instead of 4"));
+  EXPECT_TRUE(wording::reads(notices[3],
+                             "note: robot b, sensor 5: gaussian_width is 0: none of the 2 rays lies on the "
+                             "axis, the 2 nearest to it count alike"));
 }
 
 TEST(Notices, there_are_none_about_usual_sensors) {

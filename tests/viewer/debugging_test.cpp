@@ -65,9 +65,12 @@ TEST_F(InTheDebugger, a_robot_stops_steps_and_goes_back) {
   stopped(page, "step");
   EXPECT_EQ(dap(page, "stackTrace", {{"threadId", 1}}).at("stackFrames").at(0).at("line"),
             line_of("e_set_speed_right(speed)"));
-  EXPECT_TRUE(page.ask({{"do", "dap"}, {"message", {{"command", "nonsense"}}}}).contains("error"));
-  EXPECT_TRUE(page.ask({{"do", "dap"}, {"message", {{"command", "disconnect"}}}}).contains("error"));
-  EXPECT_TRUE(page.ask({{"do", "dap"}, {"message", {{"command", "setBreakpoints"}}}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "dap"}, {"message", {{"command", "nonsense"}}}}),
+            "command: got 'nonsense', expected one of the Debug Adapter Protocol");
+  EXPECT_EQ(page.refusal({{"do", "dap"}, {"message", {{"command", "disconnect"}}}}),
+            "dap: got disconnect, expected `debug` without a robot");
+  EXPECT_EQ(page.refusal({{"do", "dap"}, {"message", {{"command", "setBreakpoints"}}}}),
+            "arguments: got none or others, expected those of the Debug Adapter Protocol");
 }
 
 TEST_F(InTheDebugger, plays_pauses_takes_inputs_and_lets_go) {
@@ -82,11 +85,13 @@ TEST_F(InTheDebugger, plays_pauses_takes_inputs_and_lets_go) {
   page.good({{"do", "pause"}});
   stopped(page, "pause");
   EXPECT_EQ(page.good({{"do", "state"}}).at("state").at("playing"), false);
-  EXPECT_TRUE(page.ask({{"do", "step"}}).contains("error")) << "its program is stepped instead";
+  EXPECT_EQ(page.refusal({{"do", "step"}}), "a robot is debugged: step its program, or end that first")
+      << "its program is stepped instead";
   page.good({{"do", "debug"}, {"robot", ""}});
   const Json state = page.good({{"do", "state"}}).at("state");
   EXPECT_EQ(state.at("debugging"), "");
-  EXPECT_TRUE(page.ask({{"do", "dap"}, {"message", {{"command", "pause"}}}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "dap"}, {"message", {{"command", "pause"}}}}),
+            "no robot is debugged; debug one first");
   // and goes on, as the same run
   const auto stands = state.at("clicks").get<std::int64_t>();
   steps(page, 3);
@@ -121,10 +126,12 @@ TEST_F(InTheDebugger, only_a_robot_with_firmware_is_debugged) {
         "twinpuck = 1\n[arena]\nsize = [1.0, 1.0]\n[[robot]]\nname = \"idle\"\nposition = [0, 0]\n");
   Page page(open("empty.toml"));
   page.event("hello");
-  EXPECT_NE(page.ask({{"do", "debug"}, {"robot", "idle"}}).value("error", "").find("runs no firmware"),
-            std::string::npos);
-  EXPECT_TRUE(page.ask({{"do", "debug"}, {"robot", "nobody"}}).contains("error"));
-  EXPECT_TRUE(page.ask({{"do", "dap"}, {"message", {{"command", "threads"}}}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "debug"}, {"robot", "idle"}}),
+            "robot: got 'idle', which runs no firmware, expected one with a program of the robot");
+  EXPECT_EQ(page.refusal({{"do", "debug"}, {"robot", "nobody"}}),
+            "robot: got 'nobody', expected a robot of the world");
+  EXPECT_EQ(page.refusal({{"do", "dap"}, {"message", {{"command", "threads"}}}}),
+            "no robot is debugged; debug one first");
   steps(page, 1);
 }
 

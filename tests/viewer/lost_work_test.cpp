@@ -208,8 +208,8 @@ TEST_F(LostWork, many_edits_are_one_or_none) {
   const int wall = thing(world, "wall");
   const Json add{
       {"op", "add"}, {"path", "box"}, {"values", {{"position", {0, 0.3}}, {"size", {0.1, 0.1, 0.1}}}}};
-  const Json refused = page.ask({{"do", "edit"}, {"edits", {add, {{"op", "remove"}, {"thing", 12345}}}}});
-  EXPECT_TRUE(refused.contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "edit"}, {"edits", {add, {{"op", "remove"}, {"thing", 12345}}}}}),
+            "thing: got 12345, expected the id of a thing of the world");
   EXPECT_EQ(page.good({{"do", "state"}}).at("state").at("saved"), true) << "none of it";
   const Json done = page.good(
       {{"do", "edit"},
@@ -242,7 +242,8 @@ TEST_F(LostWork, pieces_go_from_one_world_to_another) {
   EXPECT_NEAR(world.at("things").at(1).at("position").at(0).get<double>(), 0.7, 1e-9);
   EXPECT_NEAR(world.at("things").at(1).at("position").at(1).get<double>(), 0.2, 1e-9);
   EXPECT_EQ(world.at("robots").at(0).at("name"), "puck");
-  EXPECT_TRUE(page.ask({{"do", "edit"}, {"op", "paste"}, {"text", "hello"}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "edit"}, {"op", "paste"}, {"text", "hello"}}),
+            "text: got no piece of a world, expected [[box]], [[robot]] and the like");
 }
 
 TEST_F(LostWork, a_section_comes_where_the_file_has_none) {
@@ -253,8 +254,8 @@ TEST_F(LostWork, a_section_comes_where_the_file_has_none) {
   EXPECT_NE(world.at("text").get<std::string>().find("\n[proximity]\nrays = 3\n"), std::string::npos)
       << world.at("text");
   EXPECT_TRUE(world.at("problems").empty()) << world.at("problems");
-  EXPECT_TRUE(page.ask({{"do", "edit"}, {"op", "add"}, {"path", "proximity"}, {"values", {{"rays", 5}}}})
-                  .contains("error"))
+  EXPECT_EQ(page.refusal({{"do", "edit"}, {"op", "add"}, {"path", "proximity"}, {"values", {{"rays", 5}}}}),
+            "path: got 'proximity', which is there once")
       << "it is there once";
 }
 
@@ -264,7 +265,9 @@ TEST_F(LostWork, nothing_is_saved_through_a_link) {
   fs::create_symlink(folder_ / "elsewhere/none.toml", folder_ / "dangling.toml");
   Page page(open("world.toml"));
   for (const char* name : {"link.toml", "dangling.toml"})
-    EXPECT_TRUE(page.ask({{"do", "save_as"}, {"name", name}, {"overwrite", true}}).contains("error")) << name;
+    EXPECT_EQ(
+        page.refusal({{"do", "save_as"}, {"name", name}, {"overwrite", true}}),
+        "name: got '" + std::string(name) + "', which is a link, expected a file of the world's folder");
   EXPECT_EQ(read("elsewhere/kept.toml"), "kept");
   EXPECT_FALSE(fs::exists(folder_ / "elsewhere/none.toml"));
 }
@@ -303,12 +306,18 @@ TEST_F(LostWork, another_world_opens_in_the_same_view) {
   page.good({{"do", "save"}});
   page.good(open_it);
   page.event("world", [](const Json& e) { return e.at("world").at("title") == "the other"; });
-  EXPECT_TRUE(page.ask({{"do", "open"}, {"file", "/etc/passwd"}}).contains("error"));
-  EXPECT_TRUE(page.ask({{"do", "open"}, {"file", path("no_world.toml")}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "open"}, {"file", "/etc/passwd"}}),
+            "file: got '/etc/passwd', expected one of `worlds`");
+  EXPECT_TRUE(wording::reads(page.refusal({{"do", "open"}, {"file", path("no_world.toml")}}),
+                             "file: got '@/no_world.toml', expected one of `worlds`",
+                             {{folder_.string(), "@"}}));
   page.good({{"do", "new_world"}, {"name", "fresh.toml"}});
   EXPECT_NE(read("fresh.toml").find("[arena]"), std::string::npos);
-  EXPECT_TRUE(page.ask({{"do", "new_world"}, {"name", "world.toml"}}).contains("error")) << "it is there";
-  EXPECT_TRUE(page.ask({{"do", "new_world"}, {"name", "../out.toml"}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "new_world"}, {"name", "world.toml"}}),
+            "name: got 'world.toml', which is there already; overwrite it?")
+      << "it is there";
+  EXPECT_EQ(page.refusal({{"do", "new_world"}, {"name", "../out.toml"}}),
+            "name: got '../out.toml', expected a file name that ends in .toml, for the world's own folder");
 }
 
 // --- recordings
@@ -376,8 +385,12 @@ TEST_F(LostWork, a_recording_that_cannot_be_written_is_said_at_once) {
     told = page.good({{"do", "state"}}).at("state").at("recording").at("error");
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  EXPECT_NE(told.find("No space left"), std::string::npos) << told;
-  EXPECT_NE(view_->end().find("--record-inputs"), std::string::npos);
+  EXPECT_TRUE(wording::reads(told,
+                             "@/full.jsonl: --record-inputs: cannot be written: No space left on device",
+                             {{folder_.string(), "@"}}));
+  EXPECT_TRUE(wording::reads(view_->end(),
+                             "@/full.jsonl: --record-inputs: cannot be written: No space left on device",
+                             {{folder_.string(), "@"}}));
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include <sstream>
 
 #include "compiler/build/build.h"
+#include "tests/support/wording.h"
 #include "viewer/live_view.h"
 
 struct mg_connection;
@@ -46,7 +47,9 @@ class Page {
   bool is_open() const { return connection_ != nullptr; }
   /// Asks and waits for the answer, which may hold "error".
   Json ask(Json request);
-  /// The same; fails the test on an error.
+  /// What its answer says is wrong; "" where nothing is.
+  std::string refusal(Json request) { return ask(std::move(request)).value("error", ""); }
+  /// As ask(); fails the test on an error.
   Json good(Json request);
   /// Waits for an event of that name for which `is_it` holds.
   Json event(

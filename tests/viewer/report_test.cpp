@@ -157,7 +157,10 @@ TEST_F(Report, of_a_long_run_has_its_frames_farther_apart) {
 
 TEST_F(Report, without_a_bundled_page_is_refused) {
   const viewer::Report report(path("run.html"), *twin_, path("nowhere"), true);
-  EXPECT_NE(report.error().find("make page"), std::string::npos) << report.error();
+  EXPECT_TRUE(wording::reads(
+      report.error(),
+      "@/run.html: --report: got no bundled page, expected one in @/nowhere; `make page` makes it",
+      {{folder_.string(), "@"}}));
 }
 
 }  // namespace

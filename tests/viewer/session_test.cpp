@@ -61,7 +61,8 @@ TEST_F(Session, steps_a_tick_a_control_step_and_an_interrupt) {
   EXPECT_NEAR(clicks(), clicks_per_s * (1.0 / 512 + 0.032), clicks_per_s / 512);
   const Json answer = page.ask({{"do", "step"}, {"unit", "interrupt"}, {"robot", "puck"}});
   EXPECT_TRUE(answer.contains("ok") || answer.at("error") == "no interrupt came within 10 s") << answer;
-  EXPECT_TRUE(page.ask({{"do", "step"}, {"unit", "furlong"}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "step"}, {"unit", "furlong"}}),
+            "unit: got \"furlong\", expected tick, control or interrupt");
 }
 
 // the bar of all views: who looks changes nothing
@@ -94,9 +95,10 @@ TEST_F(Session, subscribed_names_come_with_their_units_in_every_frame) {
   EXPECT_NEAR(frame.value.at(0), frame.body.at(0).x, 1e-6);
   EXPECT_GT(frame.value.at(1), 0);
   EXPECT_EQ(frame.value.at(2), 1);
-  EXPECT_NE(page.ask({{"do", "subscribe"}, {"names", {"puck.ir9"}}}).value("error", "").find("did you mean"),
-            std::string::npos);
-  EXPECT_TRUE(page.ask({{"do", "subscribe"}, {"names", {"nobody.x"}}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "subscribe"}, {"names", {"puck.ir9"}}}),
+            "got 'ir9', expected a name such as ir0, speed, pin:D3 or var:counter; did you mean 'ir0'?");
+  EXPECT_EQ(page.refusal({{"do", "subscribe"}, {"names", {"nobody.x"}}}),
+            "got 'nobody.x', expected ROBOT.NAME with a robot of the world");
 }
 
 TEST_F(Session, rays_end_where_they_meet_something) {
@@ -124,8 +126,10 @@ TEST_F(Session, selector_serial_and_variables_reach_the_program) {
   std::string heard;
   while (heard.size() < 2) heard += page.event("serial").at("text").get<std::string>();
   EXPECT_EQ(heard, "hi");
-  EXPECT_TRUE(page.ask({{"do", "selector"}, {"robot", "puck"}, {"position", 16}}).contains("error"));
-  EXPECT_TRUE(page.ask({{"do", "selector"}, {"robot", "nobody"}, {"position", 1}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "selector"}, {"robot", "puck"}, {"position", 16}}),
+            "position: got 16, expected a whole number, 0 to 15");
+  EXPECT_EQ(page.refusal({{"do", "selector"}, {"robot", "nobody"}, {"position", 1}}),
+            "robot: got 'nobody', expected a robot of the world");
 }
 
 TEST_F(Session, only_one_page_steers) {
@@ -133,9 +137,9 @@ TEST_F(Session, only_one_page_steers) {
   first.event("hello");
   Page second(view());
   second.event("hello");
-  EXPECT_TRUE(second.ask({{"do", "play"}}).contains("error"));
+  EXPECT_EQ(second.refusal({{"do", "play"}}), "another page steers; take the wheel first");
   second.good({{"do", "steer"}});
-  EXPECT_TRUE(first.ask({{"do", "step"}}).contains("error"));
+  EXPECT_EQ(first.refusal({{"do", "step"}}), "another page steers; take the wheel first");
   second.good({{"do", "step"}});
 }
 
@@ -420,21 +424,25 @@ TEST_F(Session, files_elsewhere_are_neither_read_nor_written) {
   Page page(open("world.toml"));
   write("secret.txt", "s");
   for (const char* name : {"../evil.toml", "/tmp/evil.toml", ".evil.toml", "evil.sh", "sub/evil.toml"})
-    EXPECT_TRUE(page.ask({{"do", "save_as"}, {"name", name}}).contains("error")) << name;
-  EXPECT_TRUE(page.ask({{"do", "save_as"}, {"name", "world.toml"}}).contains("error"))
+    EXPECT_EQ(page.refusal({{"do", "save_as"}, {"name", name}}),
+              "name: got '" + std::string(name) +
+                  "', expected a file name that ends in .toml, for the world's own folder");
+  EXPECT_EQ(page.refusal({{"do", "save_as"}, {"name", "world.toml"}}),
+            "name: got 'world.toml', which is there already; overwrite it?")
       << "it is there already";
   std::filesystem::create_symlink(folder_ / "secret.txt", folder_ / "drive" / "link.c");
-  for (const char* name : {"../secret.txt", "../world.toml", "/etc/passwd", "link.c", ""}) {
-    EXPECT_TRUE(page.ask({{"do", "source"}, {"program", "drive"}, {"file", name}}).contains("error")) << name;
-    EXPECT_TRUE(page.ask({{"do", "write_source"}, {"program", "drive"}, {"file", name}, {"text", "x"}})
-                    .contains("error"))
-        << name;
+  for (const std::string name : {"../secret.txt", "../world.toml", "/etc/passwd", "link.c", ""}) {
+    const std::string told = "file: got '" + name + "', expected one of the controller's sources";
+    EXPECT_EQ(page.refusal({{"do", "source"}, {"program", "drive"}, {"file", name}}), told);
+    EXPECT_EQ(page.refusal({{"do", "write_source"}, {"program", "drive"}, {"file", name}, {"text", "x"}}),
+              told);
   }
   EXPECT_EQ(read("secret.txt"), "s");
   // a recording's inputs are not for pages: they name files
-  EXPECT_TRUE(page.ask({{"do", "program"}, {"robots", {0}}, {"image", "/tmp/x.so"}}).contains("error"));
-  EXPECT_TRUE(
-      page.ask({{"do", "world"}, {"text", "twinpuck = 1"}, {"before", Json::array()}}).contains("error"));
+  EXPECT_EQ(page.refusal({{"do", "program"}, {"robots", {0}}, {"image", "/tmp/x.so"}}),
+            "do: got 'program', expected a request of docs/connecting.md");
+  EXPECT_EQ(page.refusal({{"do", "world"}, {"text", "twinpuck = 1"}, {"before", Json::array()}}),
+            "do: got 'world', expected a request of docs/connecting.md; did you mean worlds?");
 }
 
 // --- recordings
