@@ -50,14 +50,21 @@ const Row* find_row(std::uint32_t word) {
   return nullptr;
 }
 
+// most fields are one piece
+static unsigned bits_at(std::uint32_t mask, std::uint32_t word) {
+  if (mask == 0) return 0;
+  const int low = __builtin_ctz(mask);
+  if (const std::uint32_t piece = mask >> low; !(piece & (piece + 1))) return word >> low & piece;
+  unsigned value = 0;
+  int at = 0;
+  for (std::uint32_t rest = mask; rest; rest &= rest - 1) value |= (word >> __builtin_ctz(rest) & 1) << at++;
+  return value;
+}
+
 Fields fields_of(const Row& row, std::uint32_t word) {
   Fields fields;
   for (const Field& field : row.fields) {
-    unsigned value = 0;
-    int at = 0;
-    for (std::uint32_t rest = field.mask; rest; rest &= rest - 1)
-      value |= (word >> __builtin_ctz(rest) & 1) << at++;
-    fields.*field.member = value;
+    fields.*field.member = bits_at(field.mask, word);
   }
   return fields;
 }

@@ -190,7 +190,10 @@ void Waits::look(Cpu& cpu) {
     const bool goes_on = cpu.repeating;
     step(cpu);
     round_.registers |= cpu.table().touched_by(d);
-    if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
+    if (chances_ == 1 && !goes_on) {
+      if (trace_.empty()) trace_.reserve(kUsualRound);
+      trace_.push_back({d, cpu.n, round_.memory.touched()});
+    }
     // something else is due
     if (cpu.deadline != end) {
       fail(cpu);

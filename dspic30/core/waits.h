@@ -102,7 +102,7 @@ class Waits {
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;       // cycles between two looks
   static constexpr Cycle kRarestInVain = 1 << 18;                       // ... where none ever found a wait
   static constexpr Cycle kFirstInHandler = 4096, kSoonInHandler = 600;  // ... since it began
-  static constexpr int kLongestRound = 256;                             // instructions
+  static constexpr int kLongestRound = 256, kUsualRound = 32;           // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
   // behind the first ends of a wait with a known head it looks soon, each time after another while

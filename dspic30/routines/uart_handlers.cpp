@@ -49,13 +49,20 @@ constexpr std::uint32_t clear_flag(int irq) {
 constexpr std::uint32_t kAll = 0xFFFFFF, kButPlace = kAll & ~kPlace, kButWord = kAll & ~(0x7FFFu << 4),
                         kButLiteral = kAll & ~(0xFFFFu << 4);
 
+std::uint64_t two(const std::uint32_t* words) {
+  std::uint64_t both;
+  std::memcpy(&both, words, sizeof both);
+  return both;
+}
+
 template <std::size_t N>
 struct Code {
   std::array<std::uint32_t, N> words, fixed;
   bool is_at(const std::uint32_t* code) const {
-    std::uint32_t other = 0;
-    for (std::size_t i = 0; i < N; ++i) other |= (code[i] ^ words[i]) & fixed[i];
-    return other == 0;
+    // two words at a time
+    std::uint64_t other = 0;
+    for (std::size_t i = 0; i + 1 < N; i += 2) other |= (two(&code[i]) ^ two(&words[i])) & two(&fixed[i]);
+    return other == 0 && (N % 2 == 0 || code[N - 1] == words[N - 1]);
   }
 };
 
@@ -176,8 +183,9 @@ class UartHandler {
         !interrupts.has_no_other(vector_) || interrupts.cpu().disi_until() > cpu_.now ||
         interrupts.control().nesting_disabled() || !uart_.enabled())
       return false;
-    alone_until_ = std::min(until + 1, std::min(cpu_.parts.notice_horizon(), host_horizon()));
-    if (alone_until_ <= end) return false;
+    alone_until_ = std::min(until + 1, cpu_.parts.notice_horizon());
+    host_comes_ = host_horizon();
+    if (alone_until_ <= end || host_comes_ < 0) return false;
     const unsigned top = cpu_.w[15], full = top + KnownCalls::kStack;
     return !(top & 1) && top >= cpu_.plain_start && full <= Cpu::kRamEnd && full <= cpu_.stack_most;
   }
@@ -212,32 +220,31 @@ class UartHandler {
     return static_cast<int>(cpu_.program.read(address & 0x7FFE) >> 8 * (address & 1) & 0xFF);
   }
 
-  /// Up to there nothing comes of handlers known by heart. They are all held off, and none becomes pending, so
-  /// only their share is missing. 0: that is not so.
+  /// When one of the handlers known by heart, which are held off, becomes pending; up to there only their share
+  /// is missing. -1: one of them may come into this one.
   Cycle host_horizon() const {
     if (!cpu_.host) return kNever;
-    if (cpu_.host_is_held || cpu_.host_stale) return 0;
-    Cycle horizon = cpu_.host_due;
+    if (cpu_.host_stale) return -1;
+    Cycle horizon = cpu_.host_is_held ? 0 : cpu_.host_due;
     const Interrupts& interrupts = cpu_.parts.interrupts;
     const int own = interrupts.sources().priority(vector_ - kFirstIrqVector);
     for (int h = 0; h < HostCalls::kHandlers; ++h) {
       const int vector = cpu_.host->vector(h);
       if (vector == kNoVector) continue;
-      if (interrupts.sources().priority(vector - kFirstIrqVector) > own) return 0;
-      horizon = std::min(horizon, cpu_.host->source_event(h, cpu_.now - kMargin));
+      if (interrupts.sources().priority(vector - kFirstIrqVector) > own) return -1;
+      if (horizon > cpu_.now) horizon = std::min(horizon, cpu_.host->source_event(h, cpu_.now - kMargin));
     }
-    return horizon - kMargin;
+    return horizon;
   }
 
-  /// Will a wait that it comes into go on as if it had been found again? Not where it reads what the handler
-  /// changes, of which `variables` are left out.
-  bool goes_through(unsigned saved_words) const {
+  /// It is over by then. Will a wait that it comes into go on as if it had been found again? Not where it reads
+  /// what the handler changes; of its variables wait_reads() tells.
+  bool goes_through(Cycle over, unsigned saved_words) const {
     const Waits& waits = *cpu_.waits;
-    if (!waits.is_waiting()) return false;
-    const Cycle back = waits.back_by(cpu_, cpu_.now + kLongestHandler + kMargin);
+    if (follows_host_ || !waits.is_waiting()) return false;
+    const Cycle back = waits.back_by(cpu_, over + kMargin), busy = uart_.transmits() ? uart_.busy_until() : 0;
     const unsigned top = cpu_.w[15] - Cpu::kRamStart;
-    return back < alone_until_ &&
-           !(uart_.transmits() && uart_.busy_until() > cpu_.now && uart_.busy_until() <= back) &&
+    return back < std::min(alone_until_, host_comes_ - kMargin) && (busy <= cpu_.now || busy > back) &&
            !waits.reads(top, top + 2 * saved_words);
   }
   bool wait_reads(unsigned address, unsigned bytes) const {
@@ -245,6 +252,13 @@ class UartHandler {
     return cpu_.waits->reads(place, place + bytes);
   }
 
+  /// When it is over whose RETFIE comes so long behind its first instruction. From here on it is known whether
+  /// handlers known by heart matter to it.
+  Cycle ends(Cycle behind) {
+    const Cycle over = cpu_.now + kInterruptEntryCycles + behind + kInterruptReturnCycles;
+    follows_host_ = host_comes_ <= over + kMargin;
+    return over;
+  }
   /// Entry and the registers that it saves; `pairs` of W registers from W0 up. Its first
   /// instruction begins at begin_. `is_through`: the wait that it comes into goes on.
   void enter(unsigned pairs, bool is_through) {
@@ -261,9 +275,20 @@ class UartHandler {
     leave(cpu_, 2, cpu_.psvpag);
     leave_registers(cpu_, kEntryWords, 0, 2 * pairs);
     cpu_.now = interrupts.enter(vector_, cpu_.now).first_instruction;
-    share_ = cpu_.host ? cpu_.host->share_q32() : 0;
-    follow(0);
+    if (cpu_.host) hold_host();
     begin_ = cpu_.now;
+  }
+  /// From its first instruction on its level holds off all handlers known by heart.
+  void hold_host() {
+    if (follows_host_) return follow_host();
+    share_ = cpu_.host->share_q32();
+    cpu_.settle();
+    cpu_.clocks.set_share(0);
+  }
+  void follow_host() {
+    cpu_.settle();
+    cpu_.parts.events.run_to(cpu_.now);
+    cpu_.follow_host();
   }
   void lower_flag(Cycle at) {
     ChipParts& parts = cpu_.parts;
@@ -277,29 +302,32 @@ class UartHandler {
   /// RETFIE begins so long behind the first instruction; it is the word `at_word`.
   bool go_back(Cycle behind, unsigned at_word) {
     cpu_.now = begin_ + behind;
-    cpu_.parts.events.run_to(cpu_.now);
+    if (follows_host_)
+      follow_host();
+    else
+      cpu_.parts.events.run_to(cpu_.now);
     cpu_.set_flags(flags_);
     cpu_.now = cpu_.parts.interrupts.leave_to(level_, cpu_.now);
     cpu_.at = cpu_.code() + address_ / 2 + at_word;
     cpu_.repeat_is_fresh = false;
     cpu_.returned = !is_through_;
     cpu_.next = cpu_.jump_back(pc_, cpu_.at);
-    follow(share_);
+    if (cpu_.host && !follows_host_) {
+      cpu_.settle();
+      cpu_.clocks.set_share(share_);
+    }
     if (is_through_) cpu_.waits->go_through(cpu_, cut_, cut_true_);
     return true;
   }
-  void follow(std::uint64_t share) {
-    if (!cpu_.host) return;
-    cpu_.settle();
-    cpu_.clocks.set_share(share);
-  }
 
   static constexpr unsigned kEntryWords = 3;
+  static constexpr Cycle kGivesBack = 3;
   Cpu& cpu_;
   const int vector_;
   const std::size_t number_;
   Uart& uart_;
-  Cycle alone_until_ = 0;
+  Cycle alone_until_ = 0, host_comes_ = 0;
+  bool follows_host_ = false;  // a handler known by heart becomes pending meanwhile, or may
   unsigned address_ = 0, pc_ = 0, flags_ = 0;
   int level_ = 0;
   std::uint64_t share_ = 0;
@@ -333,44 +361,37 @@ bool UartHandler::send(Cycle until) {
   const bool is_flash = from >= Cpu::kPsvStart, is_over = is_on && !sends,
              is_last = sends && count == left && count < kBurst && count < uart_.room();
 
-  // From here on it is done: registers, flag, then byte after byte, with the cycles of the handler's code.
-  enter(1, goes_through(kEntryWords + 2) && !(is_over && wait_reads(s.is_sending, 2)) &&
-               !(count > 0 && (wait_reads(s.left, 2) || wait_reads(s.next_byte, 2))) &&
-               !(is_last && wait_reads(s.next_byte, 2)));
-  lower_flag(begin_ + 5);
-  Cycle t = 0;
-  // of its operations the last one leaves its DC behind
-  if (!is_on) {
-    sub(cpu_, 0, 0);
-    t = 9;
-  } else if (!sends) {
-    sub(cpu_, 0, 0);
+  // The cycles of the handler's code, from its first instruction to what gives the registers back.
+  Cycle t = 9;
+  if (is_over)
     t = from == 0 ? 12 : 14;
-    put(s.is_sending, 0);
-  } else {
-    t = 13 + count * (14 + (is_flash ? kWindowCycles : 0));
-    for (unsigned i = 0; i < count; ++i) {
-      cpu_.parts.bus.count_write();
-      uart_.load(bytes[i]);
-    }
+  else if (sends)
+    t = 13 + count * (14 + (is_flash ? kWindowCycles : 0)) + (is_last ? 8 : count == kBurst ? 1 : 3);
+  const Cycle over = ends(t + kGivesBack);
+  const bool is_through = goes_through(over, kEntryWords + 2) && !(is_over && wait_reads(s.is_sending, 2)) &&
+                          !(count > 0 && (wait_reads(s.left, 2) || wait_reads(s.next_byte, 2)));
+
+  // From here on it is done: registers, flag, then byte after byte.
+  enter(1, is_through);
+  lower_flag(begin_ + 5);
+  if (is_over) put(s.is_sending, 0);
+  for (unsigned i = 0; i < count; ++i) {
+    cpu_.parts.bus.count_write();
+    uart_.load(bytes[i]);
+  }
+  if (sends) {
     put(s.left, left - count);
     put(s.next_byte, is_last ? 0 : from + count);
-    if (is_last) {
-      sub(cpu_, 0, 0);
-      t += 8;
-    } else if (count == kBurst) {
-      sub(cpu_, 1, 1);
-      t += 1;
-    } else {
-      if (count > 0)
-        sub(cpu_, kBurst - count + 1, 1);
-      else
-        sub(cpu_, left, 0);
-      t += 3;
-    }
     if (count > 0) uart_.loaded();
   }
-  return go_back(t + 3, 28);
+  // of its operations the last one leaves its DC behind
+  if (!sends || is_last)
+    sub(cpu_, 0, 0);
+  else if (count > 0)
+    sub(cpu_, kBurst - count + 1, 1);
+  else
+    sub(cpu_, left, 0);
+  return go_back(t + kGivesBack, 28);
 }
 
 /// What the module has received goes to the ring.
@@ -383,7 +404,8 @@ bool UartHandler::receive(Cycle until) {
   if (!is_plain(s.received) || cpu_.is_elsewhere(s.ring, true) || cpu_.is_elsewhere(s.ring + kRing - 1, true))
     return false;
 
-  enter(2, goes_through(kEntryWords + 4) && !wait_reads(s.received, 2) && !wait_reads(s.ring, kRing));
+  const Cycle over = ends(kLongestHandler);
+  enter(2, goes_through(over, kEntryWords + 4) && !wait_reads(s.received, 2) && !wait_reads(s.ring, kRing));
   lower_flag(begin_ + 7);
   Cycle t = 11;
   for (Cycle round = 11; uart_.has_received(); round += 9) {
