@@ -68,13 +68,13 @@ std::vector<BodyState> states_of(const Scene& scene) {
 
 }  // namespace
 
-Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
+Simulation::Simulation(WorldDesc world, Minds minds, int threads)
     : optics_(make_optics(world)),
-      scene_(std::make_unique<Scene>(world, optics_reach_m(*optics_))),
+      scene_(std::make_unique<Scene>(std::move(world), optics_reach_m(*optics_))),
       sound_(std::make_unique<SoundField>(scene_->world(), scene_->tick_clicks())),
       motion_(make_motion(scene_->world(), scene_->layout(), states_of(*scene_), 0)),
       minds_(std::move(minds)) {
-  CHECK(minds_.size() == world.robots.size(), "one mind per robot");
+  CHECK(minds_.size() == scene_->world().robots.size(), "one mind per robot");
   scene_->attach_optics(optics_);
   scene_->attach_sound(sound_.get());
   const std::size_t n = minds_.size();
@@ -87,7 +87,7 @@ Simulation::Simulation(const WorldDesc& world, Minds minds, int threads)
   mind_hash_.resize(n);
   told_.resize(n);
   read_wheels();
-  digest_ = mix64(world.seed);
+  digest_ = mix64(scene_->world().seed);
   if (threads > 1 && n > 1) workers_ = std::make_unique<WorkerPool>(std::min(threads, static_cast<int>(n)));
 }
 

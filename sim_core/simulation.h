@@ -25,7 +25,7 @@ class WorkerPool;
 class Simulation {
  public:
   /// One mind per robot of the world, in its order. threads: how many run the minds, 1 or more.
-  Simulation(const WorldDesc& world, Minds minds, int threads = 1);
+  Simulation(WorldDesc world, Minds minds, int threads = 1);
   ~Simulation();
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;

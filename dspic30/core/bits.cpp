@@ -23,7 +23,7 @@ struct AtFile {
   }
 };
 struct AtMemory : AtFile {
-  static unsigned address(Cpu& cpu, const Decoded* d) { return cpu.source_address(d); }
+  static unsigned address(Cpu& cpu, const Decoded* d) { return source_address(cpu, d); }
 };
 struct AtRegister {
   static constexpr bool kIsMemory = false;

@@ -74,9 +74,9 @@ unsigned stored(const Cpu& cpu, std::int64_t v, bool round) {
 unsigned fetched(Cpu& cpu, const PrefetchMode& mode, bool y_space) {
   const auto n = static_cast<unsigned>(mode.pointer);
   unsigned ea = cpu.w[n];
-  if (mode.by_index) ea = cpu.stepped(n, ea, sign_extend(cpu.w[12], 16), y_space);
+  if (mode.by_index) ea = stepped(cpu, n, ea, sign_extend(cpu.w[12], 16), y_space);
   if (!mode.by_index && mode.step)
-    cpu.w[n] = static_cast<std::uint16_t>(cpu.stepped(n, ea, mode.step, y_space));
+    cpu.w[n] = static_cast<std::uint16_t>(stepped(cpu, n, ea, mode.step, y_space));
   const bool in_y = ea >= Cpu::kYStart && ea < Cpu::kRamEnd;
   if (y_space != in_y && (y_space || in_y)) return 0;
   return cpu.read16(ea);
@@ -203,13 +203,13 @@ int slit4(const Decoded* d) { return sign_extend(static_cast<unsigned>(d->imm) >
 unsigned mode(const Decoded* d) { return static_cast<unsigned>(d->imm) >> 4 & 7; }
 
 unsigned indexed(Cpu& cpu, unsigned n, const Decoded* d) {
-  return cpu.stepped(n, cpu.w[n], sign_extend(cpu.w[d->b], 16), false);
+  return stepped(cpu, n, cpu.w[n], sign_extend(cpu.w[d->b], 16), false);
 }
 
 template <bool Adds>
 const Decoded* load(Cpu& cpu, const Decoded* d) {
   const unsigned value = mode(d) == 0  ? cpu.w[d->s]
-                         : mode(d) < 6 ? cpu.read16(cpu.source_address(d))
+                         : mode(d) < 6 ? cpu.read16(source_address(cpu, d))
                                        : cpu.read16(indexed(cpu, d->s, d));
   const unsigned a = d->imm >> 15 & 1;
   put_accumulator(
@@ -222,7 +222,7 @@ const Decoded* store(Cpu& cpu, const Decoded* d) {
   if (mode(d) == 0)
     operands::put_register<false>(cpu, d, value);
   else
-    cpu.write16(mode(d) < 6 ? cpu.destination_address(d) : indexed(cpu, d->d, d), value);
+    cpu.write16(mode(d) < 6 ? destination_address(cpu, d) : indexed(cpu, d->d, d), value);
   return d + 1;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Branches, calls, returns, loops.
+#include "dspic30/core/host_handlers.h"
 #include "dspic30/core/operands.h"
 #include "dspic30/memory/host_places.h"
 
@@ -79,7 +80,7 @@ const Decoded* return_literal(Cpu& cpu, const Decoded* d) {
   return return_from_call(cpu, d);
 }
 const Decoded* return_from_interrupt(Cpu& cpu, const Decoded* d) {
-  return cpu.return_from_handler(d, d->cycles);
+  return return_from_handler(cpu, d, d->cycles);
 }
 
 // --- loops
@@ -112,19 +113,19 @@ const Decoded* repeat_register(Cpu& cpu, const Decoded* d) { return repeat(cpu, 
 }  // namespace
 
 // a function of the host that was cut goes on waiting
-const Decoded* Cpu::return_from_handler(const Decoded* from, Cycle rest) {
-  settle();
-  const unsigned top = pop(), low = pop();
-  set_flags(top >> 8);
-  repeating = repeat_is_fresh = (top >> 12 & 1) != 0;
-  parts.events.run_to(now);
-  parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), now);
-  hurry_to_exception(*this);
-  if (course) course->handler_ends(now + rest);
-  deadline = 0;
-  returned = true;
+const Decoded* return_from_handler(Cpu& cpu, const Decoded* from, Cycle rest) {
+  cpu.settle();
+  const unsigned top = cpu.pop(), low = cpu.pop();
+  cpu.set_flags(top >> 8);
+  cpu.repeating = cpu.repeat_is_fresh = (top >> 12 & 1) != 0;
+  cpu.parts.events.run_to(cpu.now);
+  cpu.parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), cpu.now);
+  hurry_to_exception(cpu);
+  if (cpu.course) cpu.course->handler_ends(cpu.now + rest);
+  cpu.deadline = 0;
+  cpu.returned = true;
   const unsigned address = (top & 0x7F) << 16 | (low & 0xFFFE);
-  return jump_back(address, from);
+  return cpu.jump_back(address, from);
 }
 
 // The function of each instruction that moves the program's place; null: it does not.

@@ -7,14 +7,12 @@
 #include <array>
 #include <memory>
 
-#include "dspic30/core/cpu.h"
+#include "dspic30/core/host_handlers.h"
 #include "dspic30/core/memory_check.h"
 
 namespace dspic {
 
 namespace {
-
-constexpr unsigned kRcount = sfr("RCOUNT"), kPsvpag = sfr("PSVPAG");
 
 /// Calls function `index`. False: it waits, or there is none.
 bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result) {
@@ -24,13 +22,40 @@ bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result)
   return result.cycles > 0;
 }
 
+// goes by what handlers take from now on, `ahead` cycles from now, unless it stops before its next instruction
+void follow_changed_host(Cpu& cpu, Cycle ahead) {
+  // it stops anyway, or flags of handlers are to be followed
+  if (cpu.deadline <= cpu.now || cpu.host_is_held || cpu.parts.interrupts.writes() != cpu.writes_seen) {
+    cpu.deadline = 0;
+    return;
+  }
+  cpu.host_stale = false;
+  cpu.host_followed = true;
+  cpu.now += ahead;
+  cpu.settle();
+  cpu.clocks.set_share(cpu.host->share_q32());
+  cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
+  cpu.deadline = cpu.clocks.program_at(std::min({cpu.stop_at, cpu.pause_at, cpu.host_due}));
+  cpu.now -= ahead;
+}
+
+// time goes on without the program, up to `until` or the deadline
+void stand(Cpu& cpu, Cycle until, const Decoded* d) {
+  const Cycle began = cpu.now;
+  cpu.stands_until = until;
+  cpu.stands_at = d;
+  cpu.now = std::max(cpu.now + 1, std::min(cpu.deadline, cpu.clocks.program_at(until)));
+  cpu.note_delay(began);
+  cpu.now -= d->cycles;
+}
+
 // the function is called here, or asked again: it stands until its time has come, then it returns
 const Decoded* at_function(Cpu& cpu, const Decoded* d) {
   const Cycle at = cpu.true_now();
   // it is not asked before its time, however often the clock is looked at
   if (cpu.host_again && cpu.stands_at == d && at < cpu.stands_until) {
     cpu.note_effect();
-    cpu.stand(cpu.stands_until, d);
+    stand(cpu, cpu.stands_until, d);
     return d;
   }
   HostResult result;
@@ -48,7 +73,7 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
   if (cpu.host_stale) cpu.deadline = 0;
   cpu.note_effect();
   cpu.host_again = true;
-  cpu.stand(result.wait_until, d);
+  stand(cpu, result.wait_until, d);
   return d;
 }
 
@@ -56,7 +81,7 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
 // for it may have been settled just now
 const Decoded* at_handler_return(Cpu& cpu, const Decoded* d) {
   if (cpu.host_handlers > 0) {
-    const Decoded* const following = cpu.go_on_with_handler(d);
+    const Decoded* const following = go_on_with_handler(cpu, d);
     cpu.now -= d->cycles;
     return following;
   }
@@ -103,7 +128,7 @@ const Decoded* call_host(Cpu& cpu, const Decoded* d) {
   if (!is_done(cpu, static_cast<unsigned>(d->imm), at, false, result))
     return stand_in_host(cpu, d, at, result.wait_until);
   cpu.now += result.cycles;
-  if (cpu.host_stale) cpu.follow_changed_host(d->cycles);
+  if (cpu.host_stale) follow_changed_host(cpu, d->cycles);
   return d + d->b;
 }
 
@@ -113,135 +138,55 @@ const Decoded* jump_to_host(Cpu& cpu, const Decoded* d) {
   return host_place(kHostStart + 2 * static_cast<unsigned>(d->imm));
 }
 
-bool Cpu::stands_in_host() const { return host_again && address_of_host_place(next) != 0; }
-
-void Cpu::follow_changed_host(Cycle ahead) {
-  // it stops anyway, or flags of handlers are to be followed
-  if (deadline <= now || host_is_held || parts.interrupts.writes() != writes_seen) {
-    deadline = 0;
-    return;
-  }
-  host_stale = false;
-  host_followed = true;
-  now += ahead;
-  settle();
-  clocks.set_share(host->share_q32());
-  host_due = host_comes ? host->due() : kNever;
-  deadline = clocks.program_at(std::min({stop_at, pause_at, host_due}));
-  now -= ahead;
-}
-
-// time goes on without the program, up to `until` or the deadline
-void Cpu::stand(Cycle until, const Decoded* d) {
-  const Cycle began = now;
-  stands_until = until;
-  stands_at = d;
-  now = std::max(now + 1, std::min(deadline, clocks.program_at(until)));
-  note_delay(began);
-  now -= d->cycles;
-}
+bool stands_in_host(const Cpu& cpu) { return cpu.host_again && address_of_host_place(cpu.next) != 0; }
 
 // --- handlers known by heart
 
-/// Of the stack, `words` from `begin` on: are they plain RAM below the limit, and nobody notes it?
-bool Cpu::is_plain_frame(unsigned begin, unsigned words) const {
-  const unsigned end = begin + 2 * words;
-  return plain_bytes > 0 && !(begin & 1) && begin >= plain_start && end <= kRamEnd &&
-         (!splim_on || end <= splim);
-}
-
-// how many of them are W0, W1, ... without a gap
-static unsigned count_low(unsigned registers) { return static_cast<unsigned>(__builtin_ctz(~registers)); }
-
-// registers from W0 up, then RCOUNT, PSVPAG, and others that are nobody's affair
-void Cpu::push_frame(unsigned registers, int words) {
-  const auto other = [&](int i) { return i == 0 ? rcount : i == 1 ? psvpag : std::uint16_t{0}; };
-  const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
-  if (!is_plain_frame(w[15], count)) {
-    // a stack that is full ends it there
-    const auto is_full = [&] { return parts.interrupts.control().has_trap(Trap::StackError); };
-    for (unsigned left = registers; left != 0 && !is_full(); left &= left - 1) push(w[__builtin_ctz(left)]);
-    for (int i = 0; i < words && !is_full(); ++i) push(other(i));
-    return;
-  }
-  unsigned at_byte = w[15] - kRamStart;
-  const unsigned low = count_low(registers);
-  std::memcpy(&ram[at_byte], w.data(), 2 * low);
-  at_byte += 2 * low;
-  for (unsigned left = registers >> low << low; left != 0; left &= left - 1, at_byte += 2)
-    store(at_byte, w[__builtin_ctz(left)]);
-  for (int i = 0; i < words; ++i, at_byte += 2) store(at_byte, other(i));
-  w[15] = static_cast<std::uint16_t>(at_byte + kRamStart);
-}
-
-void Cpu::pop_frame(unsigned registers, int words) {
-  const auto count = static_cast<unsigned>(__builtin_popcount(registers) + words);
-  const unsigned begin = w[15] - 2 * count;
-  const bool is_plain = is_plain_frame(begin, count);
-  unsigned at_byte = w[15] - kRamStart;
-  const auto next_word = [&] { return static_cast<std::uint16_t>(is_plain ? load(at_byte -= 2) : pop()); };
-  for (int i = words; i-- > 0;) {
-    const std::uint16_t word = next_word();
-    if (i == 0) rcount = word & saved_register(kRcount).bits;
-    if (i == 1 && psvpag != (word & saved_register(kPsvpag).bits)) {
-      psvpag = word & saved_register(kPsvpag).bits;
-      window_words = nullptr;
-    }
-  }
-  const unsigned low = is_plain ? count_low(registers) : 0;
-  for (unsigned left = registers >> low << low; left != 0;) {
-    const unsigned highest = 31u - static_cast<unsigned>(__builtin_clz(left));
-    w[highest] = next_word();
-    left &= ~(1u << highest);
-  }
-  if (low > 0) std::memcpy(w.data(), &ram[at_byte - 2 * low], 2 * low);
-  if (is_plain) w[15] = static_cast<std::uint16_t>(begin);
-}
-
 // as the interrupt and the handler's first instructions do
-void Cpu::enter_handler() {
-  if (memory_check) memory_check->cut(*this);
-  const unsigned pc = address_of(next), level = static_cast<unsigned>(parts.interrupts.cpu().level());
-  const Cycle entry = now;
-  at = next;
-  parts.events.tell_change(entry);
-  if (repeating && window_was_free) now += kRepeatWindow;
-  push(pc & 0xFFFF);
-  push(sr_low() << 8 | (level & 8) << 4 | pc >> 16);
-  repeating = false;
-  const int vector = host->vector(0);
-  now = parts.interrupts.enter(vector, now).first_instruction;
-  if (course) course->handler_begins(vector, entry, now);
-  parts.interrupts.lower(vector - kFirstIrqVector);
-  push_frame(host->saved_registers(), host->saved_words());
-  ++host_handlers;
-  host->begin_handler(now);
-  host_stale = true;
+void enter_handler(Cpu& cpu) {
+  if (cpu.memory_check) cpu.memory_check->cut(cpu);
+  Interrupts& interrupts = cpu.parts.interrupts;
+  const unsigned pc = cpu.address_of(cpu.next), level = static_cast<unsigned>(interrupts.cpu().level());
+  const Cycle entry = cpu.now;
+  cpu.at = cpu.next;
+  cpu.parts.events.tell_change(entry);
+  if (cpu.repeating && cpu.window_was_free) cpu.now += Cpu::kRepeatWindow;
+  cpu.push(pc & 0xFFFF);
+  cpu.push(cpu.sr_low() << 8 | (level & 8) << 4 | pc >> 16);
+  cpu.repeating = false;
+  const int vector = cpu.host->vector(0);
+  cpu.now = interrupts.enter(vector, cpu.now).first_instruction;
+  if (cpu.course) cpu.course->handler_begins(vector, entry, cpu.now);
+  interrupts.lower(vector - kFirstIrqVector);
+  cpu.push_frame(cpu.host->saved_registers(), cpu.host->saved_words());
+  ++cpu.host_handlers;
+  cpu.host->begin_handler(cpu.now);
+  cpu.host_stale = true;
 }
 
-const Decoded* Cpu::go_on_with_handler(const Decoded* from) {
-  note_effect();
-  settle();
-  parts.events.tell_change(now);
-  const HandlerStep step = host->next_in_handler(now);
-  now += step.cycles;
-  deadline = 0;
+const Decoded* go_on_with_handler(Cpu& cpu, const Decoded* from) {
+  cpu.note_effect();
+  cpu.settle();
+  cpu.parts.events.tell_change(cpu.now);
+  const HandlerStep step = cpu.host->next_in_handler(cpu.now);
+  cpu.now += step.cycles;
+  cpu.deadline = 0;
   if (step.divides_by_zero) {
-    at = host_place(kHostHandlerReturn);
-    trap(Trap::MathError);
-    return at;
+    cpu.at = host_place(kHostHandlerReturn);
+    cpu.trap(Trap::MathError);
+    return cpu.at;
   }
   if (step.function) {
-    push_address(kHostHandlerReturn);
-    at = host_place(kHostHandlerReturn);
-    return jump(pointed(step.function & ~1u, at), from);
+    cpu.push_address(kHostHandlerReturn);
+    cpu.at = host_place(kHostHandlerReturn);
+    return cpu.jump(cpu.pointed(step.function & ~1u, cpu.at), from);
   }
-  host->end_handler(now);
-  --host_handlers;
-  host_stale = true;
-  pop_frame(host->saved_registers(), host->saved_words());
-  const Decoded* const following = return_from_handler(from, kInterruptReturnCycles);
-  now += kInterruptReturnCycles;
+  cpu.host->end_handler(cpu.now);
+  --cpu.host_handlers;
+  cpu.host_stale = true;
+  cpu.pop_frame(cpu.host->saved_registers(), cpu.host->saved_words());
+  const Decoded* const following = return_from_handler(cpu, from, kInterruptReturnCycles);
+  cpu.now += kInterruptReturnCycles;
   return following;
 }
 

@@ -10,7 +10,7 @@
 
 namespace dspic {
 
-void Cpu::check_memory(MemoryCheck* check) {
+void DataSpace::check_memory(MemoryCheck* check) {
   memory_check = check;
   watch_round(round_memory);
   code_is_stale = true;

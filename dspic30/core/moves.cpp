@@ -13,7 +13,7 @@ using namespace operands;
 // --- more places
 
 unsigned indexed(Cpu& cpu, unsigned n, int offset, Pointer kind) {
-  const unsigned ea = kind == Pointer::Special ? cpu.stepped(n, cpu.w[n], offset, false)
+  const unsigned ea = kind == Pointer::Special ? stepped(cpu, n, cpu.w[n], offset, false)
                                                : (cpu.w[n] + static_cast<unsigned>(offset)) & 0xFFFF;
   return kind != Pointer::Plain && n == 15 ? cpu.stack_checked(ea) : ea;
 }
@@ -65,14 +65,14 @@ const Decoded* move_pair_from_registers(Cpu& cpu, const Decoded* d) {
 }
 // the window costs once
 const Decoded* move_pair_from_memory(Cpu& cpu, const Decoded* d) {
-  const unsigned ea = cpu.source_address(d), low = cpu.read16(ea);
+  const unsigned ea = source_address(cpu, d), low = cpu.read16(ea);
   const unsigned high = cpu.read16_behind((ea + 2) & 0xFFFF);
   put_register<false>(cpu, d, low);
   cpu.w[d->d + 1u] = static_cast<std::uint16_t>(d->d == 14 ? high & 0xFFFE : high);
   return d + 1;
 }
 const Decoded* move_pair_to_memory(Cpu& cpu, const Decoded* d) {
-  const unsigned low = cpu.w[d->s], high = cpu.w[d->s + 1u], ea = cpu.destination_address(d);
+  const unsigned low = cpu.w[d->s], high = cpu.w[d->s + 1u], ea = destination_address(cpu, d);
   cpu.write16(ea, low);
   cpu.write16((ea + 2) & 0xFFFF, high);
   return d + 1;
@@ -171,7 +171,7 @@ std::uint32_t program_word(Cpu& cpu, unsigned address) {
 
 template <bool High, bool Byte, class To>
 const Decoded* table_read(Cpu& cpu, const Decoded* d) {
-  const unsigned ea = cpu.source_address(d);
+  const unsigned ea = source_address(cpu, d);
   std::uint32_t word = program_word(cpu, static_cast<unsigned>(cpu.tblpag) << 16 | ea) >> (High ? 16 : 0);
   if (Byte) word >>= 8 * (ea & 1);
   To::template put<Byte>(cpu, d, word & kMask<Byte>);
@@ -179,7 +179,7 @@ const Decoded* table_read(Cpu& cpu, const Decoded* d) {
 }
 template <bool High, bool Byte, class From>
 const Decoded* table_write(Cpu& cpu, const Decoded* d) {
-  const unsigned value = From::template get<Byte>(cpu, d), ea = cpu.destination_address(d);
+  const unsigned value = From::template get<Byte>(cpu, d), ea = destination_address(cpu, d);
   cpu.note_effect();
   cpu.parts.events.run_to(cpu.now);
   const std::uint32_t lanes = High   ? (Byte && (ea & 1) ? 0 : 0xFF0000)

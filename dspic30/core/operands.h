@@ -2,7 +2,7 @@
 // Where instructions take their operands from and put their results: one class a place, get() and put() for
 // bytes and words. Sources come first, then destinations, as on the chip.
 #pragma once
-#include "dspic30/core/cpu.h"
+#include "dspic30/core/pointers.h"
 
 namespace dspic::operands {
 
@@ -69,11 +69,11 @@ struct File {
 struct Memory {
   template <bool Byte>
   static unsigned get(Cpu& cpu, const Decoded* d) {
-    return cpu.read<Byte>(cpu.source_address(d));
+    return cpu.read<Byte>(source_address(cpu, d));
   }
   template <bool Byte>
   static void put(Cpu& cpu, const Decoded* d, unsigned value) {
-    cpu.write<Byte>(cpu.destination_address(d), value & kMask<Byte>);
+    cpu.write<Byte>(destination_address(cpu, d), value & kMask<Byte>);
   }
 };
 struct Nowhere {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "dspic30/core/cpu.h"
+#include "dspic30/core/host_handlers.h"
 #include "dspic30/core/memory_check.h"
 #include "dspic30/core/waits.h"
 #include "dspic30/memory/state_hash.h"
@@ -337,11 +337,11 @@ void Processor::count_missed(std::size_t h) {
 void Processor::begin_handler() {
   Cpu& cpu = *cpu_;
   waits_->cut(cpu);
-  cpu.enter_handler();
+  enter_handler(cpu);
   cpu.host_due = kNever;
   follow_host(kNoVector);
   const bool overflows = cpu.parts.interrupts.control().has_trap(Trap::StackError);
-  cpu.next = overflows ? host_place(kHostHandlerReturn) : cpu.go_on_with_handler(cpu.next);
+  cpu.next = overflows ? host_place(kHostHandlerReturn) : go_on_with_handler(cpu, cpu.next);
 }
 
 /// The handler that calls nothing was pending.
@@ -390,7 +390,7 @@ Cycle Processor::idle_until() const {
   const Cpu& cpu = *cpu_;
   if (rest_until_ > cpu.now && waits_->is_waiting() && !cpu.host_stale)
     return std::min(rest_until_, waits_->until(cpu));
-  const bool stands = cpu.stands_in_host();
+  const bool stands = stands_in_host(cpu);
   if (!stands && !is_asleep() && !waits_->is_waiting()) return 0;
   const Outlook outlook = cpu.parts.look(cpu.now);
   // what handlers take may be another from now on
@@ -433,14 +433,14 @@ Cycle Processor::idle(Cycle at) const {
   const Cpu& cpu = *cpu_;
   const Cycle now = std::max(cpu.now, cpu.clocks.program_at(at));
   const Cycle own = cpu.clocks.own_cycles(now) - cpu.clocks.own_cycles(cpu.now);
-  const bool passes = is_asleep() || cpu.stands_in_host();
+  const bool passes = is_asleep() || stands_in_host(cpu);
   return slept_ + cpu.delayed + waits_->waited(cpu, now) + (passes ? own : 0);
 }
 Cycle Processor::waiting_since() const {
   const Cpu& cpu = *cpu_;
   if (is_asleep()) return std::min(asleep_since_, cpu.now);
   if (waits_->is_waiting()) return waits_->since();
-  return cpu.stands_in_host() ? cpu.true_now() : kNever;
+  return stands_in_host(cpu) ? cpu.true_now() : kNever;
 }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {

@@ -9,12 +9,12 @@ void WaitHeads::add(const Decoded* d) {
   Head* free = &slot(place);
   for (std::ptrdiff_t i = kTried; i-- > 0;)
     if (slot(place + i).place < 0) free = &slot(place + i);
-  *free = {place, 0, kFirstPause, 0};
+  *free = {0, static_cast<std::int32_t>(place), kFirstPause, 0};
   has_any_ = true;
 }
 
 void WaitHeads::pause(const Decoded* d, bool is_wait, Cycle now) {
-  constexpr Cycle kMostPause = 1 << 23;  // half a second
+  constexpr std::int32_t kMostPause = 1 << 23;  // half a second
   Head* const head = find(d);
   if (!head) return;
   if (is_wait) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "dspic30/core/decoded.h"
 #include "dspic30/memory/cycle.h"
@@ -53,12 +54,12 @@ class WaitHeads {
   Cycle kept_deadline = 0;
 
  private:
-  static constexpr Cycle kFirstPause = 50;
+  static constexpr std::int32_t kFirstPause = 50;
   struct Head {
-    std::ptrdiff_t place = -1;  // word of flash
-    Cycle from = 0;             // true time from which on the program stops there
-    Cycle pause = kFirstPause;
-    unsigned ends = 0;  // of its wait
+    Cycle from = 0;                    // true time from which on the program stops there
+    std::int32_t place = -1;           // word of flash
+    std::int32_t pause = kFirstPause;  // cycles
+    unsigned ends = 0;                 // of its wait
   };
   static constexpr std::ptrdiff_t kMost = 32, kTried = 4;
   /// One is at its place, or at one of the next.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "dspic30/core/host_handlers.h"
+
 namespace dspic {
 
 // one instruction, by its own function, or the rest of a REPEAT that the last window cut
@@ -38,7 +40,7 @@ void Waits::begin(Cpu& cpu) {
     look_gap_ = std::min(2 * look_gap_, kMostGap);
   }
   // a function of the host that waits is none of these
-  if (cpu.stands_in_host()) {
+  if (stands_in_host(cpu)) {
     schedule(cpu).at = std::max(cpu.stands_until, look_began_ + 1);
     return;
   }
@@ -260,7 +262,7 @@ void Waits::fail(Cpu& cpu) {
   state_ = State::Away;
   forget_trace();
   cpu.still_since = kNever;
-  const Cycle now = cpu.stands_in_host() ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
+  const Cycle now = stands_in_host(cpu) ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
   if (at_head_) cpu.heads.pause(look_head_, false, cpu.true_now());
   Schedule& next = schedule(cpu);
   if (next.at > now) return;

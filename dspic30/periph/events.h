@@ -34,7 +34,8 @@ class Events {
 
   /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
-    slots_[static_cast<std::size_t>(count_)] = {&owner, id, irqs};
+    slots_[static_cast<std::size_t>(count_)] = {&owner, irqs};
+    ids_[static_cast<std::size_t>(count_)] = static_cast<std::uint8_t>(id);
     outward_ |= static_cast<std::uint64_t>(outward) << count_;
     when_[static_cast<std::size_t>(count_)] = kNever;
     return count_++;
@@ -129,14 +130,12 @@ class Events {
     --queued_;
     next_ = instant_of(*soonest());
     when_[first] = kNever;
-    const Slot& slot = slots_[first];
-    slot.owner->on_event(slot.id, at);
+    slots_[first].owner->on_event(ids_[first], at);
   }
   __attribute__((noinline)) void serve_to(Cycle now) { run_due(now); }
 
   struct Slot {
     EventOwner* owner = nullptr;
-    int id = 0;
     std::uint64_t irqs = 0;
   };
   // what every turn of the processor looks at, together
@@ -150,6 +149,7 @@ class Events {
   int count_ = 0;
   std::array<Cycle, kMostSlots> when_{};
   std::array<Slot, kMostSlots> slots_{};
+  std::array<std::uint8_t, kMostSlots> ids_{};
 };
 
 }  // namespace dspic

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 
 #include "dspic30/memory/cycle.h"
 #include "dspic30/periph/vectors.h"
@@ -87,7 +88,9 @@ class FlagListener {
 class FlagListeners {
  public:
   void listen(int irq, FlagListener& listener) {
-    listeners_[static_cast<std::size_t>(irq)] = &listener;
+    if (count_ == kMost) std::abort();
+    listeners_[++count_] = &listener;
+    numbers_[static_cast<std::size_t>(irq)] = static_cast<std::uint8_t>(count_);
     hear(irq, true);
   }
   /// Does it want to hear of it now? From listen() on it does.
@@ -97,11 +100,15 @@ class FlagListeners {
   }
   /// Bit i: IRQ i has a listener that wants to hear.
   std::uint64_t heard() const { return heard_; }
-  FlagListener* of(int irq) const { return listeners_[static_cast<std::size_t>(irq)]; }
+  /// Null: it has none.
+  FlagListener* of(int irq) const { return listeners_[numbers_[static_cast<std::size_t>(irq)]]; }
 
  private:
+  static constexpr std::size_t kMost = 12;  // five timers, five pins
   std::uint64_t heard_ = 0;
-  std::array<FlagListener*, kIrqs> listeners_{};
+  std::size_t count_ = 0;
+  std::array<std::uint8_t, kIrqs> numbers_{};  // in listeners_, whose first is none
+  std::array<FlagListener*, kMost + 1> listeners_{};
 };
 
 /// Events that found their enabled flag still set, and handlers that began, since power-up.

@@ -10,6 +10,7 @@
 // time depends on it.
 #include <array>
 
+#include "dspic30/core/host_handlers.h"
 #include "dspic30/core/waits.h"
 #include "dspic30/routines/forms.h"
 #include "dspic30/routines/known_routines.h"
@@ -179,7 +180,7 @@ class UartHandler {
     if (end > until || cpu_.looks_at_each() || cpu_.course || cpu_.watching || cpu_.repeating ||
         cpu_.parts.events.is_watched())
       return false;
-    if (cpu_.modcon || cpu_.loop_end || cpu_.stands_in_host() || interrupts.cpu().nesting() > 0 ||
+    if (cpu_.modcon || cpu_.loop_end || stands_in_host(cpu_) || interrupts.cpu().nesting() > 0 ||
         !interrupts.has_no_other(vector_) || interrupts.cpu().disi_until() > cpu_.now ||
         interrupts.control().nesting_disabled() || !uart_.enabled())
       return false;

@@ -22,16 +22,16 @@ inline constexpr StringLiteral kOffset = "_ZN5dspic3Cpu6offsetEPKNS_7DecodedEi",
                                kJump = "_ZN5dspic3Cpu4jumpEjPKNS_7DecodedE",
                                kCallTo = "_ZN5dspic3Cpu7call_toEjPKNS_7DecodedEj",
                                kReturnTo = "_ZN5dspic3Cpu9return_toEjPKNS_7DecodedE",
-                               kRead = "_ZN5dspic3Cpu14read_elsewhereEjj",
-                               kWrite = "_ZN5dspic3Cpu15write_elsewhereEjjj",
-                               kModify = "_ZN5dspic3Cpu16modify_elsewhereEjjjj",
-                               kServed = "_ZN5dspic3Cpu11read_servedEjj",
-                               kTrap = "_ZN5dspic3Cpu4trapENS_4TrapE",
-                               kSpecial = "_ZN5dspic3Cpu15special_pointerEjiib",
-                               kPushSlowly = "_ZN5dspic3Cpu11push_slowlyEj",
-                               kPopSlowly = "_ZN5dspic3Cpu10pop_slowlyEv",
-                               kCheckStack = "_ZN5dspic3Cpu11check_stackEj",
-                               kPsvCost = "_ZN5dspic3Cpu8psv_costEv";
+                               kRead = "_ZN5dspic9DataSpace14read_elsewhereEjj",
+                               kWrite = "_ZN5dspic9DataSpace15write_elsewhereEjjj",
+                               kModify = "_ZN5dspic9DataSpace16modify_elsewhereEjjjj",
+                               kServed = "_ZN5dspic9DataSpace11read_servedEjj",
+                               kTrap = "_ZN5dspic9DataSpace4trapENS_4TrapE",
+                               kSpecial = "_ZN5dspic15special_pointerERNS_3CpuEjiib",
+                               kPushSlowly = "_ZN5dspic9DataSpace11push_slowlyEj",
+                               kPopSlowly = "_ZN5dspic9DataSpace10pop_slowlyEv",
+                               kCheckStack = "_ZN5dspic9DataSpace11check_stackEj",
+                               kPsvCost = "_ZN5dspic9DataSpace8psv_costEv";
 
 // the files' bitcode may have types of its own for one class, and then calls through a cast
 inline StringRef name_of(const CallBase& call) {

@@ -87,6 +87,17 @@ int scale_of(int value) { return value == 0x80 ? 4 : value == 0x40 ? 2 : 1; }
 
 CameraSensor::CameraSensor(CameraKind kind) : I2cRegisters(kAddress), kind_(kind) { reset(0); }
 
+void CameraSensor::put(Bank bank, int number, int value) {
+  const auto byte = static_cast<std::uint8_t>(value);
+  auto& registers = banks_[static_cast<std::size_t>(bank)];
+  for (Register& r : registers)
+    if (r.number == number) {
+      r.value = byte;
+      return;
+    }
+  registers.push_back({static_cast<std::uint8_t>(number), byte});
+}
+
 void CameraSensor::reset(Cycle at) {
   // Who keeps what it knows of the registers sees by the version that they are others now.
   for (auto& bank : banks_) bank.clear();

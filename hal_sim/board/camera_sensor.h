@@ -67,21 +67,21 @@ class CameraSensor final : public I2cRegisters {
  private:
   enum Bank { A, B, C, D };
   std::uint8_t at(Bank bank, int number) const {
-    const auto& registers = banks_[static_cast<std::size_t>(bank)];
-    return registers.empty() ? std::uint8_t{0} : registers[static_cast<std::size_t>(number)];
+    for (const Register& r : banks_[static_cast<std::size_t>(bank)])
+      if (r.number == number) return r.value;
+    return 0;
   }
-  void put(Bank bank, int number, int value) {
-    auto& registers = banks_[static_cast<std::size_t>(bank)];
-    registers.resize(256);
-    registers[static_cast<std::size_t>(number)] = static_cast<std::uint8_t>(value);
-  }
+  void put(Bank bank, int number, int value);
   int word(Bank bank, int high) const { return at(bank, high) << 8 | at(bank, high + 1); }
   SensorSetup setup_3030() const;
   SensorSetup setup_6030() const;
   SensorSetup setup_8030() const;
 
   CameraKind kind_;
-  std::array<std::vector<std::uint8_t>, 4> banks_;  // none: all are 0
+  struct Register {
+    std::uint8_t number, value;
+  };
+  std::array<std::vector<Register>, 4> banks_;  // those that are not 0, or were written
   int bank_ = 0;
   std::uint64_t version_ = 0;
   Cycle written_at_ = 0;

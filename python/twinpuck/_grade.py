@@ -53,6 +53,12 @@ class Grade:
         runs = [case for case in self.cases if base_name(case.name) == test and case.outcome != "skipped"]
         return sum(case.outcome == "passed" for case in runs) / len(runs) if runs else 0.0
 
+    def told(self, test: str) -> str:
+        """Its cell in a table: "pass", "FAIL", "70 %"; "skip", where each of its runs was skipped."""
+        outcomes = {case.outcome for case in self.cases if base_name(case.name) == test}
+        share = self.share(test)
+        return "skip" if outcomes == {"skipped"} else "pass" if share == 1 else "FAIL" if share == 0 else f"{100 * share:.0f} %"
+
     def why(self, test: str) -> str:
         """The first line of why the first run of a test failed."""
         return next((case.text.split("\n")[0] for case in self.cases
@@ -173,17 +179,13 @@ def common(paths: list[pathlib.Path]) -> pathlib.Path:
 # --- tables
 
 def tests_of(grades: list[Grade]) -> dict[str, float]:
-    """All tests that somebody's run had, with their points, in their order."""
+    """All tests that somebody's run had, with their points, in their order. What was skipped for all gives none."""
     tests: dict[str, float] = {}
     for grade_ in grades:
         for case in grade_.cases:
-            tests.setdefault(base_name(case.name), case.points)
+            name = base_name(case.name)
+            tests[name] = max(tests.get(name, 0.0), case.points if case.outcome != "skipped" else 0.0)
     return tests
-
-
-def share_text(share: float) -> str:
-    """1 as "pass", 0 as "FAIL", 0.7 as "70 %"."""
-    return "pass" if share == 1 else "FAIL" if share == 0 else f"{100 * share:.0f} %"
 
 
 def text_table(grades: list[Grade]) -> str:
@@ -193,7 +195,7 @@ def text_table(grades: list[Grade]) -> str:
     width = max([len("submission"), *(len(g.name) for g in grades)])
     lines = ["  ".join([f"{'submission':{width}}", *short, f"of {sum(tests.values()):g}"])]
     for g in grades:
-        cells = [f"{share_text(g.share(t)) if not g.problem or g.cases else '-':{len(s)}}" for t, s in zip(tests, short)]
+        cells = [f"{g.told(t) if not g.problem or g.cases else '-':{len(s)}}" for t, s in zip(tests, short)]
         lines.append("  ".join([f"{g.name:{width}}", *cells, f"{g.points(tests):g}"]))
     for g in grades:
         if g.problem:
@@ -222,9 +224,9 @@ def write_html(path: str, grades: list[Grade]) -> None:
         for test in tests:
             texts = "\n\n".join(f"{case.name}\n{case.text}" for case in g.cases
                                 if base_name(case.name) == test and case.outcome == "failed")
-            share = g.share(test)
-            told = html.escape(share_text(share))
-            cells.append(f'<td class="{"good" if share == 1 else "bad"}">' +
+            told = g.told(test)
+            look = {"pass": ' class="good"', "skip": ""}.get(told, ' class="bad"')
+            cells.append(f"<td{look}>" +
                          (f"<details><summary>{told}</summary><pre>{html.escape(texts)}</pre></details>" if texts else told)
                          + "</td>")
         problem = f"<br><small>{html.escape(g.problem)}</small>" if g.problem else ""

@@ -18,8 +18,8 @@ std::vector<double> bounds_of(const Layout& layout) {
 
 }  // namespace
 
-Scene::Scene(const WorldDesc& world, std::vector<double> reach_m)
-    : world_(world),
+Scene::Scene(WorldDesc world, std::vector<double> reach_m)
+    : world_(std::move(world)),
       layout_(build_layout(world_)),
       robots_(static_cast<int>(world_.robots.size())),
       tick_clicks_(kClicksPerSecond / world_.physics_hz),

@@ -44,7 +44,7 @@ class Scene {
   LitLeds leds;
 
   /// `reach_m[r]`: how far from its centre robot r's proximity rays can end.
-  Scene(const WorldDesc& world, std::vector<double> reach_m);
+  Scene(WorldDesc world, std::vector<double> reach_m);
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
