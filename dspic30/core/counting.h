@@ -42,6 +42,8 @@ class Count {
   bool is_over(const Cpu& cpu) const;
   /// `rounds` later, but for what the next round writes before it looks at it.
   void advance(Cpu& cpu, Cycle rounds) const;
+  /// Does the round look at flags that it has not set?
+  bool reads_flags() const { return reads_flags_; }
   /// Does the round depend on no more than this holds?
   bool is_plain(const Cpu& cpu) const;
 

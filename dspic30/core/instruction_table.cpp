@@ -7,16 +7,24 @@ namespace dspic {
 
 namespace {
 
+constexpr std::size_t kRows = 0
+#define ROW(name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal) +1
+#include "dspic30/core/instruction_rows.inc"
+#undef ROW
+    ;
+
 using FieldList = std::vector<Field>;
 using Operands = std::vector<Operand>;
 
 std::vector<Row> make_rows() {
-  return {
+  std::vector<Row> rows;
+  rows.reserve(kRows);
 #define ROW(name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal) \
-  Row{Insn::name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal},
+  rows.push_back(                                                                                   \
+      Row{Insn::name, mnemonic, operands, mask, match, words, cycles, repeatable, fields, kinds, legal});
 #include "dspic30/core/instruction_rows.inc"
 #undef ROW
-  };
+  return rows;
 }
 
 // rows by the top eight bits of their words
@@ -24,9 +32,15 @@ using Index = std::array<std::vector<const Row*>, 256>;
 
 Index make_index() {
   Index index;
-  for (const Row& row : instruction_rows())
-    for (std::uint32_t top = 0; top < 256; ++top)
-      if (((top << 16) & row.mask & 0xFF0000) == (row.match & 0xFF0000)) index[top].push_back(&row);
+  for (const Row& row : instruction_rows()) {
+    // whatever the bits are that its mask leaves open
+    const std::uint32_t open = ~row.mask >> 16 & 0xFF, given = row.match >> 16 & 0xFF;
+    std::uint32_t bits = open;
+    do {
+      index[given | bits].push_back(&row);
+      bits = (bits - 1) & open;
+    } while (bits != open);
+  }
   return index;
 }
 
@@ -50,14 +64,21 @@ const Row* find_row(std::uint32_t word) {
   return nullptr;
 }
 
+// most fields are one piece
+static unsigned bits_at(std::uint32_t mask, std::uint32_t word) {
+  if (mask == 0) return 0;
+  const int low = __builtin_ctz(mask);
+  if (const std::uint32_t piece = mask >> low; !(piece & (piece + 1))) return word >> low & piece;
+  unsigned value = 0;
+  int at = 0;
+  for (std::uint32_t rest = mask; rest; rest &= rest - 1) value |= (word >> __builtin_ctz(rest) & 1) << at++;
+  return value;
+}
+
 Fields fields_of(const Row& row, std::uint32_t word) {
   Fields fields;
   for (const Field& field : row.fields) {
-    unsigned value = 0;
-    int at = 0;
-    for (std::uint32_t rest = field.mask; rest; rest &= rest - 1)
-      value |= (word >> __builtin_ctz(rest) & 1) << at++;
-    fields.*field.member = value;
+    fields.*field.member = bits_at(field.mask, word);
   }
   return fields;
 }

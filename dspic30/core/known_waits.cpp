@@ -95,6 +95,12 @@ bool RoundMemory::Words::holds(unsigned at) const {
   return false;
 }
 
+bool RoundMemory::Words::holds_any(unsigned first, unsigned end) const {
+  for (std::size_t i = 0; i < count; ++i)
+    if (words[i].place + 2u > first && words[i].place < end) return true;
+  return false;
+}
+
 bool RoundMemory::Words::add(const std::uint8_t* ram, unsigned at) {
   if (count == kMost) return false;
   Word& word = words[count++];

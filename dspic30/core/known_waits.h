@@ -72,6 +72,8 @@ class RoundMemory {
   /// Are words that it reads as they were when it read them? `but_for`: a place that does not matter.
   bool are_as_read(const std::uint8_t* ram) const { return reads_.are_in(ram); }
   bool are_as_read(const std::uint8_t* ram, unsigned but_for) const { return reads_.are_in(ram, but_for); }
+  /// Does a round read any of the bytes [first, end) before it writes them?
+  bool reads(unsigned first, unsigned end) const { return reads_.holds_any(first, end); }
   /// What it finds at a place that it reads before it writes it.
   std::uint16_t found(unsigned place) const { return reads_.value_at(place); }
   /// The round is over: what it wrote is there.
@@ -92,6 +94,7 @@ class RoundMemory {
     std::uint32_t count = 0;
     std::array<Word, kMost> words;
     bool holds(unsigned at) const;
+    bool holds_any(unsigned first, unsigned end) const;
     bool add(const std::uint8_t* ram, unsigned at);
     bool are_in(const std::uint8_t* ram) const;
     bool are_in(const std::uint8_t* ram, unsigned but_for) const;

@@ -192,7 +192,10 @@ void Waits::look(Cpu& cpu) {
     const bool goes_on = cpu.repeating;
     step(cpu);
     round_.registers |= cpu.table().touched_by(d);
-    if (chances_ == 1 && !goes_on) trace_.push_back({d, cpu.n, round_.memory.touched()});
+    if (chances_ == 1 && !goes_on) {
+      if (trace_.empty()) trace_.reserve(kUsualRound);
+      trace_.push_back({d, cpu.n, round_.memory.touched()});
+    }
     // something else is due
     if (cpu.deadline != end) {
       fail(cpu);
@@ -403,6 +406,39 @@ void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
   at_head_ = true;
   is_passed(cpu, cpu.known_counts.at(head)->round(), at_true);
   cpu.heads.passes = false;
+}
+
+Cycle Waits::back_by(const Cpu& cpu, Cycle over) const {
+  if (!is_waiting() || until_ != kNever) return kNever;
+  const Decoded* const head = wait_->first;
+  const KnownWaits::Wait* const fixed = cpu.known_waits.at(head);
+  if (counts_) {
+    const Cycle rounds = (ends_ - cpu.clocks.own_cycles(cpu.now)) / wait_->took;
+    if (fixed || counts_ != cpu.known_counts.at(head) || !counts_->is_plain(cpu) || counts_->reads_flags() ||
+        rounds <= kFewestRounds)
+      return kNever;
+  } else if (fixed != wait_) {
+    return kNever;
+  }
+  const Cycle now = cpu.true_now();
+  if (!cpu.heads.would_stop(head, now)) return kNever;
+  const Cycle back = over + cpu.clocks.true_at(cpu.now + wait_->took) - now + 1;
+  return back < look_beside_heads(cpu, now) ? back : kNever;
+}
+
+// cut(), resume(), and at the head begin() and enter(), at once
+void Waits::go_through(Cpu& cpu, Cycle cut, Cycle cut_true) {
+  waited_ += cut - entered_;
+  entered_ = resumed_ = cpu.clocks.own_cycles(cpu.now);
+  entered_at_ = resumed_at_ = cpu.true_now();
+  delayed_ = resumed_delayed_ = cpu.delayed;
+  if (counts_) ends_ += entered_ - cut;
+  schedule(cpu) = {look_beside_heads(cpu, cut_true), kFirstLooks};
+  begin_handler(cpu, cut_true);
+  at_head_ = is_by_head_ = true;
+  cut_ = nullptr;
+  cpu.looks_outside = cpu.reads_core = false;
+  cpu.watched_until = kNever;
 }
 
 void Waits::hint(Cpu& cpu) {

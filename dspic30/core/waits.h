@@ -69,6 +69,16 @@ class Waits {
   /// Behind it the program has come to the head once more, and gone on.
   void note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true);
 
+  /// A handler known by heart comes now and is over by `over`, true time: if it changes nothing that the
+  /// present wait reads, and nothing else comes, by when the program would be back at the wait's head and found
+  /// waiting; kNever: it would not, or may not.
+  Cycle back_by(const Cpu& cpu, Cycle over) const;
+  /// Does the present wait read any of these bytes of RAM, counted from its start?
+  bool reads(unsigned first, unsigned end) const { return wait_->memory.reads(first, end); }
+  /// That handler has been there, and nothing came before back_by(): the wait goes on. It was cut when the
+  /// program had taken `cut` cycles, at `cut_true`.
+  void go_through(Cpu& cpu, Cycle cut, Cycle cut_true);
+
   bool is_away() const { return state_ == State::Away; }
   bool is_waiting() const { return state_ == State::Waiting; }
   /// When the present wait may end but by an interrupt; kNever: never.
@@ -92,7 +102,7 @@ class Waits {
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;       // cycles between two looks
   static constexpr Cycle kRarestInVain = 1 << 18;                       // ... where none ever found a wait
   static constexpr Cycle kFirstInHandler = 4096, kSoonInHandler = 600;  // ... since it began
-  static constexpr int kLongestRound = 256;                             // instructions
+  static constexpr int kLongestRound = 256, kUsualRound = 32;           // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
   // behind the first ends of a wait with a known head it looks soon, each time after another while

@@ -175,6 +175,7 @@ void Dspic30f6014a::run_to(Cycle now) {
   p.events.run_to(now);
   p.adc.advance(now);
   p.dci.advance(now);
+  for (Uart& u : p.uarts) u.advance(now);
 }
 
 void Dspic30f6014a::run_events(Cycle now) { parts_->events.run_to(now); }

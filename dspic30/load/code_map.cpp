@@ -61,12 +61,14 @@ class LineProgram {
     for (int i = 1; i < opcode_base_; ++i) operands_.push_back(head.byte());
     std::vector<std::string> folders{""};
     for (std::string folder; !(folder = head.text()).empty();) folders.push_back(folder);
+    std::vector<std::string> whole(folders.size());  // of those that files lie in
     for (std::string name; !(name = head.text()).empty();) {
       const std::size_t folder = head.leb();
       head.leb();
       head.leb();
-      const std::string in = folder < folders.size() ? whole_path(folder_, folders[folder]) : folder_;
-      files_.push_back(file_number(whole_path(in, name)));
+      const bool is_known = folder < folders.size();
+      if (is_known && whole[folder].empty()) whole[folder] = whole_path(folder_, folders[folder]);
+      files_.push_back(file_number(whole_path(is_known ? whole[folder] : folder_, name)));
     }
     begin();
     return true;
@@ -209,6 +211,9 @@ bool ends_path(const std::string& path, const std::string& end) {
 void CodeMap::add_lines(const unsigned char* bytes, std::size_t size,
                         const std::map<std::uint32_t, std::string>& folders) {
   Cursor section(bytes, size);
+  // a row takes two bytes or more, nearly always; pages that none comes to cost nothing
+  for (std::vector<Line>* rows : {&lines, &left_out})
+    if (rows->empty()) rows->reserve(std::min(size / 2, kMostLines));
   while (section.left() > 4) {
     const auto place = static_cast<std::uint32_t>(size - section.left());
     const auto folder = folders.find(place);
@@ -220,11 +225,13 @@ void CodeMap::add_lines(const unsigned char* bytes, std::size_t size,
 
 void CodeMap::sort() {
   // an end of a sequence goes before what begins at the same address
-  std::stable_sort(lines.begin(), lines.end(), [](const Line& a, const Line& b) {
+  const auto sort = [](auto& all, const auto& before) {
+    if (!std::is_sorted(all.begin(), all.end(), before)) std::stable_sort(all.begin(), all.end(), before);
+  };
+  sort(lines, [](const Line& a, const Line& b) {
     return a.address != b.address ? a.address < b.address : a.is_end && !b.is_end;
   });
-  std::stable_sort(functions.begin(), functions.end(),
-                   [](const Function& a, const Function& b) { return a.begin < b.begin; });
+  sort(functions, [](const Function& a, const Function& b) { return a.begin < b.begin; });
   for (std::size_t i = 0; i + 1 < functions.size(); ++i)
     functions[i].end = std::min(functions[i].end, functions[i + 1].begin);
 }

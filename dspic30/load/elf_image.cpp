@@ -105,8 +105,9 @@ class ElfReader {
       if (address > 0xFFFFFF || (address & 1) || !is_program_memory(static_cast<std::uint32_t>(address)))
         return fail("program address " + hex(address) + " is in no memory of this chip");
       const std::uint32_t word = bytes[i] | bytes[i + 1] << 8 | bytes[i + 2] << 16;
-      if (!file_.words.emplace(static_cast<std::uint32_t>(address), word).second)
-        return fail("two sections lie at program address " + hex(address));
+      const std::size_t before = file_.words.size();
+      file_.words.emplace_hint(file_.words.end(), static_cast<std::uint32_t>(address), word);
+      if (file_.words.size() == before) return fail("two sections lie at program address " + hex(address));
     }
   }
 

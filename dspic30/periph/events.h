@@ -30,7 +30,7 @@ class EventWatch {
 
 class Events {
  public:
-  static constexpr int kMostSlots = 40;
+  static constexpr int kMostSlots = 42;
 
   /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {

@@ -95,7 +95,8 @@ class Outside {
   virtual double supply_v(Cycle /*at*/) { return 3.3; }
 
   // --- UART 1 and 2
-  /// A word begins to leave UART `uart` (1, 2) at frame.start; its end lies in the future.
+  /// A word leaves UART `uart` (1, 2) from frame.start on. Told by when Dspic30f6014a::run_to() has come to its
+  /// start; each UART's in order, each for itself.
   virtual void uart_sent(int /*uart*/, const UartFrame& /*frame*/) {}
 
   // --- I2C module as master

@@ -23,6 +23,7 @@ constexpr std::uint16_t kUtxisel = sta("UTXISEL"), kUtxbrk = sta("UTXBRK"), kUtx
 constexpr SfrBits kPdsel = sfr_field("U1MODE", "PDSEL"), kUrxisel = sfr_field("U1STA", "URXISEL");
 constexpr std::uint16_t kControls = kUtxisel | kUtxbrk | kUtxen | kUrxisel.mask | kAdden;
 constexpr Cycle kWriteToShift = 1;
+constexpr std::uint16_t kWordBits = 0x1FF;
 // rates that the other end may be set to
 constexpr double kRates[] = {300,   600,   1200,  2400,   4800,   9600,   14400,  19200,  28800,
                              38400, 57600, 76800, 115200, 230400, 250000, 460800, 500000, 921600};
@@ -42,16 +43,19 @@ void Uart::attach() {
   f_.bus.mark_unmodelled(
       base_ + kMode, std::integral_constant<std::uint16_t, sfr_bits("U1MODE", "USIDL", "WAKE", "ABAUD")>());
   slot_tx_ = f_.events.add(*this, Transmit, std::uint64_t{1} << tx_irq_, true);
+  slot_last_ = f_.events.add(*this, TransmitLast, std::uint64_t{1} << tx_irq_, false);
   slot_rx_ = f_.events.add(*this, Receive, std::uint64_t{1} << rx_irq_, false);
 }
 
 void Uart::reset(Cycle now) {
+  advance(now);
   mode_ = sta_ = brg_ = 0;
   out_.count = in_.count = 0;
   busy_until_ = epoch_ = now;
   break_since_ = -1;
   rate_checked_ = false;
-  f_.events.set(slot_tx_, kNever);
+  next_move_ = kNever;
+  set_transmit_event();
   schedule_receive(now);
 }
 
@@ -68,7 +72,7 @@ UartFrame Uart::format(std::uint16_t word, Cycle start) const {
   frame.data_bits = format == 3 ? 9 : 8;
   frame.parity = format == 1 ? Parity::Even : format == 2 ? Parity::Odd : Parity::None;
   frame.stop_bits = (mode_ & kStsel) ? 2 : 1;
-  frame.word = static_cast<std::uint16_t>(word & (format == 3 ? 0x1FF : 0xFF));
+  frame.word = static_cast<std::uint16_t>(word & (format == 3 ? kWordBits : 0xFF));
   frame.start = start;
   frame.bit = bit();
   return frame;
@@ -77,19 +81,45 @@ UartFrame Uart::format(std::uint16_t word, Cycle start) const {
 // --- out
 
 void Uart::schedule_transmit(Cycle now) {
-  const bool waits = transmits() && out_.count > 0 && break_since_ < 0;
-  f_.events.set(slot_tx_, waits ? std::max(busy_until_, now + kWriteToShift) : kNever);
+  next_move_ = move_behind(now);
+  set_transmit_event();
 }
 
-void Uart::move_to_shift_register(Cycle at) {
-  check_rate(at);
-  // straight after a stop bit there is no gap
-  const UartFrame frame = format(out_.pop(), at == busy_until_ && at > epoch_ ? at : align(at));
-  busy_until_ = frame.end();
-  if (!(sta_ & kUtxisel) || out_.count == 0) f_.interrupts.raise(tx_irq_, at, false);
-  f_.outside.uart_sent(number_, frame);
-  if (mode_ & kLpback) enqueue(frame, at);
-  schedule_transmit(at);
+Cycle Uart::move_behind(Cycle at) const {
+  const bool waits = transmits() && out_.count > 0 && break_since_ < 0;
+  return waits ? std::max(busy_until_, at + kWriteToShift) : kNever;
+}
+
+// Of words that follow one another something comes only when the FIFO runs empty. In between they are put on
+// the line when somebody looks.
+void Uart::set_transmit_event() {
+  const bool is_quiet = out_.count > 0 && next_move_ == busy_until_ && next_move_ > epoch_ &&
+                        (sta_ & kUtxisel) && !(mode_ & kLpback) && rate_checked_ && !f_.events.is_watched();
+  Cycle loud = next_move_, quiet = kNever;
+  if (is_quiet) {
+    quiet = loud + (out_.count > 1 ? static_cast<Cycle>(out_.count - 1) * format(0, 0).end() : 0);
+    loud = kNever;
+  }
+  f_.events.set(slot_tx_, loud);
+  f_.events.set(slot_last_, quiet);
+}
+
+void Uart::move_up_to(Cycle now) {
+  UartFrame frame = format(kWordBits, 0);
+  const std::uint16_t bits = frame.word;
+  const Cycle length = frame.end();
+  for (Cycle at = next_move_; at <= now; at = next_move_) {
+    check_rate(at);
+    frame.word = out_.pop() & bits;
+    // straight after a stop bit there is no gap
+    frame.start = at == busy_until_ && at > epoch_ ? at : align(at);
+    busy_until_ = frame.start + length;
+    if (!(sta_ & kUtxisel) || out_.count == 0) f_.interrupts.raise(tx_irq_, at, false);
+    f_.outside.uart_sent(number_, frame);
+    if (mode_ & kLpback) enqueue(frame, at);
+    next_move_ = move_behind(at);
+  }
+  set_transmit_event();
 }
 
 // how long the line is low is known at the end; the own receiver has a word of zeros long before
@@ -196,7 +226,7 @@ void Uart::take_in(const UartFrame& frame, Cycle at) {
 }
 
 void Uart::on_event(int id, Cycle at) {
-  if (id == Transmit) return move_to_shift_register(at);
+  if (id != Receive) return advance(at);
   const UartFrame frame = line_.front();
   line_.pop_front();
   if (enabled() && transfer_time(frame) <= at) take_in(frame, at);
@@ -206,10 +236,12 @@ void Uart::on_event(int id, Cycle at) {
 // --- registers
 
 std::uint16_t Uart::read(unsigned address, Cycle now) {
+  advance(now);
   if (address - base_ != kRxReg || in_.count == 0) return peek(address, now);
   return in_.pop().word;
 }
 
+// behind advance(), which the chip calls before somebody peeks
 std::uint16_t Uart::peek(unsigned address, Cycle now) const {
   switch (address - base_) {
     case kMode:
@@ -237,6 +269,7 @@ std::uint16_t Uart::peek(unsigned address, Cycle now) const {
 }
 
 void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) {
+  advance(now);
   switch (address - base_) {
     case kMode: {
       const bool was_enabled = enabled();
@@ -245,6 +278,7 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
         set_enabled(enabled(), now);
       else if (enabled())
         own_pins(now + 1);
+      set_transmit_event();
       schedule_receive(now);
       break;
     }
@@ -267,8 +301,11 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
                                   " is 0: nothing is sent, and what is written is lost",
                               now);
       if ((lanes & 0xFF) && !out_.full()) {
-        out_.push(value & 0x1FF);
-        if (out_.count == 1) schedule_transmit(now);
+        out_.push(value & kWordBits);
+        if (out_.count == 1)
+          schedule_transmit(now);
+        else
+          set_transmit_event();
       }
       break;
     case kRxReg:
@@ -277,6 +314,7 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
       brg_ = merge_lanes(brg_, value, lanes);
       epoch_ = now + 1;
       rate_checked_ = false;
+      set_transmit_event();
       schedule_receive(now);
       break;
   }
@@ -289,7 +327,8 @@ void Uart::set_enabled(bool on, Cycle now) {
   busy_until_ = now;  // nothing is being sent: TRMT stays 1
   epoch_ = now + 1;
   rate_checked_ = false;
-  f_.events.set(slot_tx_, kNever);
+  next_move_ = kNever;
+  set_transmit_event();
   if (on)  // the middle of a word is no start bit
     while (!line_.empty() && line_.front().start <= now) line_.pop_front();
   own_pins(now + 1);
@@ -335,7 +374,7 @@ Cycle Uart::horizon(unsigned address, Cycle now) const {
   if (r != kSta && r != kRxReg) return kNever;
   Cycle next = f_.events.when(slot_rx_);
   if (r == kSta) {
-    next = std::min(next, f_.events.when(slot_tx_));
+    next = std::min(next, next_move_);
     if (busy_until_ > now) next = std::min(next, busy_until_);
     if (!line_.empty() && line_.front().start > now) next = std::min(next, line_.front().start);
   }

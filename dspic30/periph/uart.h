@@ -33,10 +33,21 @@ class Uart final : public SfrOwner, public EventOwner {
   bool enabled() const { return (mode_ & kOn) != 0; }
   std::uint16_t brg() const { return brg_; }
   bool transmits() const { return enabled() && (sta_ & kSends); }
+  /// Words that follow one another on the line are put there when somebody looks, or something comes of it:
+  /// up to `now` all are.
+  void advance(Cycle now) {
+    if (next_move_ <= now) move_up_to(now);
+  }
+  /// A write of UxTXREG that nothing comes of before another one, or loaded(): a word is on its way out until
+  /// then, and there is room.
+  void load(std::uint16_t word) { out_.push(word & 0x1FF); }
+  void loaded() { schedule_transmit(0); }
+  // --- behind advance():
   /// When the word that is being sent is over; in the past: none is.
   Cycle busy_until() const { return break_since_ < 0 ? busy_until_ : 0; }
-  /// UTXBF is 0; URXDA; OERR.
+  /// UTXBF is 0; words that it has room for; URXDA; OERR.
   bool has_room() const { return !out_.full(); }
+  unsigned room() const { return static_cast<unsigned>(kFifoWords - out_.count); }
   bool has_received() const { return in_.count > 0; }
   bool has_overrun() const { return (sta_ & kOverrun) != 0; }
 
@@ -65,15 +76,17 @@ class Uart final : public SfrOwner, public EventOwner {
       return first;
     }
   };
-  enum : int { Transmit, Receive };
+  enum : int { Transmit, TransmitLast, Receive };
 
   Cycle sixteenth() const { return Cycle{brg_} + 1; }
   Cycle bit() const { return 16 * sixteenth(); }
   Cycle align(Cycle at) const;
   UartFrame format(std::uint16_t word, Cycle start) const;
   Cycle transfer_time(const UartFrame& frame) const;
-  void move_to_shift_register(Cycle at);
+  void move_up_to(Cycle now);
   void schedule_transmit(Cycle now);
+  Cycle move_behind(Cycle at) const;
+  void set_transmit_event();
   void begin_break(Cycle now);
   void end_break(Cycle now);
   void schedule_receive(Cycle now);
@@ -88,12 +101,13 @@ class Uart final : public SfrOwner, public EventOwner {
   int number_;
   unsigned base_;
   int tx_irq_, rx_irq_;
-  int slot_tx_ = -1, slot_rx_ = -1;
+  int slot_tx_ = -1, slot_last_ = -1, slot_rx_ = -1;
   std::uint16_t mode_ = 0, brg_ = 0;
   std::uint16_t sta_ = 0;  // control bits and OERR; the rest is worked out
   Cycle epoch_ = 0;        // of the baud counter
   Fifo<std::uint16_t> out_;
-  Cycle busy_until_ = 0;  // the shift register
+  Cycle busy_until_ = 0;      // the shift register
+  Cycle next_move_ = kNever;  // of the FIFO's first word to there
   Cycle break_since_ = -1;
   Fifo<Received> in_;
   std::list<UartFrame> line_;  // to come, or under way

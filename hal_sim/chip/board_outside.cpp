@@ -195,13 +195,13 @@ int BoardOutside::beside_microphones(int channel, Cycle at) {
 }
 
 void BoardOutside::uart_sent(int uart, const dspic::UartFrame& frame) {
+  const Cycle end = frame.end();
   digest_.note(EventDigest::Kind::UartFrame,
-               static_cast<std::uint64_t>(uart) << 32 | (frame.broken ? 1u << 16 : 0u) | frame.word,
-               frame.end());
+               static_cast<std::uint64_t>(uart) << 32 | (frame.broken ? 1u << 16 : 0u) | frame.word, end);
   if (frame.broken)
-    board_.uart(uart).break_on_wire(frame.end());
+    board_.uart(uart).break_on_wire(end);
   else
-    board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.start, frame.end());
+    board_.uart(uart).put_on_wire(static_cast<std::uint8_t>(frame.word), frame.start, end);
 }
 
 void BoardOutside::i2c_start(bool repeated, Cycle at) {

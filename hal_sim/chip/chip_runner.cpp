@@ -422,6 +422,7 @@ void ChipRunner::run_watched(Cycle end) {
       continue;
     }
     step.end = processor_->now();
+    for (dspic::Uart& uart : device().parts().uarts) uart.advance(step.end);  // they may look at the lines
     step.took = processor_->own_cycles() - own;
     step.next = processor_->pc();
     if (device().interrupts().nesting() > nesting) {

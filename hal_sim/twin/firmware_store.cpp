@@ -88,22 +88,37 @@ std::string hal_of(const Options& options, const std::string& path) {
   return programs::is_pc_program(path) ? "" : kUsual;
 }
 
-std::string image_file(const std::string& folder, const Options& options) {
+namespace {
+
+/// image_file(), of a program that `hal` is chosen for. `is_pc`: the folder holds one of the PC.
+std::string image_file(const std::string& folder, const Options& options, const std::string& hal,
+                       bool is_pc) {
   std::uint64_t h = 0;
   for (unsigned char c : fs::weakly_canonical(folder).string()) h = sim::mix64(h ^ c);
   char tag[32];
   std::snprintf(tag, sizeof tag, "-%08x", static_cast<unsigned>(h));
   std::string kind = options.sanitize ? "-sanitize" : !options.coverage.empty() ? "-coverage" : "";
-  const std::string hal = hal_of(options, folder);
   if (!hal.empty()) kind += "-" + hal;
   // the same program has another image in a world that says something else
-  if (!options.webots_settings.empty() && programs::is_pc_program(folder)) {
+  if (is_pc && !options.webots_settings.empty()) {
     std::uint64_t of_world = 0;
     for (unsigned char c : options.webots_settings) of_world = sim::mix64(of_world ^ c);
     std::snprintf(tag + 9, sizeof tag - 9, "-%06x", static_cast<unsigned>(of_world & 0xffffff));
   }
   return (places::cache_folder("images") / (fs::path(folder).filename().string() + tag + kind + ".elf"))
       .string();
+}
+
+/// A look at all files of the folder says so, and hal_of() has had one where the options name no HAL.
+bool is_of_pc(const Options& options, const std::string& hal, const std::string& folder) {
+  return options.hal.empty() ? hal.empty() : programs::is_pc_program(folder);
+}
+
+}  // namespace
+
+std::string image_file(const std::string& folder, const Options& options) {
+  const std::string hal = hal_of(options, folder);
+  return image_file(folder, options, hal, !options.webots_settings.empty() && is_of_pc(options, hal, folder));
 }
 
 std::string webots_settings_of(const sim::WorldDesc& world) {
@@ -180,17 +195,16 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   if (program) *program = found;
   std::error_code none;
   if (path.empty() || !fs::is_directory(path, none)) return path.string();
-  Options with_hal = options;  // which costs a look at all of its files
-  with_hal.hal = hal_of(options, path.string());
-  if (with_hal.hal.empty()) return path.string();
+  const std::string hal = hal_of(options, path.string());
+  if (hal.empty()) return path.string();
   cc::BuildOptions build;
   build.source_dir = path;
-  build.output = image_file(path.string(), with_hal);
+  build.output = image_file(path.string(), options, hal, is_of_pc(options, hal, path.string()));
   build.optimisation = options.optimisation;
   // so that each line has code of its own, and each condition its branch
   if (!options.coverage.empty() && build.optimisation.empty()) build.optimisation = "-O0";
   build.sanitize = options.sanitize;
-  build.hal = with_hal.hal;
+  build.hal = hal;
   build.webots_settings = options.webots_settings;
   places::note_used(build.output);
   const cc::BuildResult result = cc::build_image(build);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <set>
 
 #include "build.h"
@@ -88,7 +89,19 @@ bool is_own_test(const fs::path& file) {
   return file.filename() == "test.cpp" && contains(text_of(file), "tests/support/firmware_test.h");
 }
 
+/// So many bytes of it, or all that there are.
+std::string head_of(const fs::path& file, std::size_t bytes) {
+  std::error_code odd;
+  if (!fs::is_regular_file(file, odd)) return "";
+  std::string head(bytes, '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(head.data(), static_cast<std::streamsize>(bytes));
+  head.resize(static_cast<std::size_t>(in.gcount()));
+  return head;
+}
+
 bool is_script(const fs::path& file) {
+  if (head_of(file, 2) != "#!") return false;
   const std::string text = text_of(file);
   return text.rfind("#!", 0) == 0 && text.find('\0') == std::string::npos;
 }
@@ -254,13 +267,14 @@ bool includes_webots(const fs::path& source) {
 }
 
 bool is_native_program(const fs::path& file) {
-  const std::string text = text_of(file);
   Elf64_Ehdr head;
-  if (text.size() < sizeof head || text.compare(0, SELFMAG, ELFMAG) != 0 || text[EI_CLASS] != ELFCLASS64)
+  const std::string begin = head_of(file, sizeof head);
+  if (begin.size() < sizeof head || begin.compare(0, SELFMAG, ELFMAG) != 0 || begin[EI_CLASS] != ELFCLASS64)
     return false;
-  std::memcpy(&head, text.data(), sizeof head);
+  std::memcpy(&head, begin.data(), sizeof head);
   if (head.e_machine != kMachine || (head.e_type != ET_EXEC && head.e_type != ET_DYN)) return false;
   if (head.e_type == ET_EXEC) return true;
+  const std::string text = text_of(file);
   // a shared object that can be started asks for an interpreter
   for (unsigned i = 0; i < head.e_phnum; ++i) {
     Elf64_Phdr part;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <functional>
 #include <map>
 #include <string>
@@ -40,6 +41,7 @@ struct FakeOutside : dspic::Outside {
   std::function<int(int, Cycle)> analogue = [](int channel, Cycle) { return 100 * channel; };
   std::vector<std::pair<int, Cycle>> held;
   std::vector<dspic::UartFrame> sent;
+  std::array<std::vector<dspic::UartFrame>, 2> sent_by;  // each UART's own
   std::vector<std::string> i2c;
   std::vector<Cycle> i2c_at;
   dspic::I2cReply reply;
@@ -82,7 +84,10 @@ struct FakeOutside : dspic::Outside {
     return analogue(channel, at);
   }
   double supply_v(Cycle) override { return supply; }
-  void uart_sent(int, const dspic::UartFrame& frame) override { sent.push_back(frame); }
+  void uart_sent(int uart, const dspic::UartFrame& frame) override {
+    sent.push_back(frame);
+    sent_by[static_cast<std::size_t>(uart - 1)].push_back(frame);
+  }
   void note(const std::string& what, Cycle at) {
     i2c.push_back(what);
     i2c_at.push_back(at);

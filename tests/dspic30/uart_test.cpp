@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // UARTs at BRG 7: 8 cycles a sixteenth, 128 a bit, 1280 a character of 8N1.
 // Enabled in cycle 0, so the baud counter runs from cycle 1: sixteenths begin at 1, 9, 17 ...
+#include "dspic30/periph/events.h"
 #include "tests/dspic30/bench.h"
 
 namespace {
@@ -361,6 +362,116 @@ TEST_F(Uart, wait_for_trmt_knows_when_to_look_again) {
   b.write("U1TXREG", 1, 100);
   b.chip.run_to(102);
   EXPECT_EQ(b.chip.horizon(0x20E, 102), 105 + 1280);
+}
+
+// words at 105, 1385, 2665 and 3945, the last of which leaves the FIFO empty: in between nothing comes of a
+// word, and it is told when somebody looks
+TEST_F(Uart, words_that_follow_are_told_when_somebody_looks) {
+  open();
+  b.enable(irq::U1Tx, 3);
+  for (int i = 0; i < 4; ++i) b.write("U1TXREG", 'a' + i, 100);
+  b.chip.run_events(101);
+  EXPECT_EQ(b.outside.sent.size(), 1u);
+  EXPECT_EQ(b.chip.next_event(102), 3945 + 1);
+  b.chip.run_events(2000);
+  EXPECT_EQ(b.outside.sent.size(), 1u);
+  EXPECT_EQ(b.chip.horizon(0x20E, 2000), 2001);  // too early, never too late
+  EXPECT_EQ(b.peek("U1STA", 2000) & 0x300, 0u);
+  EXPECT_EQ(b.outside.sent.size(), 2u);
+  EXPECT_EQ(b.chip.horizon(0x20E, 2000), 2665);
+  b.chip.run_to(2665);
+  EXPECT_EQ(b.outside.sent.size(), 3u);
+  EXPECT_FALSE(b.flag(irq::U1Tx, 3944));
+  b.chip.run_events(3945);
+  EXPECT_TRUE(b.flag(irq::U1Tx, 3946));
+  ASSERT_EQ(b.outside.sent.size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    EXPECT_EQ(b.outside.sent[i].start, 105 + i * 1280);
+    EXPECT_EQ(b.outside.sent[i].word, 'a' + i);
+  }
+}
+
+// the FIFO is full from the fourth word that waits up to 1385, when the next one moves
+TEST_F(Uart, a_full_fifo_has_room_again_when_a_word_moves_that_nobody_looked_at) {
+  open();
+  b.write("U1TXREG", '0', 100);
+  b.chip.run_to(101);
+  for (int i = 1; i < 5; ++i) b.write("U1TXREG", '0' + i, 102);
+  EXPECT_EQ(b.read("U1STA", 1384) & 0x200, 0x200u);
+  b.write("U1TXREG", 'x', 1384);  // lost
+  b.write("U1TXREG", '5', 1385);
+  b.chip.run_to(105 + 6 * 1280);
+  ASSERT_EQ(b.outside.sent.size(), 6u);
+  EXPECT_EQ(b.outside.sent[5].word, '5');
+  EXPECT_EQ(b.outside.sent[5].start, 105 + 5 * 1280);
+  EXPECT_TRUE(b.flag(irq::U1Tx, 105 + 5 * 1280 + 1));
+}
+
+// at 2000 the second of four words is on its way
+TEST_F(Uart, what_changes_in_the_middle_finds_the_words_where_they_are) {
+  const auto send = [](Bench& b) {
+    b.write("U1BRG", 7, 0);
+    b.write("U1MODE", 0x8000, 0);
+    b.write("U1STA", 0x8400, 0);
+    for (int i = 0; i < 4; ++i) b.write("U1TXREG", 'a' + i, 100);
+    b.chip.run_events(2000);
+  };
+  {
+    Bench b;
+    send(b);
+    b.write("U1MODE", 0x8040, 2000);  // LPBACK: those that begin from now on come back
+    b.chip.run_to(8000);
+    EXPECT_EQ(b.outside.sent.size(), 4u);
+    EXPECT_EQ(b.read("U1RXREG", 8000), 'c');
+    EXPECT_EQ(b.read("U1RXREG", 8000), 'd');
+  }
+  {
+    Bench b;
+    send(b);
+    b.write("U1STA", 0x0400, 2000);  // UTXISEL = 0: the next move interrupts
+    b.clear_flag(irq::U1Tx, 2001);
+    EXPECT_EQ(b.flag_rises(irq::U1Tx, 2001), 2665);
+  }
+  {
+    Bench b;
+    send(b);
+    b.write("U1BRG", 15, 2000);  // from the next word on twice as long, by a baud counter that begins at 2001
+    b.chip.run_to(12000);
+    ASSERT_EQ(b.outside.sent.size(), 4u);
+    EXPECT_EQ(b.outside.sent[1].bit, 128);
+    EXPECT_EQ(b.outside.sent[2].start, 2665);
+    EXPECT_EQ(b.outside.sent[2].bit, 256);
+    EXPECT_EQ(b.outside.sent[3].start, 2665 + 2560);
+  }
+  {
+    Bench b;
+    send(b);
+    b.chip.reset(dspic::ResetKind::Pin, 2000);  // what has begun was told, the rest is gone
+    EXPECT_EQ(b.outside.sent.size(), 2u);
+    b.chip.run_to(8000);
+    EXPECT_EQ(b.outside.sent.size(), 2u);
+  }
+  {
+    Bench b;
+    send(b);
+    b.write("U1MODE", 0, 2000);  // UARTEN = 0
+    b.chip.run_to(8000);
+    EXPECT_EQ(b.outside.sent.size(), 2u);
+  }
+}
+
+// whoever draws registers over time sees each word move
+TEST_F(Uart, each_move_is_an_instant_for_who_looks_on) {
+  struct Watch : dspic::EventWatch {
+    std::vector<Cycle> instants;
+    void about_to_change(Cycle at) override { instants.push_back(at); }
+  } watch;
+  open();
+  b.chip.watch(&watch);
+  for (int i = 0; i < 3; ++i) b.write("U1TXREG", 'a' + i, 100);
+  watch.instants.clear();
+  b.chip.run_events(8000);
+  EXPECT_EQ(watch.instants, (std::vector<Cycle>{101, 1385, 2665}));
 }
 
 }  // namespace

@@ -104,6 +104,14 @@ bool is_same(const dspic::UartFrame& a, const dspic::UartFrame& b) {
   return a.word == b.word && a.start == b.start && a.bit == b.bit;
 }
 
+void expect_same_words(const Robot& a, const Robot& b) {
+  for (std::size_t n = 0; n < 2; ++n) {
+    const auto &one = a.outside.sent_by[n], &other = b.outside.sent_by[n];
+    ASSERT_EQ(one.size(), other.size());
+    for (std::size_t i = 0; i < one.size(); ++i) ASSERT_TRUE(is_same(one[i], other[i])) << i;
+  }
+}
+
 constexpr Cycle kEnd = 12000000, kWindow = 50000;
 
 TEST(UartByHeart, is_the_same_on_the_line_and_in_the_program) {
@@ -121,10 +129,8 @@ TEST(UartByHeart, is_the_same_on_the_line_and_in_the_program) {
       ASSERT_EQ(by_heart.cpu->state_hash(), plain.cpu->state_hash()) << "at " << until;
       ASSERT_EQ(by_heart.device->state_hash(until), plain.device->state_hash(until)) << "at " << until;
     }
-    ASSERT_EQ(by_heart.outside.sent.size(), plain.outside.sent.size());
+    expect_same_words(by_heart, plain);
     EXPECT_GT(plain.outside.sent.size(), 4000u);
-    for (std::size_t i = 0; i < plain.outside.sent.size(); ++i)
-      ASSERT_TRUE(is_same(by_heart.outside.sent[i], plain.outside.sent[i])) << i;
     constexpr int kIrqs[] = {dspic::irq::U1Tx, dspic::irq::U1Rx, dspic::irq::U2Tx};
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t served = plain.device->interrupts().served(dspic::kFirstIrqVector + kIrqs[i]);
@@ -134,6 +140,84 @@ TEST(UartByHeart, is_the_same_on_the_line_and_in_the_program) {
     EXPECT_EQ(by_heart.cpu->idle(kEnd), plain.cpu->idle(kEnd));
     EXPECT_GT(plain.word(file, "turns"), 100u);
     EXPECT_EQ(by_heart.notes.all.size(), plain.notes.all.size());
+  }
+}
+
+// one way of waiting each, while a line leaves; the handler comes into all of them
+struct Waiting {
+  const char *name, *code;
+  bool is_of_memory;  ///< goes on over handlers
+};
+constexpr Waiting kWaits[] = {
+    {"the driver's own", "e_send_uart1_char(text, 40);", true},
+    {"what a handler changes", "e_send_uart1_char(text, 39); while (e_uart1_sending()) ;", true},
+    {"a timer's flag", "e_send_uart1_char(text, 40); while (ticks < 9) ; ticks = 0;", true},
+    {"through a call", "e_send_uart1_char(text, 38); while (asked() < 9) turns += 0; ticks = 0;", true},
+    {"a loop that counts", "e_send_uart1_char(text, 40); for (pause = 5000; pause; pause--) ;", true},
+    {"a loop in a register", "e_send_uart1_char(text, 40); { int i; for (i = 0; i < 9000; i++) Nop(); }",
+     true},
+    {"two loops",
+     "e_send_uart1_char(text, 40); { int i, j; for (i = 0; i < 90; i++) for (j = 0; j < 90; j++) Nop(); }",
+     true},
+    {"few rounds",
+     "e_send_uart1_char(text, 40); { int i, j; for (i = 0; i < 900; i++) for (j = 0; j < 9; j++) sum++; }",
+     false},
+    {"a register of the module", "e_send_uart1_char(text, 5); while (!U1STAbits.TRMT) ;", false},
+    {"the driver's counters", "e_send_uart1_char(text, 40); while (peeked() > 3) ; ticks = 0;", false},
+    {"with interrupts off",
+     "e_send_uart1_char(text, 40); while (ticks < 9) { SRbits.IPL = 6; SRbits.IPL = 0; } ticks = 0;", false},
+    {"nothing", "e_send_uart1_char(text, 40); sum = sum * 7 + 1;", false},
+    {"a word that comes", "e_send_uart1_char(text, 3); while (!e_ischar_uart1()) ; e_getchar_uart1(text);",
+     false},
+};
+constexpr const char* kWaitingProgram = R"(
+#include <p30F6014A.h>
+#include <uart/e_uart_char.h>
+#define Nop() __asm__ volatile("nop")
+volatile unsigned ticks, turns, sum;
+static char text[40];
+static volatile unsigned pause;
+void __attribute__((interrupt, auto_psv)) _T1Interrupt(void) { IFS0bits.T1IF = 0; ticks++; }
+unsigned __attribute__((noinline)) asked(void) { return ticks; }
+unsigned __attribute__((noinline)) peeked(void) { return e_uart1_sending() ? 5 : 0; }
+int main(void)
+{
+  IPC0bits.T1IP = 4;
+  PR1 = 5477;
+  IEC0bits.T1IE = 1;
+  T1CONbits.TON = 1;
+  e_init_uart1();
+  for (;;) { turns++; WAIT }
+}
+)";
+
+TEST(UartByHeart, waits_go_on_over_handlers_as_if_they_were_found_again) {
+  for (const Waiting& waiting : kWaits) {
+    SCOPED_TRACE(waiting.name);
+    dspic::FirmwareFile file;
+    std::string error, text = kWaitingProgram;
+    text.replace(text.find("WAIT"), 4, waiting.code);
+    ASSERT_TRUE(build(text, file, error)) << error;
+    Robot plain(file), by_heart(file);
+    by_heart.cpu->know(handlers());
+    // windows of any length; what was waited is the same whenever somebody looks
+    Cycle until = 0;
+    for (unsigned n = 1; until < kEnd / 4; ++n) {
+      const Cycle from = until;
+      until += n * 2654435761u % 16411 + 1;
+      for (Robot* robot : {&plain, &by_heart}) {
+        robot->hear(from, until);
+        ASSERT_FALSE(robot->cpu->run(until));
+      }
+      ASSERT_EQ(by_heart.cpu->now(), plain.cpu->now()) << "at " << until;
+      ASSERT_EQ(by_heart.cpu->state_hash(), plain.cpu->state_hash()) << "at " << until;
+      ASSERT_EQ(by_heart.device->state_hash(until), plain.device->state_hash(until)) << "at " << until;
+      ASSERT_EQ(by_heart.cpu->idle(until), plain.cpu->idle(until)) << "at " << until;
+    }
+    expect_same_words(by_heart, plain);
+    EXPECT_GT(plain.outside.sent.size(), 1000u);
+    EXPECT_GT(plain.word(file, "turns"), 20u);
+    if (waiting.is_of_memory) EXPECT_GT(plain.cpu->idle(until), until / 2);
   }
 }
 
