@@ -63,7 +63,7 @@ const MemoryCheck::Shape& MemoryCheck::shape_of(const Cpu& cpu, unsigned pc) {
   shape->row = find_row(word);
   if (!shape->row) return *shape;
   shape->f = fields_of(*shape->row, word);
-  shape->byte = shape->f.B != 0;
+  shape->byte = shape->f.B != 0 || shape->row->id == Insn::Mov_B_lit8_Wnd;
   const std::string mnemonic = shape->row->mnemonic;
   // Most shapes follow from the mnemonic; then come the rows that differ from others of their mnemonic.
   if (const auto found = kGroups.find(mnemonic); found != kGroups.end())

@@ -37,6 +37,12 @@ const Case kCases[] = {
      "int main(void) { int k[2]; p = k;\n PORTB = p[1]; /* HERE */\n while (1); }"},
     {"unwritten_persistent", "kept is read, and nobody has written it",
      "int kept __attribute__((persistent)); int main(void) {\n if (kept) out = 1; /* HERE */\n while (1); }"},
+    {"unwritten_half", "a branch depends on it",
+     "int main(void) { int k[2], x; p = k; x = p[1]; asm volatile(\"mov.b #5, %0\" : \"+r\"(x));\n"
+     " if (x & 0x100) out = 1; /* HERE */\n while (1); }"},
+    {"written_half", "",
+     "int main(void) { int k[2], x; p = k; x = p[1]; asm volatile(\"mov.b #5, %0\" : \"+r\"(x));\n"
+     " if (x & 0x10) out = 1;\n while (1); }"},
     {"copies_of_what_nobody_wrote", "",
      "struct s { char a; int b; char d[3]; } all[2]; void take(struct s v) { all[1] = v; }\n"
      "int main(void) { struct s one_of, two; one_of.a = 1; one_of.b = 2; two = one_of; take(two);\n"
