@@ -68,7 +68,8 @@ TEST_F(Hal, image_for_another_table_of_functions_is_refused) {
   const Said run = twinpuck("run maze --for 0.001 --fw " + path("old.elf"));
   EXPECT_EQ(run.exit_code, 2) << run.text;
   EXPECT_TRUE(reads(run.text,
-                    "@/old.elf: image: got one linked with another hal_sim, expected one of this twinpuck"));
+                    "@/old.elf: image: got one linked with another hal_sim, expected one of this twinpuck; "
+                    "build it again"));
 }
 
 }  // namespace
