@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/pace.h"
 
+#include "sim_core/simulation.h"
+
 namespace viewer {
 
 namespace {
