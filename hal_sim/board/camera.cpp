@@ -134,8 +134,8 @@ std::array<double, 4> Camera::edges(const Part& part) const {
   const auto column = [this](int number) {
     return columns_[std::min(static_cast<std::size_t>(number), columns_.size() - 1)];
   };
-  const auto line_from_top = [&](int number) {
-    return (taken_.first_y + number * taken_.sub_sampling - 0.5 * kArrayHeight) * down;
+  const auto line_from_top = [this, down_by = down](int number) {
+    return (taken_.first_y + number * taken_.sub_sampling - 0.5 * kArrayHeight) * down_by;
   };
   const auto x = std::minmax({(column(part.first_column) - half - 0.5 * kArrayWidth) * along,
                               (column(part.last_column) + half - 0.5 * kArrayWidth) * along});

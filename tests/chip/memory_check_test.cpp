@@ -38,8 +38,8 @@ const Case kCases[] = {
     {"unwritten_persistent", "kept is read, and nobody has written it",
      "int kept __attribute__((persistent)); int main(void) {\n if (kept) out = 1; /* HERE */\n while (1); }"},
     {"unwritten_half", "a branch depends on it",
-     "int main(void) { int k[2], x; p = k; x = p[1]; asm volatile(\"mov.b #5, %0\" : \"+r\"(x));\n"
-     " if (x & 0x100) out = 1; /* HERE */\n while (1); }"},
+     "int main(void) { int k[2], x; p = k; x = p[1]; "
+     "asm volatile(\"mov.b #5, %0\" : \"+r\"(x)); if (x & 0x100) out = 1; /* HERE */\n while (1); }"},
     {"written_half", "",
      "int main(void) { int k[2], x; p = k; x = p[1]; asm volatile(\"mov.b #5, %0\" : \"+r\"(x));\n"
      " if (x & 0x10) out = 1;\n while (1); }"},
