@@ -18,19 +18,19 @@ inline unsigned stack_address(Cpu& cpu, int pre, int post) {
   cpu.w[15] = static_cast<std::uint16_t>((ea + static_cast<unsigned>(post)) & 0xFFFE);
   return cpu.stack_checked(ea);
 }
-inline unsigned source_address(Cpu& cpu, const Decoded* d) {
-  if (d->s_kind == Pointer::Stack) return stack_address(cpu, d->s_pre, d->s_post);
-  if (d->s_kind == Pointer::Special) return special_pointer(cpu, d->s, d->s_pre, d->s_post, false);
-  const auto ea = static_cast<std::uint16_t>(cpu.w[d->s] + d->s_pre);
-  cpu.w[d->s] = static_cast<std::uint16_t>(ea + d->s_post);
+/// ... of any register, as `kind` says.
+inline unsigned pointer_address(Cpu& cpu, Pointer kind, unsigned n, int pre, int post, bool write) {
+  if (kind == Pointer::Stack) return stack_address(cpu, pre, post);
+  if (kind == Pointer::Special) return special_pointer(cpu, n, pre, post, write);
+  const auto ea = static_cast<std::uint16_t>(cpu.w[n] + pre);
+  cpu.w[n] = static_cast<std::uint16_t>(ea + post);
   return ea;
 }
+inline unsigned source_address(Cpu& cpu, const Decoded* d) {
+  return pointer_address(cpu, d->s_kind, d->s, d->s_pre, d->s_post, false);
+}
 inline unsigned destination_address(Cpu& cpu, const Decoded* d) {
-  if (d->d_kind == Pointer::Stack) return stack_address(cpu, d->d_pre, d->d_post);
-  if (d->d_kind == Pointer::Special) return special_pointer(cpu, d->d, d->d_pre, d->d_post, true);
-  const auto ea = static_cast<std::uint16_t>(cpu.w[d->d] + d->d_pre);
-  cpu.w[d->d] = static_cast<std::uint16_t>(ea + d->d_post);
-  return ea;
+  return pointer_address(cpu, d->d_kind, d->d, d->d_pre, d->d_post, true);
 }
 /// A register moved by `step` within its modulo buffer, if it has one. `y_space`: by the Y address generator.
 unsigned stepped(const Cpu& cpu, unsigned n, unsigned value, int step, bool y_space);

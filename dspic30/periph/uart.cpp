@@ -23,7 +23,6 @@ constexpr std::uint16_t kUtxisel = sta("UTXISEL"), kUtxbrk = sta("UTXBRK"), kUtx
 constexpr SfrBits kPdsel = sfr_field("U1MODE", "PDSEL"), kUrxisel = sfr_field("U1STA", "URXISEL");
 constexpr std::uint16_t kControls = kUtxisel | kUtxbrk | kUtxen | kUrxisel.mask | kAdden;
 constexpr Cycle kWriteToShift = 1;
-constexpr std::uint16_t kWordBits = 0x1FF;
 // rates that the other end may be set to
 constexpr double kRates[] = {300,   600,   1200,  2400,   4800,   9600,   14400,  19200,  28800,
                              38400, 57600, 76800, 115200, 230400, 250000, 460800, 500000, 921600};
@@ -301,7 +300,7 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
                                   " is 0: nothing is sent, and what is written is lost",
                               now);
       if ((lanes & 0xFF) && !out_.full()) {
-        out_.push(value & kWordBits);
+        load(value);
         if (out_.count == 1)
           schedule_transmit(now);
         else

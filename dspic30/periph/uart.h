@@ -40,7 +40,7 @@ class Uart final : public SfrOwner, public EventOwner {
   }
   /// A write of UxTXREG that nothing comes of before another one, or loaded(): a word is on its way out until
   /// then, and there is room.
-  void load(std::uint16_t word) { out_.push(word & 0x1FF); }
+  void load(std::uint16_t word) { out_.push(word & kWordBits); }
   void loaded() { schedule_transmit(0); }
   // --- behind advance():
   /// When the word that is being sent is over; in the past: none is.
@@ -76,6 +76,7 @@ class Uart final : public SfrOwner, public EventOwner {
       return first;
     }
   };
+  static constexpr std::uint16_t kWordBits = 0x1FF;  // of a word in the FIFO
   enum : int { Transmit, TransmitLast, Receive };
 
   Cycle sixteenth() const { return Cycle{brg_} + 1; }

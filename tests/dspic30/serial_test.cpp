@@ -255,14 +255,18 @@ TEST(Spi, byte_takes_eight_clocks) {
   EXPECT_EQ(b.read("SPI1STAT", 122) & 3, 0u);
 }
 
-// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits; the second word waits,
-// unread ones overflow
-TEST(Spi, words_queue_and_overflow) {
-  Bench b;
+// PPRE = 1 (16:1), SPRE = 4 (4:1): 64 cycles a bit, 1024 for 16 bits
+void write_two_words(Bench& b) {
   b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);
   b.write("SPI2STAT", 0x8000, 0);
   b.write("SPI2BUF", 0x1111, 100);
   b.write("SPI2BUF", 0x2222, 101);
+}
+
+// the second word waits, unread ones overflow
+TEST(Spi, words_queue_and_overflow) {
+  Bench b;
+  write_two_words(b);
   EXPECT_EQ(b.read("SPI2STAT", 102) & 2, 2u);  // SPITBF
   b.chip.run_to(101 + 2 * 1024 + 1);
   ASSERT_EQ(b.outside.spi.size(), 2u);
@@ -274,10 +278,7 @@ TEST(Spi, words_queue_and_overflow) {
 
 TEST(Spi, what_waits_is_gone_when_it_is_switched_off) {
   Bench b;
-  b.write("SPI2CON", 0x0420 | 4 << 2 | 1, 0);
-  b.write("SPI2STAT", 0x8000, 0);
-  b.write("SPI2BUF", 0x1111, 100);
-  b.write("SPI2BUF", 0x2222, 101);
+  write_two_words(b);
   b.write("SPI2STAT", 0, 200);
   b.write("SPI2STAT", 0x8000, 300);
   EXPECT_EQ(b.read("SPI2STAT", 301) & 3, 0u);
