@@ -43,6 +43,10 @@ struct Memory {
   }
 };
 
+struct Closes {
+  void operator()(SNDFILE* file) const { sf_close(file); }
+};
+
 /// The system's reason, where it has one, says more than libsndfile's.
 std::string refused(const std::string& path, SNDFILE* file) {
   return fmt::format("{}: cannot be written: {}", path, errno ? std::strerror(errno) : sf_strerror(file));
@@ -61,8 +65,7 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
   SF_VIRTUAL_IO access{Memory::length, Memory::seek, Memory::read, nullptr, Memory::tell};
   Memory memory{bytes};
   SF_INFO info{};
-  const std::unique_ptr<SNDFILE, int (*)(SNDFILE*)> file(sf_open_virtual(&access, SFM_READ, &info, &memory),
-                                                         sf_close);
+  const std::unique_ptr<SNDFILE, Closes> file(sf_open_virtual(&access, SFM_READ, &info, &memory));
   if (!file)
     return fmt::format("got a WAV file that cannot be read ({}), expected a whole one", sf_strerror(nullptr));
   if (info.channels != 1 && info.channels != 2)
