@@ -344,4 +344,53 @@ TEST_F(LisTest, sharp_without_supply_gives_nothing) {
   EXPECT_TRUE(r.pin('B', 7));
 }
 
+const char* const kSensextSharp = R"(
+#include <contrib/LIS_sensors_turret/e_sensext.h>
+#include <contrib/LIS_sensors_turret/e_sharp.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+int parameters[2] = {0, 0}, answers[3], ticks[3], done;
+unsigned int values[3];
+volatile int now;
+void count(void) { now++; }
+void ask(int pattern) {
+  int begin = now;
+  parameters[0] = pattern;
+  answers[done] = e_sensext_process(parameters, &values[done]);
+  ticks[done++] = now - begin;
+}
+int main(void) {
+  e_init_sharp();
+  e_init_sensext();
+  e_activate_agenda(count, 1);
+  e_start_agendas_processing();
+  e_init_ad_scan(ALL_ADC);
+  ask(5);
+  ask(5);
+  ask(31);
+  while (1);
+}
+)";
+
+// another pattern: 5 ms without supply, 30 ms with it, in ticks of 0.1 ms; the same again is read at once
+TEST_F(LisTest, sensext_shows_a_pattern_and_waits_for_sharp_when_it_is_another) {
+  wall_at(0.33);
+  Robot& r = add_robot_with_source(kSensextSharp);
+  add_part(r, "lis-turret");
+  const auto leds = [this, &r] { return twin().mind(0).board().parts()[0]->shows(r.cycles()); };
+  run_for(0.22);  // 194 ms until the scan is full
+  EXPECT_EQ(r.variable("done"), 0);
+  EXPECT_EQ(leds(), "LEDs 10100");
+  run_for(0.03);
+  EXPECT_EQ(r.variable("done"), 2);
+  EXPECT_EQ(leds(), "LEDs 11111");
+  run_for(0.03);
+  EXPECT_EQ(r.variables("answers", 3), (std::vector<std::int16_t>{1, 1, 1}));
+  const auto ticks = r.variables("ticks", 3);
+  EXPECT_NEAR(ticks[0], 350, 2);
+  EXPECT_NEAR(ticks[1], 0, 1);
+  EXPECT_NEAR(ticks[2], 350, 2);
+  for (const std::int16_t value : r.variables("values", 3)) EXPECT_NEAR(value, 496, 4);  // 0.40 V
+}
+
 }  // namespace

@@ -16,6 +16,15 @@ test("UTF-8 is read, wherever its bytes are cut", () => {
   assert.equal([...bytes].map((b) => single.take(b)).join(""), text);
 });
 
+test("every character is read", () => {
+  const pieces = new Utf8Pieces();
+  for (let code = 0xa0; code <= 0x10ffff; code += code < 0x10000 || code > 0x10ff00 ? 1 : 61) {
+    if (code === 0xd800) code = 0xe000; // halves of pairs are none
+    const text = String.fromCodePoint(code);
+    if (pieces.take(utf8(text)) !== text) assert.fail(`U+${code.toString(16)}`);
+  }
+});
+
 test("what is no UTF-8 is shown byte by byte", () => {
   const read = (bytes: string) => {
     const pieces = new Utf8Pieces();
