@@ -32,4 +32,16 @@ TEST(Assembler, blocks_that_are_repeated_count_as_text) {
   EXPECT_EQ(first_message(text + ".endm\n.endr\n"), "the text grows too long: a macro without end?");
 }
 
+TEST(Assembler, text_is_bytes_and_knows_escapes) {
+  const auto image = dspic::assembly::assemble(
+      "__reset: nop\n.section .const, psv\n.ascii \"a\\n\\r\\t\\0\\\\\\\"\", \"z\"\n.asciz \"b\"\n.string "
+      "\"\"\n",
+      "x.s");
+  ASSERT_TRUE(image.messages.empty()) << image.messages[0].text;
+  std::string bytes;  // two of them in a word of the flash that data are read from
+  for (std::uint32_t at = 0x102; image.program.count(at); at += 2)
+    for (const int shift : {0, 8}) bytes += static_cast<char>(image.program.at(at) >> shift & 0xFF);
+  EXPECT_EQ(bytes, std::string("a\n\r\t\0\\\"zb\0\0\0", 12));
+}
+
 }  // namespace

@@ -456,6 +456,11 @@ TEST(UploadPlan, what_cannot_be_written_is_refused) {
 struct FakeBootloader : flash::SerialLine {
   bool write(const std::vector<std::uint8_t>& bytes) override {
     for (const std::uint8_t byte : bytes) {
+      if (resets_on > 0) {  // its program runs, until it has read so many lines
+        heard += static_cast<char>(byte);
+        if (byte == '\r') asked_s.push_back(now), --resets_on;
+        continue;
+      }
       if (frame.empty() && byte == 0xC1) {
         answers.insert(answers.end(), {'q', 'K'});
         continue;
@@ -501,6 +506,9 @@ struct FakeBootloader : flash::SerialLine {
   double now_s() const override { return now; }
 
   bool can_read = true, ended = false;
+  int resets_on = 0;
+  std::string heard;
+  std::vector<double> asked_s;
   double now = 0;
   std::vector<std::uint8_t> frame;
   std::deque<std::uint8_t> answers;
@@ -535,6 +543,26 @@ TEST(UploadRows, one_answer_that_is_wrong_is_asked_for_again_and_two_are_believe
   FakeBootloader deaf;
   deaf.can_read = false;
   EXPECT_EQ(flash::upload(deaf, plan, {}, [](const char*, int, int) {}).state, State::Written);
+}
+
+// a program that begins the bootloader when it is told to: every 2 s, in case the line lost it
+TEST(UploadRows, a_program_is_told_to_reset_until_its_bootloader_answers) {
+  FakeBootloader robot;
+  robot.resets_on = 2;
+  dspic::FirmwareFile file;
+  file.words = {{0, 0x040200}, {2, 0}, {0x200, 0x37FFFF}};
+  flash::UploadPlan plan;
+  std::string error;
+  ASSERT_TRUE(flash::plan_upload(file, "p.hex", plan, error)) << error;
+  flash::UploadSettings settings;
+  settings.reset_text = "R\r";
+  const flash::Upload result = flash::upload(robot, plan, settings, [](const char*, int, int) {});
+  EXPECT_EQ(result.state, State::Verified) << result.why;
+  EXPECT_EQ(robot.heard.substr(0, 3), "R\r\xC1");
+  EXPECT_EQ(robot.heard.substr(robot.heard.size() - 2), "R\r");
+  ASSERT_EQ(robot.asked_s.size(), 2u);
+  EXPECT_EQ(robot.asked_s[0], 0);
+  EXPECT_NEAR(robot.asked_s[1], 2, 0.2);
 }
 
 }  // namespace

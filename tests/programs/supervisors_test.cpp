@@ -337,6 +337,17 @@ TEST_F(Supervisors, a_revert_begins_with_the_supervisor_again) {
   }
 }
 
+// who does so as soon as it begins would have time stand still
+TEST_F(Supervisors, whoever_reloads_the_world_again_and_again_at_one_instant_is_ended) {
+  add_robot_with_source(kIdle, "puck");
+  add_judge("wb_supervisor_world_reload(); wb_robot_step(32);");
+  run_for(0.1);
+  EXPECT_TRUE(finish().crashed);
+  EXPECT_EQ(finish().text,
+            "supervisor 'supervisor0', t=0.000000 s: its program has the world begin again and again at one "
+            "instant; it was ended");
+}
+
 // --- radio and virtual sensors
 
 TEST_F(Supervisors, messages_go_both_ways) {
