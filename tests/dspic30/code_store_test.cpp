@@ -257,4 +257,27 @@ TEST(ProgramMemory, copies_share_flash_until_one_is_written) {
   EXPECT_EQ(two.version(), three.version() + 1);
 }
 
+// [datasheet DS70143, program space]: what lies beyond the flash, and what is there to be written
+TEST(ProgramMemory, has_its_parts_where_the_chip_has_them) {
+  const struct Place {
+    unsigned address;
+    std::uint32_t erased, after_write;  // 0xABCDEF
+  } places[] = {{0x17FFE, 0xFFFFFF, 0xABCDEF},  {0x18000, 0, 0},
+                {0x8005BE, 0, 0},               {0x8005C0, 0xFFFFFF, 0xABCDEF},
+                {0x8005FE, 0xFFFFFF, 0xABCDEF}, {0x800600, 0, 0},
+                {0xF7FFFE, 0, 0},               {0xF80004, 0, 0xCDEF},
+                {0xFF0000, 0x0343, 0x0343},     {0xFF0001, 0x0343, 0x0343},
+                {0xFF0002, 0x1000, 0x1000},     {0xFF0004, 0, 0}};
+  for (const Place& p : places) {
+    dspic::ProgramMemory memory;
+    if (p.address != 0xF80004) {
+      EXPECT_EQ(memory.read(p.address), p.erased) << std::hex << p.address;
+    }
+    const int before = static_cast<int>(memory.version());
+    EXPECT_EQ(memory.write(p.address, 0xABCDEF), p.after_write != p.erased) << std::hex << p.address;
+    EXPECT_EQ(memory.read(p.address), p.after_write) << std::hex << p.address;
+    EXPECT_EQ(static_cast<int>(memory.version()) - before, p.after_write != p.erased);
+  }
+}
+
 }  // namespace

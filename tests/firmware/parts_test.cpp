@@ -213,6 +213,7 @@ int main(void) {
   green = (unsigned char)e_i2cp_read(0x52, 1);
   blue = (unsigned char)e_i2cp_read(0x52, 2);
   e_i2cp_write(0x52, 3, 2);
+  e_i2cp_write(0x52, 4, 7); /* there is none */
   gain = e_i2cp_read(0x52, 3);
   brighter = (unsigned char)e_i2cp_read(0x52, 1);
   done = 1;
