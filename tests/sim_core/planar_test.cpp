@@ -140,18 +140,26 @@ TEST(Planar, a_box_hit_beside_its_middle_turns) {
 TEST(Planar, balls_share_momentum) {
   // equal balls without loss: the first stops, the second has its speed (0.0644 m/s * 2: a robot of endless
   // mass kicks a ball of e = 1 at twice its own speed)
-  auto s =
-      cruising(planar("[[ball]]\nposition = [0.1, 0]\nradius = 0.02\nmovable = true\nrestitution = 1\n"
-                      "rolling_friction = 0\n[[ball]]\nposition = [0.3, 0]\nradius = 0.02\nmovable = true\n"
-                      "restitution = 1\nrolling_friction = 0\n[[robot]]\n"),
-               kHalfTurn, kHalfTurn);
-  // contact after 43 mm / v = 0.668 s; the ball needs 160 mm / 2 v = 1.243 s: 1.911 s
-  run_for(*s, 1.8);
-  EXPECT_NEAR(s->state(1).velocity_m_s.x, 2 * kSpeed, 1e-6);
-  EXPECT_EQ(s->state(2).velocity_m_s.x, 0);
-  run_for(*s, 0.2);
-  EXPECT_NEAR(s->state(1).velocity_m_s.x, 0, 1e-6);
-  EXPECT_NEAR(s->state(2).velocity_m_s.x, 2 * kSpeed, 1e-6);
+  for (const bool along_y : {false, true}) {
+    const auto at = [along_y](const char* way) {
+      return std::string("position = ") + (along_y ? "[0, " : "[") + way + (along_y ? "]\n" : ", 0]\n");
+    };
+    const std::string ball = "radius = 0.02\nmovable = true\nrestitution = 1\nrolling_friction = 0\n";
+    auto s = cruising(planar("[[ball]]\n" + at("0.1") + ball + "[[ball]]\n" + at("0.3") + ball +
+                             "[[robot]]\n" + (along_y ? "heading = 90\n" : "")),
+                      kHalfTurn, kHalfTurn);
+    const auto speed = [&s, along_y](int body) {
+      const sim::Vec2 v = s->state(body).velocity_m_s;
+      return along_y ? v.y : v.x;
+    };
+    // contact after 43 mm / v = 0.668 s; the ball needs 160 mm / 2 v = 1.243 s: 1.911 s
+    run_for(*s, 1.8);
+    EXPECT_NEAR(speed(1), 2 * kSpeed, 1e-6);
+    EXPECT_EQ(speed(2), 0);
+    run_for(*s, 0.2);
+    EXPECT_NEAR(speed(1), 0, 1e-6);
+    EXPECT_NEAR(speed(2), 2 * kSpeed, 1e-6);
+  }
 }
 
 TEST(Planar, nothing_falls_and_everything_is_as_high_as_needed) {
