@@ -44,4 +44,46 @@ TEST(Assembler, text_is_bytes_and_knows_escapes) {
   EXPECT_EQ(bytes, std::string("a\n\r\t\0\\\"zb\0\0\0", 12));
 }
 
+// least and most of each kind of operand, and one step beyond: what is told
+TEST(Assembler, operands_have_the_ranges_of_their_fields) {
+  const struct Operand {
+    const char* text;  // an instruction; % stands for the number
+    std::int64_t least, most, step;
+    const char* range;
+  } operands[] = {{"mov.b %, WREG", 0, 0x1FFF, 1, "0x0 to 0x1FFF"},
+                  {"mov %, WREG", 0, 0x1FFE, 2, "0x0 to 0x1FFF, even"},
+                  {"mov %, w1", 0, 0xFFFE, 2, "0x0 to 0xFFFE, even"},
+                  {"mov w1, %", 0, 0xFFFE, 2, "0x0 to 0xFFFE, even"},
+                  {"mov #%, w0", -0x8000, 0xFFFF, 1, "-0x8000 to 0xFFFF"},
+                  {"mov.b #%, w0", -0x80, 0xFF, 1, "-0x80 to 0xFF"},
+                  {"add w1, #%, w2", 0, 31, 1, "0x0 to 0x1F"},
+                  {"add #%, w2", 0, 1023, 1, "0x0 to 0x3FF"},
+                  {"repeat #%", 0, 0x3FFF, 1, "0x0 to 0x3FFF"},
+                  {"disi #%", 0, 0x3FFF, 1, "0x0 to 0x3FFF"},
+                  {"lnk #%", 0, 0x3FFE, 2, "0x0 to 0x3FFE, even"},
+                  {"bset w1, #%", 0, 15, 1, "0x0 to 0xF"},
+                  {"bset.b w1, #%", 0, 7, 1, "0x0 to 0x7"},
+                  {"bset.b 0x802, #%", 0, 7, 1, "0x0 to 0x7"},
+                  {"sl w1, #%, w2", 0, 15, 1, "0x0 to 0xF"},
+                  {"sftac A, #%", -16, 16, 1, "-0x10 to 0x10"},
+                  {"mov [w1 + %], w2", -1024, 1022, 2, "-0x400 to 0x3FE, even"},
+                  {"mov w2, [w1 + %]", -1024, 1022, 2, "-0x400 to 0x3FE, even"},
+                  {"mov.b [w1 + %], w2", -512, 511, 1, "-0x200 to 0x1FF"},
+                  {"goto %", 0, 0x7FFFFE, 2, "0x0 to 0x7FFFFE, even"}};
+  for (const Operand& o : operands) {
+    const auto with = [&o](std::int64_t number) {
+      std::string text = o.text;
+      return first_message("__reset: " + text.replace(text.find('%'), 1, std::to_string(number)) + "\n");
+    };
+    for (const std::int64_t good : {o.least, o.least + o.step, o.most - o.step, o.most})
+      EXPECT_EQ(with(good), "") << o.text;
+    for (const std::int64_t bad : {o.least - o.step, o.most + o.step, o.least + o.step - 1}) {
+      if (o.step == 1 && bad == o.least) continue;
+      const std::string told = with(bad);
+      EXPECT_NE(told.find(std::string(", expected ") + o.range), std::string::npos)
+          << o.text << " with " << bad << ": " << told;
+    }
+  }
+}
+
 }  // namespace
