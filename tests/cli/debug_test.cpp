@@ -41,6 +41,8 @@ TEST_P(Debug, watchpoints_say_who_changed_what) {
   expect_in_order(debug("watch ticks\nc\nbt\ndelete\nwatch sum if sum > 30\nc\n"),
                   {"> c\nticks: 0 -> 1, by _T1Interrupt() (main.c:7)", "#0", "_T1Interrupt()",
                    "<-- interrupt", "main()", "> c\nsum: 30 -> 60, by work() (main.c:19)"});
+  // by the very next instruction
+  expect_in_order(debug("tbreak main.c:7\nc\nwatch ticks\nc\n"), {"> watch ticks\n", "> c\nticks: 0 -> 1"});
   expect_in_order(debug("watch LATA.LATA6\nc\n"), {"> c\n", "LATA.LATA6: 0 -> 1", ", by work() (main.c:20)"});
 }
 
