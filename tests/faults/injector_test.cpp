@@ -186,7 +186,7 @@ TEST(Injector, what_the_world_has_not_is_told_before_the_run) {
     const std::string told = b.added_wrongly(line);
     EXPECT_NE(told.find(what), std::string::npos) << line << ": " << told;
   };
-  says("wheel_stuck robot=pukc0", "robot: got 'pukc0', expected a robot of the world: did you mean 'puck0'?");
+  says("wheel_stuck robot=pukc0", "robot: got 'pukc0', expected a robot of the world; did you mean 'puck0'?");
   says("wheel_stuck when='x_n > 3'", "when: got 'x_n', expected a signal; did you mean 'x_m'?");
   says("wheel_stuck when='x_m >'", "when: got 'x_m >'");
   says("variable_set variable=gaol value=1", "variable: ");

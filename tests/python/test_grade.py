@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 import pytest
 
 import twinpuck  # noqa: F401  the module must be there
-from conftest import TWINPUCK
+from conftest import TWINPUCK, reads
 
 CAN_CONTAIN = subprocess.run(["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--unshare-all", "true"],
                              stderr=subprocess.DEVNULL, check=False).returncode == 0
@@ -251,18 +251,8 @@ def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command
     assert time.monotonic() - began < 400 and done.returncode == 0
     rows = {row["submission"]: row for row in csv.DictReader(open(tmp_path / "g.csv", encoding="utf-8"))}
     assert rows["quick"]["points"] == "3" and re.search(r"^quick +50 % +pass +3$", done.stdout, re.M)
-    assert "got no end after 30 s" in rows["slow"]["problem"] and rows["slow"]["points"] == "0"
-
-
-@pytest.mark.parametrize("words, said", [
-    (("nowhere", "--submissions", "."), "nowhere: tests: got nothing"), ((".", "--submissions", "no"), "--submissions: got no folder"),
-    ((".", "--submissions", "empty"), "got an empty folder"), ((".", "--submissions", ".", "--seeds", "x"), "--seeds: got 'x'"),
-    ((".", "--submissions", ".", "--limit", "0"), "--limit: got 0"), ((".", "--submissions", ".", "--jobs", "0"), "--jobs: got 0"),
-    ((".",), "--submissions")])
-def test_bad_calls_are_bad_input(tmp_path, command, words, said):
-    (tmp_path / "empty").mkdir()
-    done = command("grade", *words, cwd=tmp_path)
-    assert done.returncode == 2 and said in done.stderr
+    reads(rows["slow"]["problem"], "got no end after 30 s, expected one (--limit)")
+    assert rows["slow"]["points"] == "0"
 
 
 def test_ctrl_c_ends_all_of_it(tmp_path):
@@ -277,11 +267,3 @@ def test_ctrl_c_ends_all_of_it(tmp_path):
     time.sleep(0.5)
     running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
     assert str(tmp_path) not in running
-
-
-def test_a_table_that_cannot_be_written_is_told(tmp_path, command):
-    (tmp_path / "tests").mkdir()
-    (tmp_path / "tests" / "test_a.py").write_text("def test_a(): pass\n")
-    (tmp_path / "class" / "a").mkdir(parents=True)
-    done = command("grade", "tests", "--submissions", "class", "--csv", "/dev/full", cwd=tmp_path)
-    assert done.returncode == 7 and "cannot be written" in done.stderr
