@@ -15,7 +15,7 @@ ram_bytes=8192
 heap_bytes=512     # agendas: 12 bytes and the allocator's own each
 
 if ! command -v "$compiler" >/dev/null; then
-  echo "make dspic: XC16: got '$compiler', which is not there; install Microchip's XC16 and pass XC16=/path/to/xc16-gcc" >&2
+  echo "make dspic: XC16: got '$compiler', expected Microchip's XC16; install it and pass XC16=/path/to/xc16-gcc" >&2
   exit 2
 fi
 folder="firmware/$controller"
@@ -25,7 +25,7 @@ if [ -z "$controller" ] || [ ! -d "$folder" ]; then
   exit 2
 fi
 if ! find "$folder" -name '*.c' | grep -q .; then
-  echo "make dspic: FW: got '$controller', a folder without a .c file" >&2
+  echo "make dspic: FW: got '$controller', a folder without a .c file, expected one with" >&2
   exit 2
 fi
 # the other tools lie beside the compiler and are named like it

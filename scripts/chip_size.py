@@ -102,7 +102,7 @@ def main():
     else:
         print("stack  not known: no disassembly; %d bytes left for it" % left)
     if not fits:
-        print("make dspic: does not fit the chip", file=sys.stderr)
+        print("make dspic: chip: got a program that does not fit, expected one within its flash, RAM and stack", file=sys.stderr)
     return 0 if fits else 1
 
 

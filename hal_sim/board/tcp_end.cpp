@@ -33,7 +33,7 @@ class TcpEnd : public UartEnd {
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     if (::bind(server_.get(), reinterpret_cast<sockaddr*>(&address), sizeof address) != 0 ||
         ::listen(server_.get(), 1) != 0) {
-      error = errno == EADDRINUSE ? where + ": port is in use; choose another, or 0 for any free port"
+      error = errno == EADDRINUSE ? where + ": got a port that is in use, expected a free one; 0 takes any"
                                   : where + ": cannot listen: " + system_error();
       return false;
     }

@@ -95,7 +95,7 @@ bool Lcov::add(const Lcov& other, std::string& error) {
     const bool has_versions = !mine->second.version.empty() && !theirs.version.empty();
     if (has_versions ? mine->second.version == theirs.version : have_same_lines(mine->second, theirs))
       continue;
-    error = "the counts of " + file + " are those of another text of it";
+    error = "got counts of another text of " + file + ", expected those of the one that runs";
     return false;
   }
   for (const auto& [file, theirs] : other.sources) {

@@ -93,7 +93,7 @@ class Injector::Work {
       for (const auto& robot : twin_.world().robots) names.push_back(robot.name);
       const std::string meant = sim::did_you_mean(f.robot, names);
       throw std::runtime_error(fmt::format("robot: got '{}', expected a robot of the world{}; {}", f.robot,
-                                           meant.empty() ? "" : ": did you mean '" + meant + "'?",
+                                           meant.empty() ? "" : "; did you mean '" + meant + "'?",
                                            signals::robots_text(twin_)));
     }
     // One case for each robot that is meant, each with a condition of its own.

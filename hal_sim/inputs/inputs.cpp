@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <deque>
 #include <stdexcept>
 
@@ -20,15 +21,18 @@ namespace {
 
 [[noreturn]] void refuse_input(const std::string& what) { throw std::runtime_error(what); }
 
+/// NaN, which is in no range, where it is no number.
+double value_of(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
+
 int whole(const Json& input, const char* key, int least, int most) {
-  const double value = input.at(key).get<double>();
+  const double value = value_of(input.at(key));
   if (!(value >= least && value <= most) || value != static_cast<int>(value))
     refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
   return static_cast<int>(value);
 }
 
 double number(const Json& input, const char* key, double least, double most) {
-  const double value = input.at(key).get<double>();
+  const double value = value_of(input.at(key));
   if (!(value >= least && value <= most))
     refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
   return value;
@@ -177,9 +181,16 @@ void Inputs::move(const Json& input) {
 }
 
 void Inputs::add_faults(const Json& input) {
-  const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), "faults");
-  if (!loaded.problems.empty()) refuse_input(loaded.report("faults"));
-  for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+  const auto of = input.value("of", std::string("faults"));
+  const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), of);
+  if (!loaded.problems.empty()) refuse_input(loaded.report(of));
+  for (const faults::Fault& fault : loaded.faults) {
+    try {
+      faults_.add(fault);
+    } catch (const std::runtime_error& e) {
+      refuse_input(fault.where + ": " + e.what());
+    }
+  }
 }
 
 void Inputs::end_fault(const Json& input) {
@@ -233,10 +244,9 @@ void Inputs::type(const Json& input, int robot) {
 void Inputs::restart(const Json& input, int robot) { program_of(input, robot).restart(); }
 
 void Inputs::press_key(const Json& input, int robot) {
-  const double hold_s = input.value("hold", 0.1);
-  if (!(hold_s >= 0 && hold_s <= 60)) refuse_input("hold: expected 0 to 60 s");
+  const double hold_s = input.contains("hold") ? number(input, "hold", 0, 60) : 0.1;
   twin_.mind(robot).press_key({whole(input, "key", 0, 63), sim::to_seconds(twin_.simulation().now()), hold_s,
-                               input.value("address", 0) & 31});
+                               input.contains("address") ? whole(input, "address", 0, 31) : 0});
 }
 
 void Inputs::apply(const Json& input) {

@@ -196,7 +196,7 @@ void Replay::finish(Inputs& inputs, sim::Simulation& simulation, std::vector<std
   apply_due(inputs, simulation.now());
   if (end_ < 0 || simulation.now() < end_ || simulation.digest() == digest_) return;
   problems.push_back(
-      fmt::format("replay: got digest {}, expected {} as recorded: world, program or Twinpuck are others",
+      fmt::format("replay: got digest {}, expected {} as recorded; world, program or Twinpuck are others",
                   hex(simulation.digest()), hex(digest_)));
 }
 

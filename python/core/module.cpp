@@ -42,7 +42,8 @@ class Handle {
   World& world() {
     check();
     if (is_running_ && std::this_thread::get_id() != runner_)
-      throw std::runtime_error("the world runs in another thread; ask it when run() has returned");
+      throw std::runtime_error(
+          "world: got a question while it runs in another thread, expected it when run() has returned");
     return *world_;
   }
   int robot(int index) {
@@ -58,7 +59,8 @@ class Handle {
       handle.check();
       if (handle.is_running_.exchange(true))
         throw std::runtime_error(
-            "the world runs already: a callable of run() or another thread called it again");
+            "run: got a call from a callable of the world that runs, or another thread, expected one at a "
+            "time");
       handle.runner_ = std::this_thread::get_id();
     }
     ~Running() { handle_.is_running_ = false; }
@@ -81,18 +83,33 @@ class Handle {
 
  private:
   void check() const {
-    if (!world_) throw std::runtime_error("the world is closed");
+    if (!world_) throw std::runtime_error("world: got a call behind close(), expected it before");
   }
   std::unique_ptr<World> world_;
   std::atomic<bool> is_running_{false};
   std::thread::id runner_;
 };
 
+/// What `ask` gives, whose refusals are ValueErrors; that a world is closed, or runs, is none.
+template <typename Ask>
+auto refusing(Handle& handle, const Ask& ask) {
+  World& world = handle.world();
+  try {
+    return ask(world);
+  } catch (const inputs::Json::exception& e) {
+    throw std::invalid_argument(e.what());
+  } catch (const std::runtime_error& e) {
+    throw std::invalid_argument(e.what());
+  }
+}
+
 /// A condition over signals of a world, for as long as that is open.
 class Watch {
  public:
   Watch(Handle& handle, const std::string& text, int robot)
-      : handle_(handle), condition_(text, handle.world().twin(), robot) {}
+      : handle_(handle),
+        condition_(
+            refusing(handle, [&](World& world) { return signals::Condition(text, world.twin(), robot); })) {}
   double value() { return condition_.value(handle_.world().twin()); }
   bool holds() { return condition_.holds(handle_.world().twin()); }
 
@@ -288,7 +305,7 @@ debug::Machine& machine_of(Handle& handle, int robot) {
   if (!machine)
     throw std::invalid_argument(
         "robot '" + handle.world().twin().world().robots[static_cast<std::size_t>(robot)].name +
-        "' runs no program of the chip, expected one for variables, registers and why()");
+        "': program: got none of the chip, expected one for variables, registers and why()");
   return *machine;
 }
 
@@ -331,11 +348,7 @@ std::string why_of(Handle& handle, int robot) { return machine_of(handle, robot)
 
 /// A line of commands from Python as an input's object.
 void apply(Handle& handle, const std::string& json) {
-  try {
-    handle.world().apply(inputs::Json::parse(json));
-  } catch (const inputs::Json::exception& e) {
-    throw std::invalid_argument(e.what());
-  }
+  refusing(handle, [&](World& world) { world.apply(inputs::Json::parse(json)); });
 }
 
 py::dict dict_of(const faults::Status& status) {
@@ -348,10 +361,10 @@ py::dict dict_of(const faults::Status& status) {
   return d;
 }
 
-/// Numbers of the faults that the text of a file asks for.
-std::vector<int> add_faults(Handle& handle, const std::string& text) {
+/// Numbers of the faults that the text of a file asks for; `where` is the file, or empty.
+std::vector<int> add_faults(Handle& handle, const std::string& text, const std::string& where) {
   const auto before = static_cast<int>(handle.world().faults().statuses().size());
-  handle.world().apply({{"do", "faults"}, {"text", text}});
+  refusing(handle, [&](World& world) { world.apply({{"do", "faults"}, {"text", text}, {"of", where}}); });
   std::vector<int> ids(handle.world().faults().statuses().size() - static_cast<std::size_t>(before));
   std::iota(ids.begin(), ids.end(), before);
   return ids;

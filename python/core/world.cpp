@@ -38,7 +38,7 @@ bool World::begin(std::vector<std::string>& problems) {
   run_->team().should_give_up = [this] { return should_stop && should_stop(); };
   for (const std::string& name : opening_.measured)
     if (name != "*" && twin().find(name) < 0) {
-      problems.push_back("measured: got '" + name + "', expected a robot of the world, or *");
+      problems.push_back("World: measured: got '" + name + "', expected a robot of the world, or *");
       return false;
     }
   ways_ = std::make_unique<sim::Trajectories>(twin().robots());

@@ -99,15 +99,17 @@ class TestFile:
         try:
             self._text = path.read_text(encoding="utf-8")
             self.table = tomllib.loads(self._text)
-        except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as wrong:
-            raise TestFileError(f"{path}: {wrong}") from None
+        except OSError as wrong:
+            raise TestFileError(f"{path}: cannot be read: {wrong.strerror}") from None
+        except ValueError as wrong:  # of UTF-8, or of TOML
+            raise TestFileError(f"{path}: not TOML: {wrong}") from None
         self._problems: list[str] = []
         self._check("", self.table, {*(name for name in TABLES if name), *_FAULTS}, str(path))
         for kind in list(TABLES)[1:]:
             for number, table in enumerate(self.tables(kind)):
                 self._check(kind, table, set(), self.where(kind, number))
         if "world" not in self.table:
-            self._problems.append(f"{path}: world: is missing, expected a world file or the name of a world")
+            self._problems.append(f"{path}: test.world: missing, expected a world file or the name of a world")
         for number, step in enumerate(self.tables("step")):
             actions = [key.name for key in _ACTIONS if key.name in step]
             if len(actions) != 1:
@@ -117,7 +119,7 @@ class TestFile:
             try:
                 self.values(axis)
             except ValueError as wrong:
-                self._problems.append(f"{path}: {axis.marker}: {str(wrong).removeprefix(f'--{axis.option}: ')}")
+                self._problems.append(f"{path}: test.{axis.marker}: {str(wrong).removeprefix(f'--{axis.option}: ')}")
         if self._problems:
             raise TestFileError("\n".join(self._problems))
 
@@ -157,7 +159,7 @@ class TestFile:
             elif wrong := _wrong(known[name], value):
                 self._problems.append(f"{where}: {what}.{name}: got {value!r}, expected {wrong}")
         if _THAT in TABLES[kind][1] and "that" not in table:
-            self._problems.append(f"{where}: {what}.that: is missing, expected a condition")
+            self._problems.append(f"{where}: {what}.that: missing, expected a condition")
 
 
 def _wrong(key: Key, value: typing.Any) -> str:
@@ -220,7 +222,7 @@ class Run:
                 try:
                     world._add_faults(f"[[{kind}]]\n{text}")
                 except ValueError as wrong:
-                    raise TestFileError(f"{file.where(kind, number)}: {wrong}") from None
+                    raise TestFileError(re.sub("^inject", file.where(kind, number), str(wrong), flags=re.M)) from None
 
     def run(self) -> None:
         """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps."""

@@ -17,6 +17,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+import typing
 import xml.etree.ElementTree as ElementTree
 
 from . import _matrix
@@ -270,9 +271,21 @@ def printable(text: str) -> str:
 
 # --- the command
 
+class _Parser(argparse.ArgumentParser):
+    def error(self, message: str) -> typing.NoReturn:
+        """argparse's words as those of the other verbs."""
+        for pattern, words in (
+                (r"the following arguments are required: (.*)", r"\1: missing, expected as in `twinpuck grade --help`"),
+                (r"unrecognized arguments: (\S+).*", r"unknown word: got '\1', expected an option of `twinpuck grade`"),
+                (r"argument (\S+): invalid (?:int|float) value: (.*)", r"\1: got \2, expected a number"),
+                (r"argument (\S+): expected .*", r"\1: got no value, expected one")):
+            message = re.sub(pattern, words, message)
+        self.exit(2, f"command line: {message}\nTry `twinpuck grade --help`.\n")
+
+
 def parser() -> argparse.ArgumentParser:
     """The command's options."""
-    p = argparse.ArgumentParser(prog="twinpuck grade", epilog=_CODES, description="Runs tests over a class's folders: "
+    p = _Parser(prog="twinpuck grade", epilog=_CODES, description="Runs tests over a class's folders: "
                                 "each folder's program takes the place of the program under test.")
     p.add_argument("tests", nargs="+", type=pathlib.Path, help="folders or files of tests, as `twinpuck test` has them")
     p.add_argument("--submissions", required=True, type=pathlib.Path, metavar="DIR", help="a folder for each student in it")
@@ -297,18 +310,18 @@ def bad_input(options: argparse.Namespace) -> str:
         try:
             axis.values(getattr(options, axis.option))
         except ValueError as wrong:
-            return str(wrong)
+            return f"command line: {wrong}"
     for path in options.tests:
         if not path.exists():
             return f"{path}: tests: got nothing, expected a folder or file of tests"
     if not options.submissions.is_dir():
         return f"{options.submissions}: --submissions: got no folder, expected one with a folder for each student"
     if not 0 < options.limit_s < 1e6:
-        return f"--limit: got {options.limit_s:g}, expected above 0 and below 1e6 s"
+        return f"command line: --limit: got {options.limit_s:g}, expected above 0 and below 1e6 s"
     if not 1 <= options.jobs <= 256:
-        return f"--jobs: got {options.jobs}, expected 1 to 256"
+        return f"command line: --jobs: got {options.jobs}, expected 1 to 256"
     if not options.trusted and not os.access(_BUBBLEWRAP, os.X_OK):
-        return "got no bubblewrap to contain programs with; apt install bubblewrap, or trust them: --trusted"
+        return f"{_BUBBLEWRAP}: got no bubblewrap, expected it to contain programs with; apt install bubblewrap, or trust them: --trusted"
     return ""
 
 
@@ -318,17 +331,17 @@ def main(arguments: list[str]) -> int:
         return run_tests(arguments[1:])
     options = parser().parse_args([a for a in arguments if a != "--"])
     if wrong := bad_input(options):
-        print(f"twinpuck grade: {wrong}", file=sys.stderr)
+        print(wrong, file=sys.stderr)
         return 2
     options.tests = [path.resolve() for path in options.tests]
     options.submissions = options.submissions.resolve()
     students = sorted(path for path in options.submissions.iterdir() if path.is_dir() and not path.name.startswith("."))
     if not students:
-        print(f"twinpuck grade: {options.submissions}: --submissions: got an empty folder, expected a folder for each "
+        print(f"{options.submissions}: --submissions: got an empty folder, expected a folder for each "
               "student", file=sys.stderr)
         return 2
     # beside /tmp, of which those who are contained have their own
-    base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
+    file, base = "", pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
         grades = grade_all(students, options, base)
         print(text_table(grades))
@@ -336,10 +349,11 @@ def main(arguments: list[str]) -> int:
             for student in students:
                 shutil.copytree(base / student.name / "failures", options.keep / student.name, dirs_exist_ok=True)
         for path, write in ((options.csv, write_csv), (options.html, write_html), (options.junitxml, write_junit)):
+            file = path
             if path:
                 write(path, grades)
     except OSError as wrong:
-        print(f"twinpuck grade: {wrong.filename}: cannot be written: {wrong.strerror}", file=sys.stderr)
+        print(f"{wrong.filename or file}: cannot be written: {wrong.strerror}", file=sys.stderr)
         return 7
     except KeyboardInterrupt:
         return 130

@@ -63,6 +63,12 @@ def read_recording(path: str | os.PathLike[str]) -> numpy.ndarray:
             raise ValueError(f"{os.fspath(path)}: got columns {header}, expected {expected}")
         import csv
 
-        rows = [[int(text, 16) if name == "leds" else text or 0 for name, text in zip(expected, row)]
-                for row in csv.reader(file)]
-    return numpy.array([tuple(row) for row in rows], dtype=_FIELDS)
+        rows = []
+        for line, row in enumerate(csv.reader(file), 2):
+            try:
+                rows.append(tuple(text if name == "robot" else int(text, 16) if name == "leds" else float(text or 0)
+                                  for name, text in zip(expected, row, strict=True)))
+            except ValueError:
+                raise ValueError(f"{os.fspath(path)}:{line}: got {','.join(row)!r}, expected a name and {len(expected) - 1} "
+                                 "numbers; is the file cut off?") from None
+    return numpy.array(rows, dtype=_FIELDS)

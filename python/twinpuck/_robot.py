@@ -26,7 +26,7 @@ class Place:
     line: int
 
     def __str__(self) -> str:
-        return f"{self.function} ({self.file}:{self.line})" if self.file else self.function or "an unknown place"
+        return f"{self.function} ({self.file}:{self.line})" if self.file else self.function.strip("?") or "an unknown place"
 
 
 @dataclasses.dataclass(frozen=True)
@@ -367,7 +367,13 @@ class Robot:
         Raises ValueError, with a guess for names that are near. Variables must be global or static, or of the function
         that runs.
         """
-        return self._core.value(self.index, expression)
+        return self._value("variable", expression)
+
+    def _value(self, what: str, expression: str) -> typing.Any:
+        try:
+            return self._core.value(self.index, expression)
+        except ValueError as wrong:
+            raise ValueError(f"{what} {expression!r}: {wrong}") from None
 
     def set_variable(self, expression: str, value: typing.Any) -> None:
         """Changes a variable, an element, a member or a register, as an assignment of C would.
@@ -381,12 +387,12 @@ class Robot:
         """A char array up to its first 0, as text (Latin-1)."""
         values = self.variable(expression)
         if not isinstance(values, list):
-            raise ValueError(f"{expression}: got {values!r}, expected an array of char")
+            raise ValueError(f"variable {expression!r}: got {values!r}, expected an array of char")
         return bytes(v & 0xFF for v in values).split(b"\0")[0].decode("latin-1")
 
     def register(self, name: str) -> int:
         """A register of the chip or the processor by its name in the data sheet: "T1CON", "LATA", "w0"."""
-        return self._core.value(self.index, name)
+        return self._value("register", name)
 
     @property
     def cycles(self) -> int:
@@ -437,8 +443,8 @@ class Robot:
         """Where its time went. The world must have been opened with measured=[its name], or ["*"]."""
         raw = self._core.profile(self.index)
         if raw is None:
-            raise TwinpuckError(f"robot '{self.name}': profile: it is not measured; open the world with "
-                                f"measured=['{self.name}']")
+            raise TwinpuckError(f"robot '{self.name}': profile: got a robot that is not measured, expected one of "
+                                f"World(measured=['{self.name}'])")
         return Profile(
             cycles=raw["cycles"], load=raw["load"],
             functions={name: _cycles(f) for name, f in raw["functions"].items()},
@@ -457,7 +463,7 @@ class Robot:
         try:
             return Cycles(*self._core.cost_of(self.index, function))
         except ValueError as wrong:
-            raise WorldError(str(wrong)) from None
+            raise WorldError(f"robot '{self.name}': cost_of: {wrong}") from None
 
 
 def _cycles(raw: dict[str, typing.Any]) -> Cycles:

@@ -34,6 +34,7 @@ def main(arguments: list[str]) -> int:
             self.failed += report.failed
             self.invalid += report.failed and any(key == "twinpuck_invalid" for key, _ in report.user_properties)
 
+    sys.argv[0] = "twinpuck test"  # as pytest's messages have it
     os.environ["TWINPUCK_TEST"] = "1"  # also for the processes of -n
     interrupted, outcome = Interrupted(), Invalid()
     code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])

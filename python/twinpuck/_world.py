@@ -6,8 +6,10 @@ import collections.abc
 import difflib
 import json
 import math
+import numbers
 import os
 import pathlib
+import re
 import tempfile
 import types
 import typing
@@ -22,8 +24,12 @@ from ._worldtext import toml_text, toml_value
 if typing.TYPE_CHECKING:
     import numpy
 
+_Thing = typing.TypeVar("_Thing")
 Source = typing.Union[str, "os.PathLike[str]", "collections.abc.Mapping[str, typing.Any]"]
 Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[str, str | os.PathLike[str]]"]
+
+
+_OPTIONS = {"fw": "firmware", "uart": "uart1"}  # of World, by the command's
 
 
 class Robots(collections.abc.Sequence):
@@ -44,13 +50,13 @@ class Robots(collections.abc.Sequence):
     def __getitem__(self, key: slice) -> list[Robot]: ...
     def __getitem__(self, key: int | str | slice) -> Robot | list[Robot]:
         """robots["left"], robots[0], robots[1:]. Raises KeyError or IndexError."""
+        if isinstance(key, int) and not -len(self) <= key < len(self):
+            raise IndexError(f"robot: got {key}, " + (f"expected {-len(self)} to {len(self) - 1}" if self else "the world has none"))
         if not isinstance(key, str):
             return self._robots[key]
         if key in self._by_name:
             return self._by_name[key]
-        near = difflib.get_close_matches(key, self._by_name, 1)
-        raise KeyError(f"robot: got {key!r}, expected one of {self.names[:10]}" +
-                       (f"; did you mean {near[0]!r}?" if near else ""))
+        raise KeyError(_no_such("robot", key, self._by_name))
 
     def __len__(self) -> int:
         return len(self._robots)
@@ -60,6 +66,23 @@ class Robots(collections.abc.Sequence):
 
     def __repr__(self) -> str:
         return f"<{len(self)} robots: {', '.join(self.names[:10])}{' ...' if len(self) > 10 else ''}>"
+
+
+def _no_such(kind: str, name: str, there: collections.abc.Iterable[str]) -> str:
+    names, near = list(there), difflib.get_close_matches(name, there, 1)
+    return f"{kind}: got {name!r}, " + (f"expected one of {', '.join(names[:10])}" if names else "the world has none") + \
+        (f"; did you mean {near[0]!r}?" if near else "")
+
+
+class _Things(dict[str, _Thing]):
+    """By name; of one that is not there, KeyError says which are."""
+
+    def __init__(self, kind: str, things: dict[str, _Thing]) -> None:
+        super().__init__(things)
+        self._kind = kind
+
+    def __missing__(self, name: str) -> _Thing:
+        raise KeyError(_no_such(self._kind, name, self))
 
 
 class Body:
@@ -108,7 +131,7 @@ class Condition:
         if self._bound_to is not self._world._core:
             try:
                 self._watch = _core.Watch(self._world._core, self.text, -1 if self._robot is None else self._robot.index)
-            except RuntimeError as wrong:
+            except ValueError as wrong:
                 raise WorldError(f"condition {self.text!r}: {wrong}") from None
             self._bound_to = self._world._core
         return self._watch
@@ -161,6 +184,7 @@ class World:
             raise WorldError(f"World: optimise: got {optimise!r}, expected '-O0', '-O1', '-O2' or '-Os'")
         if threads < 1 or threads > 256:
             raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
+        _check_seed(seed)
         __tracebackhide__ = True
         self._text, self._file = _read(source)
         self._options: dict[str, typing.Any] = {
@@ -178,14 +202,18 @@ class World:
         __tracebackhide__ = True
         try:
             self._core = _core.World(self._text, self._file, self._options)
-        except ValueError as wrong:
-            raise WorldError(str(wrong)) from None
+        except ValueError as wrong:  # nobody has given options of a command line
+            raise WorldError(re.sub(r"^command line: --(\w+)", lambda m: "World: " + _OPTIONS.get(m[1], m[1]), str(wrong),
+                                    flags=re.M)) from None
         self._arrays = _core.Arrays(len(self._core.names))
 
     def _apply(self, what: dict[str, typing.Any]) -> None:
+        for key, value in what.items():
+            if isinstance(value, float) and not math.isfinite(value):
+                raise ValueError(f"{what['do']}: {key}: got {value}, expected a finite number")
         try:
-            self._core.apply(json.dumps(what, allow_nan=False))
-        except RuntimeError as wrong:
+            self._core.apply(json.dumps(what))
+        except ValueError as wrong:
             raise ValueError(f"{what['do']}: {wrong}") from None
 
     # --- time
@@ -252,6 +280,8 @@ class World:
 
     def off_tick(self, call: collections.abc.Callable[[World], object]) -> None:
         """`call` is called no more. Raises ValueError when it was not."""
+        if call not in self._callables:
+            raise ValueError(f"off_tick: got {call!r}, expected what on_tick() was given")
         self._callables.remove(call)
 
     def reset(self, seed: int | None = None) -> None:
@@ -260,6 +290,7 @@ class World:
         seed: another one than before. Robots of this world stay valid; callables of on_tick() stay.
         """
         if seed is not None:
+            _check_seed(seed)
             self._options["seed"] = seed
         self._core.close()
         self._open()
@@ -303,13 +334,14 @@ class World:
 
     def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
         """Faults and stimuli of a file (docs/testing.md). Raises OSError, or ValueError with all that is wrong."""
-        return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"))
+        return self._add_faults(pathlib.Path(file).read_text(encoding="utf-8"), os.fspath(file))
 
-    def _add_faults(self, text: str) -> list[Fault]:
+    def _add_faults(self, text: str, where: str = "") -> list[Fault]:
+        """where: the file that the text is of, for messages; empty: none, so its lines are nobody's."""
         try:
-            return [Fault(self, number) for number in self._core.add_faults(text)]
-        except RuntimeError as wrong:
-            raise ValueError(str(wrong)) from None
+            return [Fault(self, number) for number in self._core.add_faults(text, where)]
+        except ValueError as wrong:
+            raise ValueError(str(wrong) if where else re.sub(r"^:\d+:\d+: ", "inject: ", str(wrong), flags=re.M)) from None
 
     @property
     def faults(self) -> list[Fault]:
@@ -320,7 +352,7 @@ class World:
         """Raises InvalidRun when a fault never began, or never changed anything for a program or the world."""
         __tracebackhide__ = True
         if problems := self._core.fault_problems():
-            raise InvalidRun("\n".join(problems))
+            raise InvalidRun("\n".join(re.sub(r"^:\d+:\d+: ", "inject: ", problem) for problem in problems))
 
     # --- all robots at once
     @property
@@ -359,12 +391,12 @@ class World:
     def bodies(self) -> dict[str, Body]:
         """Movable things by name, in the file's order; a name that several have is that of the last."""
         names = self._core.bodies
-        return {names[i]: Body(self, i, names[i]) for i in range(len(self.robots), len(names))}
+        return _Things("body", {names[i]: Body(self, i, names[i]) for i in range(len(self.robots), len(names))})
 
     @property
     def lamps(self) -> dict[str, Lamp]:
         """Lamps by name; one without a name is "lamp 0", by its number."""
-        return {name or f"lamp {i}": Lamp(self, i, name) for i, name in enumerate(self._core.lamps)}
+        return _Things("lamp", {name or f"lamp {i}": Lamp(self, i, name) for i, name in enumerate(self._core.lamps)})
 
     @property
     def seed(self) -> int:
@@ -409,6 +441,8 @@ class World:
 
         rays: with those of the proximity sensors. Raises RuntimeError when the file cannot be written.
         """
+        if not 16 <= width_px <= 16384:
+            raise ValueError(f"picture: width_px: got {width_px}, expected 16 to 16384")
         caption = f"{self.time_s:g} s, seed {self.seed}, {len(self.robots)} robot{'' if len(self.robots) == 1 else 's'}"
         if file is not None:
             self._core.draw(os.fspath(file), caption, rays, width_px)
@@ -430,6 +464,11 @@ class World:
         if not self._core.is_open:
             return "<World, closed>"
         return f"<World {self._core.title or os.path.basename(self._file)!r}, {self.time_s:.3f} s, {self.robots!r}>"
+
+
+def _check_seed(seed: int | None) -> None:
+    if seed is not None and not (isinstance(seed, numbers.Integral) and 0 <= seed < 2**64):
+        raise WorldError(f"World: seed: got {seed!r}, expected a whole number from 0 to 2**64 - 1")
 
 
 def _read(source: Source) -> tuple[str, str]:

@@ -57,9 +57,9 @@ class Frame:
     @staticmethod
     def read(data: bytes) -> "Frame":
         """A frame of its bytes."""
-        mark, revision, time_s, pace, flags, robots, bodies, values, rays, subscription = _HEAD.unpack_from(data)
-        if mark != b"TPK1":
-            raise TwinpuckError(f"frame: got {mark!r}, expected TPK1")
+        if data[:4] != b"TPK1" or len(data) < _HEAD.size:
+            raise TwinpuckError(f"frame: got {data[:4]!r} and {len(data)} bytes in all, expected b'TPK1' and {_HEAD.size} or more")
+        _, revision, time_s, pace, flags, robots, bodies, values, rays, subscription = _HEAD.unpack_from(data)
         at = _HEAD.size
 
         def take(code: str, count: int, each: int):
@@ -95,8 +95,14 @@ class LiveView:
     def __init__(self, address: str, timeout: float = 60.0):
         url = urllib.parse.urlparse(address)
         self.address, self.timeout = address, timeout
-        self._socket = websocket.create_connection(f"ws://{url.netloc}{url.path}live", timeout=timeout,
-                                                   suppress_origin=True, enable_multithread=False)
+        wanted = "expected the address of a live view that runs; `twinpuck view` prints it"
+        if not url.netloc:
+            raise TwinpuckError(f"{address}: got no host, {wanted}")
+        try:
+            self._socket = websocket.create_connection(f"ws://{url.netloc}{url.path}live", timeout=timeout,
+                                                       suppress_origin=True, enable_multithread=False)
+        except (websocket.WebSocketException, OSError) as wrong:
+            raise TwinpuckError(f"{address}: got {str(wrong)!r}, {wanted}") from None
         self._events: List[Dict[str, Any]] = []
         self._frame: Optional[Frame] = None
         self._next = 0
@@ -121,7 +127,10 @@ class LiveView:
     def ask(self, do: str, **fields) -> Dict[str, Any]:
         """A request and its answer. Raises Refused."""
         self._next += 1
-        self._socket.send(json.dumps({"do": do, "id": self._next, **fields}))
+        try:
+            self._socket.send(json.dumps({"do": do, "id": self._next, **fields}))
+        except (websocket.WebSocketException, OSError) as wrong:
+            raise self._gone() from wrong
         answers: List[Dict[str, Any]] = []
         self._hear(lambda: any(a["answer"] == self._next for a in answers), answers)
         answer = next(a for a in answers if a["answer"] == self._next)
@@ -147,19 +156,23 @@ class LiveView:
         assert self._frame is not None
         return self._frame
 
+    def _gone(self) -> TwinpuckError:
+        return TwinpuckError(f"{self.address}: got the end of the connection, expected a live view that goes on")
+
     def _hear(self, until: Callable[[], bool], answers: List[Dict[str, Any]]) -> None:
         give_up = time.monotonic() + self.timeout
+        late = f"{self.address}: got nothing within {self.timeout:g} s, expected what was asked for"
         while not until():
             left = give_up - time.monotonic()
             if left <= 0:
-                raise TimeoutError(f"nothing came within {self.timeout} s")
+                raise TimeoutError(late)
             self._socket.settimeout(left)
             try:
                 code, data = self._socket.recv_data()
             except websocket.WebSocketTimeoutException:
-                raise TimeoutError(f"nothing came within {self.timeout} s") from None
-            except (websocket.WebSocketException, OSError) as error:
-                raise TwinpuckError(f"the live view has hung up: {error}") from None
+                raise TimeoutError(late) from None
+            except (websocket.WebSocketException, OSError) as wrong:
+                raise self._gone() from wrong
             if code == websocket.ABNF.OPCODE_BINARY:
                 self._frame = Frame.read(data)
             elif code == websocket.ABNF.OPCODE_TEXT:
@@ -170,11 +183,11 @@ class LiveView:
                     self.world = _changed(self.world, message["changes"])
                 (answers if "answer" in message else self._events).append(message)
             elif code == websocket.ABNF.OPCODE_CLOSE:
-                raise TwinpuckError("the live view has hung up")
+                raise self._gone()
 
 
 def connect(address: str, timeout: float = 60.0) -> LiveView:
-    """To a live view that runs; `address` as `twinpuck view` prints it."""
+    """To a live view that runs; `address` as `twinpuck view` prints it. Raises TwinpuckError."""
     return LiveView(address, timeout)
 
 
@@ -188,7 +201,7 @@ def start(world: str, *options: str, command: Optional[str] = None, cwd=None, en
     found = re.match(r"open (\S+)", first)
     if not found:
         _, problems = process.communicate(timeout=timeout)
-        raise TwinpuckError(problems.strip() or "twinpuck view has ended")
+        raise TwinpuckError(problems.strip() or f"twinpuck view: got exit code {process.returncode}, expected an address")
     view = LiveView(found.group(1), timeout)
     view._process = process
     return view

@@ -64,7 +64,7 @@ def pytest_configure(config: pytest.Config) -> None:
         try:
             axis.values(option(config, axis.option))
         except ValueError as wrong:
-            raise pytest.UsageError(str(wrong)) from None
+            raise pytest.UsageError(f"command line: {wrong}") from None
     if not hasattr(config, "workerinput"):  # one process begins, not each of several
         shutil.rmtree(failures_folder(config), ignore_errors=True)
 
@@ -82,7 +82,8 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         try:
             values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
         except ValueError as wrong:
-            raise pytest.UsageError(f"{metafunc.definition.nodeid}: {wrong}") from None
+            said = str(wrong).replace(f"--{axis.option}", axis.marker, 1)
+            raise pytest.UsageError(f"{metafunc.definition.nodeid}: {said}") from None
         if values:
             metafunc.fixturenames.append(axis.fixture)
             metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)

@@ -232,7 +232,7 @@ TEST(UartEnd, tcp_listens_on_loopback_and_says_when_the_port_is_taken) {
   auto second = board::open_uart_end("tcp:" + std::to_string(port), "", error);
   EXPECT_FALSE(second);
   EXPECT_TRUE(
-      wording::reads(error, "tcp:127.0.0.1:…: port is in use; choose another, or 0 for any free port"));
+      wording::reads(error, "tcp:127.0.0.1:…: got a port that is in use, expected a free one; 0 takes any"));
 
   const int fd = ::socket(AF_INET, SOCK_STREAM, 0);
   sockaddr_in address{};

@@ -129,27 +129,40 @@ TEST(libc, leaving_is_a_reset) {
 
 TEST(libc, what_a_robot_does_not_have_is_refused_by_name_and_line) {
   const char* const kCases[][2] = {
-      {"#include <time.h>\nlong t;\nint main(void) { mktime(0); return 0; }", "mktime()"},
-      {"int x;\n\nint main(void) { sleep(1); return 0; }", "sleep()"},
-      {"int x;\n\nint main(void) { usleep(10); return 0; }", "usleep()"},
-      {"#include <stdio.h>\nint x;\nint main(void) { x = (int)fopen(\"a\", \"r\"); return 0; }", "fopen()"},
-      {"int x;\n\nint main(void) { system(\"ls\"); return 0; }", "system()"},
-      {"int x;\n\nint main(void) { getenv(\"A\"); return 0; }", "getenv()"},
-      {"int x;\n\nint main(void) { pthread_create(0, 0, 0, 0); return 0; }", "pthread_create()"}};
+      {"#include <time.h>\nlong t;\nint main(void) { mktime(0); return 0; }",
+       "mktime(): got no definition, expected one in the program or the library; is a .c file missing from "
+       "the folder, or the name misspelt?"},
+      {"int x;\n\nint main(void) { sleep(1); return 0; }",
+       "sleep(): an e-puck has no operating system; time passes in the robot's step"},
+      {"int x;\n\nint main(void) { usleep(10); return 0; }",
+       "usleep(): an e-puck has no operating system; time passes in the robot's step"},
+      {"#include <stdio.h>\nint x;\nint main(void) { x = (int)fopen(\"a\", \"r\"); return 0; }",
+       "fopen(): an e-puck has no files; printf() writes to UART 1"},
+      {"int x;\n\nint main(void) { system(\"ls\"); return 0; }",
+       "system(): an e-puck has no operating system; leave it out"},
+      {"int x;\n\nint main(void) { getenv(\"A\"); return 0; }",
+       "getenv(): an e-puck has no operating system; use its selector, getselector() of utility/utility.h"},
+      {"int x;\n\nint main(void) { pthread_create(0, 0, 0, 0); return 0; }",
+       "pthread_create(): got no definition, expected one in the program or the library; is a .c file "
+       "missing from the folder, or the name misspelt?"}};
   for (const auto& c : kCases) {
     Folder folder;
     auto built = build(folder, c[0]);
     EXPECT_FALSE(built.ok) << c[1];
     EXPECT_EQ(built.errors.size(), 1u) << text_of(built);
-    EXPECT_NE(text_of(built).find("main.c:3"), std::string::npos) << text_of(built);
-    EXPECT_NE(text_of(built).find(c[1]), std::string::npos) << text_of(built);
+    EXPECT_TRUE(reads(folder, text_of(built), std::string("@/prog/main.c:3: error: main() calls ") + c[1]));
   }
-  for (const char* header : {"unistd.h", "pthread.h", "windows.h", "sys/time.h"}) {
+  for (const auto& [header, said] :
+       {std::pair("unistd.h", "'unistd.h' file not found"),
+        std::pair("pthread.h", "'pthread.h' file not found"),
+        std::pair("windows.h", "'windows.h' file not found"),
+        std::pair("sys/time.h",
+                  "#include <sys/time.h>: a robot has no operating system; use resetTime() and "
+                  "getDiffTimeMs() of utility.h, or an agenda")}) {
     Folder folder;
     auto built =
         build(folder, std::string("int a;\n#include <") + header + ">\nint main(void) { return 0; }");
     EXPECT_FALSE(built.ok) << header;
-    EXPECT_NE(text_of(built).find("main.c:2"), std::string::npos) << text_of(built);
-    EXPECT_NE(text_of(built).find(header), std::string::npos) << text_of(built);
+    EXPECT_TRUE(reads(folder, text_of(built), std::string("@/prog/main.c:2:10: fatal error: ") + said));
   }
 }

@@ -35,24 +35,10 @@ TEST_F(FaultsOfARun, those_that_took_effect_are_in_the_summary) {
   EXPECT_TRUE(faults[2].at("ended_s").is_null());
 }
 
-TEST_F(FaultsOfARun, one_that_never_took_effect_makes_the_run_invalid) {
-  const Said late = run("--fault 'wheel_stuck at=100s'");
-  EXPECT_EQ(late.exit_code, 7);
-  EXPECT_NE(late.text.find("command line: --fault: wheel_stuck: never began: the run ended before 100 s"),
-            std::string::npos)
-      << late.text;
+TEST_F(FaultsOfARun, one_that_never_began_is_in_the_summary_of_the_invalid_run) {
   const Said unheld = run("-q --fault \"bump when='x_m > 50'\" --summary " + path("s.json"));
   EXPECT_EQ(unheld.exit_code, 7);
-  EXPECT_NE(unheld.text.find("never began: 'x_m > 50' never held"), std::string::npos) << unheld.text;
   EXPECT_TRUE(nlohmann::json::parse(read(path("s.json"))).at("faults")[0].at("begun_s").is_null());
-  // obstacle sends nothing over UART 2
-  const Said unfelt = run("--fault 'bytes_lost uart=2'");
-  EXPECT_EQ(unfelt.exit_code, 7);
-  EXPECT_NE(unfelt.text.find(
-                "bytes_lost uart=2: never took effect: it began at 0.000 s, and it was never so that a byte "
-                "that was sent did not arrive"),
-            std::string::npos)
-      << unfelt.text;
 }
 
 TEST_F(FaultsOfARun, the_same_with_any_number_of_threads) {

@@ -91,7 +91,6 @@ TEST_F(Students, what_students_do_works_there) {
   EXPECT_NE(make.text.find("--fw '*=braitenberg'"), std::string::npos) << make.text;
   const Said run = in_edition("run maze --fw '*=braitenberg' --for 2");
   EXPECT_EQ(run.exit_code, 0) << run.text;
-  EXPECT_NE(run.text.find("/twinpuck/firmware/braitenberg, 1 file"), std::string::npos) << run.text;
   fs::create_directories(folder / "mine");
   fs::copy(kTree / "firmware/lab/u_obstacle", folder / "mine/u_obstacle", fs::copy_options::recursive);
   const Said mine = in_edition("lab --seeds 1 --mine mine");
@@ -100,13 +99,14 @@ TEST_F(Students, what_students_do_works_there) {
   // without --mine: what there is to run, and what there is not
   const Said lab = in_edition("lab I1 e-puck Q6 S16 --seeds 5");
   EXPECT_EQ(lab.exit_code, 0) << lab.text;
-  for (const char* line :
-       {"e-puck pass  ",
-        "I1     none  avoid any obstacle in any maze: its solution is not in this edition of Twinpuck; "
-        "--mine DIR runs a program of yours",
-        "Q6     none  how a proximity sensor works: its answer is not in this edition", "S16    none  ",
-        "1 of 1 pass, 3 without a program"})
-    EXPECT_NE(lab.text.find(line), std::string::npos) << line << "\nin " << lab.text;
+  EXPECT_TRUE(reads(
+      lab.text,
+      "e-puck pass  the lab's example program, which does not avoid very well: 4 of 5 bump into something, "
+      "median collisions 3, max wall touch … s, median distance … m (needs 2 of 5: collisions at least "
+      "1)\nI1     none  avoid any obstacle in any maze: its solution is not in this edition of Twinpuck; "
+      "--mine DIR runs a program of yours\nQ6     none  how a proximity sensor works: its answer is not in "
+      "this edition of Twinpuck\nS16    none  soccer, the ball restarts 10 cm up in the air: its solution is "
+      "not in this edition of Twinpuck\n1 of 1 pass, 3 without a program"));
   EXPECT_EQ(in_edition("lab I1").exit_code, 5);
   EXPECT_EQ(in_edition("lab --replay I1:corners:1").exit_code, 5);
 }
@@ -116,12 +116,6 @@ TEST_F(Students, the_archive_is_the_same_every_time) {
   const std::string one = text_in(edition.string() + ".tar.gz");
   EXPECT_GT(one.size(), 1'000'000u);
   EXPECT_TRUE(one == read(path("b/twinpuck.tar.gz")));
-  // over nothing but what was made there
-  write("full/file", "mine\n");
-  const Said full = students(path("full"));
-  EXPECT_NE(full.exit_code, 0);
-  EXPECT_NE(full.text.find("got a folder with files, expected a new one"), std::string::npos) << full.text;
-  EXPECT_EQ(read(path("full/file")), "mine\n");
 }
 
 TEST_F(Students, an_installed_product_loses_its_solutions) {
@@ -139,9 +133,6 @@ TEST_F(Students, an_installed_product_loses_its_solutions) {
   EXPECT_EQ(left, (std::set<std::string>{"usr/share/doc/twinpuck/start.md"}));
   EXPECT_EQ(read(path("usr/share/doc/twinpuck/start.md")), "a\nb\n");
   EXPECT_TRUE(fs::exists(folder / "usr/share/twinpuck/firmware/include"));
-  const Said none = students("--prune " + path("nowhere"));
-  EXPECT_NE(none.exit_code, 0);
-  EXPECT_NE(none.text.find("expected an installed Twinpuck"), std::string::npos) << none.text;
 }
 
 }  // namespace

@@ -69,32 +69,52 @@ reset = true
 
 TEST(FaultFile, what_is_wrong_is_told_with_its_place) {
   const auto says = [](const std::string& text, const std::string& what) {
-    EXPECT_NE(told(text).find(what), std::string::npos) << text << "\n" << told(text);
+    EXPECT_EQ(told(text), what) << text;
   };
-  says("[[fualt]]\nkind = \"bump\"\n", "f.toml:1:");
-  says("[[fualt]]\nkind = \"bump\"\n", "unknown key 'fualt'; did you mean 'fault'?");
-  says("[[fault]]\nsensor = 1\n", "f.toml:1:1: fault.kind: missing");
-  says("[[fault]]\nkind = \"wheel_stick\"\n", "did you mean 'wheel_stuck'?");
-  says("[[fault]]\nkind = \"sensor_dead\"\nsensor = 8\n", "f.toml:3:10: fault.sensor: got 8, expected");
+  says("[[fualt]]\nkind = \"bump\"\n",
+       "f.toml:1:3: unknown key 'fualt'; did you mean 'fault'? (keys: fault, stimulus)");
+  says("[[fault]]\nsensor = 1\n", "f.toml:1:1: fault.kind: missing, expected one of twinpuck list faults");
+  says("[[fault]]\nkind = \"wheel_stick\"\n",
+       "f.toml:2:8: fault.kind: got \"wheel_stick\", expected one of twinpuck list faults; did you mean "
+       "'wheel_stuck'?");
+  says("[[fault]]\nkind = \"sensor_dead\"\nsensor = 8\n",
+       "f.toml:3:10: fault.sensor: got 8, expected whole number from 0 to 7");
   says("[[fault]]\nkind = \"sensor_dead\"\nsensr = 1\n",
-       "unknown key 'sensr' in fault; did you mean 'sensor'?");
-  says("[[fault]]\nkind = \"wheel_stuck\"\nwheel = \"lft\"\n", "did you mean 'left'?");
-  says("[[fault]]\nkind = \"bump\"\nfor_s = 1\n", "unknown key 'for_s'");
-  says("[[fault]]\nkind = \"bytes_lost\"\nshare = 1.5\n", "expected number from 0 to 1");
-  says("[[fault]]\nkind = \"bytes_lost\"\nat_s = \"2\"\n", "fault.at_s: got \"2\", expected number");
-  says("[[fault]]\nkind = \"bytes_lost\"\nfor_s = 0\n", "fault.for_s: got 0");
-  says("[[stimulus]]\nsnd = \"x\"\n", "expected one; did you mean 'send'?");
-  says("[[stimulus]]\nsend = \"x\"\npress = 3\n", "got send and press");
-  says("[[stimulus]]\nturn = 16\n", "stimulus.turn: got 16");
-  says("[[stimulus]]\nmove = [1, 2]\n", "stimulus.move: got [1, 2]");
-  says("[[stimulus]]\nset = \"x\"\nvalue = nan\n", "stimulus.value: got nan");
-  says("[fault]\nkind = \"bump\"\n", "expected [[fault]] with double brackets");
-  says("[[fault]\n", "not TOML");
-  says("[[fault]]\nkind = 3\nkind = 4\n", "not TOML");
-  says(std::string(20, '\xff'), "f.toml:1:1");
+       "f.toml:3:1: unknown key 'sensr' in fault; did you mean 'sensor'? (keys: kind, sensor, part, robot, "
+       "at_s, when, for_s)");
+  says("[[fault]]\nkind = \"wheel_stuck\"\nwheel = \"lft\"\n",
+       "f.toml:3:9: fault.wheel: got \"lft\", expected one of left, right, both; did you mean 'left'?");
+  says("[[fault]]\nkind = \"bump\"\nfor_s = 1\n",
+       "f.toml:3:1: unknown key 'for_s' in fault (keys: kind, impulse_n_s, direction_deg, spin_deg_s, robot, "
+       "at_s, when)");
+  says("[[fault]]\nkind = \"bytes_lost\"\nshare = 1.5\n",
+       "f.toml:3:9: fault.share: got 1.5, expected number from 0 to 1");
+  says("[[fault]]\nkind = \"bytes_lost\"\nat_s = \"2\"\n",
+       "f.toml:3:8: fault.at_s: got \"2\", expected number from 0 to 10000000 s");
+  says("[[fault]]\nkind = \"bytes_lost\"\nfor_s = 0\n",
+       "f.toml:3:9: fault.for_s: got 0, expected number from 1e-06 to 10000000 s");
+  says("[[stimulus]]\nsnd = \"x\"\n",
+       "f.toml:1:1: stimulus: got none of send, press, turn, move, pin, set, reset, expected one; did you "
+       "mean 'send'?");
+  says("[[stimulus]]\nsend = \"x\"\npress = 3\n",
+       "f.toml:1:1: stimulus: got send and press, expected one of them; write two tables");
+  says("[[stimulus]]\nturn = 16\n", "f.toml:2:8: stimulus.turn: got 16, expected whole number from 0 to 15");
+  says(
+      "[[stimulus]]\nmove = [1, 2]\n",
+      "f.toml:2:8: stimulus.move: got [1, 2], expected three numbers [x, y, z] from -1000 to 1000 m, m, deg");
+  says("[[stimulus]]\nset = \"x\"\nvalue = nan\n", "f.toml:3:9: stimulus.value: got nan, expected number");
+  says("[fault]\nkind = \"bump\"\n",
+       "f.toml:1:1: fault: got a table, expected [[fault]] with double brackets");
+  says("[[fault]\n", "f.toml:1:9: not TOML: Error while parsing table header: expected ']', saw '\\n'");
+  says("[[fault]]\nkind = 3\nkind = 4\n",
+       "f.toml:3:8: not TOML: Error while parsing key-value pair: cannot redefine existing integer 'kind'");
+  says(std::string(20, '\xff'),
+       "f.toml:1:1: not TOML: got a character beyond ASCII, expected those in quotes or comments only");
   EXPECT_EQ(told(""), "");
   // all of them at once
-  EXPECT_NE(told("[[fault]]\nkind = \"a\"\n[[fault]]\nkind = \"b\"\n").find("\nf.toml:4"), std::string::npos);
+  says("[[fault]]\nkind = \"a\"\n[[fault]]\nkind = \"b\"\n",
+       "f.toml:2:8: fault.kind: got \"a\", expected one of twinpuck list faults\nf.toml:4:8: fault.kind: got "
+       "\"b\", expected one of twinpuck list faults");
 }
 
 TEST(FaultFile, one_that_is_not_there_is_told) {

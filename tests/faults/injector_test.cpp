@@ -183,15 +183,22 @@ TEST(Injector, a_sensor_is_sound_again_when_the_fault_has_ended) {
 TEST(Injector, what_the_world_has_not_is_told_before_the_run) {
   Bench b;
   const auto says = [&](const char* line, const char* what) {
-    const std::string told = b.added_wrongly(line);
-    EXPECT_NE(told.find(what), std::string::npos) << line << ": " << told;
+    EXPECT_EQ(b.added_wrongly(line), what) << line;
   };
-  says("wheel_stuck robot=pukc0", "robot: got 'pukc0', expected a robot of the world: did you mean 'puck0'?");
-  says("wheel_stuck when='x_n > 3'", "when: got 'x_n', expected a signal; did you mean 'x_m'?");
-  says("wheel_stuck when='x_m >'", "when: got 'x_m >'");
-  says("variable_set variable=gaol value=1", "variable: ");
-  says("pin_forced pin=D3", "pin: got 'D3', expected an input or an LED's");
-  says("pin_forced pin=nonsense", "pin: got 'nonsense'");
+  says("wheel_stuck robot=pukc0",
+       "robot: got 'pukc0', expected a robot of the world; did you mean 'puck0'?; the robots are puck0");
+  says("wheel_stuck when='x_n > 3'",
+       "when: got 'x_n', expected a signal; did you mean 'x_m'?; twinpuck list signals names them, $NAME is "
+       "a variable of the program");
+  says("wheel_stuck when='x_m >'",
+       "when: got 'x_m >', expected a condition such as x_m > 0.2 && led0: unexpected end of expression");
+  says("variable_set variable=gaol value=1",
+       "variable: got 'gaol', expected a variable of the image that is known here");
+  says("pin_forced pin=D3",
+       "pin: got 'D3', expected an input or an LED's: F1, F6, G6 to G9, A6, A7, A9, A10, A12 to A15, C1, C2");
+  says("pin_forced pin=nonsense",
+       "pin: got 'nonsense', expected an input or an LED's: F1, F6, G6 to G9, A6, A7, A9, A10, A12 to A15, "
+       "C1, C2");
   faults::Fault fault;
   fault.kind = "sensor_blocked";
   const auto adds = [&] { b.faults().add(fault); };

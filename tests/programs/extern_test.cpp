@@ -85,8 +85,12 @@ TEST_F(Extern, a_robots_program_is_started_outside_and_connects) {
     EXPECT_EQ(folder_is.st_uid, getuid());
     EXPECT_EQ(connect(at), "steps 31 puck\nstatus 0") << c.options;
     EXPECT_EQ(end().exit_code, 0) << said_.text;
-    EXPECT_NE(said_.text.find("puck: waits for its program: TWINPUCK_CONTROLLER=unix:"), std::string::npos)
-        << said_.text;
+    EXPECT_TRUE(
+        reads(said_.text,
+              "puck: <extern>\npuck: waits for its program: TWINPUCK_CONTROLLER=unix:…\n@/w.toml: 2.0 s "
+              "simulated in … s (… times real time), seed 1, digest …\nrobot           x (m)    y (m)   "
+              "heading  path (m)  collisions  wall (s)   load     used      left\npuck            0.000    "
+              "0.000     0 deg     0.000           0      0.00     0%    0 mWh   … min"));
     EXPECT_FALSE(fs::exists(at)) << "the socket is gone";
     expect_nothing_left(c.options);
   }
@@ -109,8 +113,15 @@ TEST_F(Extern, a_program_that_never_comes_ends_with_the_hosts_limit) {
   begin("--for 1 --host-limit 1 --record " + path("r.csv"));
   const std::string at = socket();
   EXPECT_EQ(end().exit_code, 124) << said_.text;
-  EXPECT_NE(said_.text.find("puck: its program has not called wb_robot_init()"), std::string::npos)
-      << said_.text;
+  EXPECT_TRUE(
+      reads(said_.text,
+            "puck: <extern>\nb: @/b\npuck: waits for its program: TWINPUCK_CONTROLLER=unix:…\npuck: its "
+            "program has not called wb_robot_init() for … s (t=0.000 s); it was ended\n@/w.toml: 0.0 s "
+            "simulated in … s (… times real time), seed 1, digest …\nrobot           x (m)    y (m)   "
+            "heading  path (m)  collisions  wall (s)   load     used      left\npuck            0.000    "
+            "0.000     0 deg     0.000           0      0.00     0%    0 mWh     0 min\nb               "
+            "0.000    1.000     0 deg     0.000           0      0.00     0%    0 mWh     0 min\nwritten: "
+            "@/r.csv\ntwinpuck: host time: got … s, expected at most 1 s; outputs hold what was simulated"));
   EXPECT_FALSE(fs::exists(at));
   expect_whole(path("r.csv"), -1, "never");
   expect_nothing_left("never");
@@ -124,11 +135,15 @@ TEST_F(Extern, a_program_that_ends_lets_the_run_go_on) {
   expect_whole(path("r.csv"), 2.9, "ends");
 }
 
+constexpr const char* kNobody =
+    ": got nobody who waits there (No such file or directory), expected a simulation; start one first: "
+    "twinpuck run "
+    "WORLD --extern ROBOT\nstatus 1";
+
 TEST_F(Extern, who_connects_to_nobody_is_told) {
   world({{"puck", "<extern>"}});
   const std::string text = connect(path("nobody.sock"));
-  EXPECT_NE(text.find("nobody waits there"), std::string::npos) << text;
-  EXPECT_EQ(text.find("status 0"), std::string::npos) << text;
+  EXPECT_TRUE(reads(text, "libcontroller: @/nobody.sock" + std::string(kNobody)));
 }
 
 TEST_F(Extern, a_second_program_finds_the_place_taken) {
@@ -139,9 +154,9 @@ TEST_F(Extern, a_second_program_finds_the_place_taken) {
   std::thread one([&] { first = connect(at, "20"); });
   ASSERT_TRUE(wait_until([&] { return !fs::exists(at); }, 10)) << "nobody was let in";
   const std::string second = connect(at);
-  EXPECT_NE(second.find("nobody waits there"), std::string::npos) << second;
+  EXPECT_TRUE(reads(second, "libcontroller: …" + std::string(kNobody)));
   one.join();
-  EXPECT_NE(first.find("steps 20 puck"), std::string::npos) << first;
+  EXPECT_EQ(first, "steps 20 puck\nstatus 0");
   for (const pid_t pid : processes_with(mark)) kill(pid, SIGINT);
   end();
 }

@@ -137,11 +137,18 @@ TEST_F(NodesTest, wrong_imports_change_nothing) {
   open_wbt(kHead + "RectangleArena { floorSize 2 2 }\nE-puck { translation 0 -0.5 0 controller \"void\" }\n");
   const int children = field(root(), "children");
   const auto digest = simulation().digest();
-  for (const char* text :
-       {"", "Solid {", "Solid { translation }}", "E-puck { }", "Robot { controller \"x\" }", "}{", "DEF"}) {
+  for (const auto& [text, said] :
+       {std::pair("", "got no node, expected one such as Solid { }"),
+        std::pair("Solid {", "line 1: got the end of the file, expected the name of a field, or '}'"),
+        std::pair("Solid { translation }}", "line 1: got '}', expected a value"),
+        std::pair("E-puck { }", "got a robot, E-puck: robots come and go only when a run begins"),
+        std::pair("Robot { controller \"x\" }",
+                  "got a robot, Robot: robots come and go only when a run begins"),
+        std::pair("}{", "line 1: got '}', expected a node such as `Solid {`"),
+        std::pair("DEF", "line 1: got the end of the file, expected a name behind DEF")}) {
     const Reply r = ask(LINK_IMPORT, {{children, -1}, {}, text});
     EXPECT_EQ(r.number, LINK_NOTHING) << text;
-    EXPECT_NE(r.texts.at(0).find("Group.children: "), std::string::npos) << r.texts.at(0);
+    EXPECT_EQ(r.texts.at(0), std::string("Group.children: ") + said) << text;
   }
   EXPECT_EQ(ask(LINK_IMPORT, {{children, 99}, {}, "Solid { }"}).number, LINK_NOTHING);
   EXPECT_EQ(ask(LINK_IMPORT, {{field(def("E-puck"), "translation"), -1}, {}, "Solid { }"}).number,

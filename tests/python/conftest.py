@@ -20,6 +20,12 @@ TWINPUCK = os.environ["TWINPUCK"]
 os.environ.pop("LD_PRELOAD", None)  # a sanitizer's; compilers have too little memory for it
 
 
+def reads(said, wanted, what=""):
+    """Fails unless it is said word for word, but for line ends behind it; each … is what has no space and varies."""
+    said = said.rstrip("\n")
+    assert re.fullmatch(re.escape(wanted).replace("…", r"\S+?"), said), f"{what}\ngot\n  {said!r}\nexpected\n  {wanted!r}"
+
+
 @pytest.fixture(scope="session")
 def programs(tmp_path_factory):
     """programs(source): a folder with that program in C, the same for the same source."""

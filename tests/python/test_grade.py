@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 import pytest
 
 import twinpuck  # noqa: F401  the module must be there
-from conftest import TWINPUCK
+from conftest import TWINPUCK, reads
 
 CAN_CONTAIN = subprocess.run(["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--unshare-all", "true"],
                              stderr=subprocess.DEVNULL, check=False).returncode == 0
@@ -97,48 +97,58 @@ int main(void)
 """
 
 
-def line_of(text, source=FAULTLESS):
-    """Its line's number in the program."""
-    return source[:source.index(text)].count("\n") + 1
-
-
-# name -> what is changed to what, and what the message of a test that fails holds
+# name -> what is changed to what, and what the message of a test that fails says, in its first line
 PLANTED = {
-    "semicolon": ("int i;\n  e_init_port", "int i\n  e_init_port", rf"main\.c:{line_of('int i;' + chr(10) + '  e_init')}:"),
-    "typo": ("due = 1;", "deu = 1;", rf"main\.c:{line_of('due = 1;')}:.*undeclared identifier 'deu'"),
-    "no_function": ("beats++;", "count_beats();", r"count_beats"),
-    "no_header": ("#include <stdlib.h>", "#include <stdlip.h>", r"main\.c:6:.*stdlip\.h"),
-    "wrong_type": ("int total, values[10];", "int total, values[10]; int *p = 3.5;", r"main\.c:10:"),
-    "two_mains": ("int main(void)", "int main(void) { return 0; }\nint main(void)", r"main\.c:27:.*redefinition of 'main'"),
-    "too_large": ("int total,", "int large[5000];\nint total,", r"bytes"),
-    "zero_division": ("total = sum(values, 10);", "total = 45 / (beats - beats);", r"main\.c:4[4-6]\).*division by zero"),
-    "beyond_array": ("i < 10; i++)\n    values", "i < 12; i++)\n    values", r"main\.c:3\d\).*values"),
-    "null": ("values[i] = i;", "*(int *)(i - i) = i;", r"main\.c:36\).*"),
-    "no_value": ("int i, all = 0;", "int i, all;", r"main\.c:1\d\).*all"),
-    "overflow": ("all += from[i];", "all += from[i] + 32767;", r"main\.c:17\).*overflow"),
-    "recursion": ("total = sum(values, 10);", "total = main();", r"stack|main\.c"),
-    "odd_address": ("due = 0;", "*(volatile int *)((char *)values + 1) = 0; due = 0;", r"main\.c:44: .*expected even"),
-    "long_copy": ("due = 0;", "{ char few[4]; memcpy(few, greeting, 8); due = few[0] - few[0]; }", r"few|memcpy"),
-    "freed": ("due = 0;", "{ int *p = malloc(4); free(p); *p = 0; due = 0; }", r"main\.c:4\d\).*free"),
-    "abort": ("due = 0;", "abort();", r"abort"),
+    "semicolon": ("int i;\n  e_init_port", "int i\n  e_init_port", "…/main.c:29:8: error: expected ';' at end of declaration"),
+    "typo": ("due = 1;", "deu = 1;", "…/main.c:24:3: error: use of undeclared identifier 'deu'"),
+    "no_function": ("beats++;", "count_beats();",
+                    "…/main.c:23: error: beat() calls count_beats(): got no definition, expected one in the program or the library; is a .c file missing from the folder, or the name misspelt?"),
+    "no_header": ("#include <stdlib.h>", "#include <stdlip.h>", "…/main.c:6:10: fatal error: 'stdlip.h' file not found"),
+    "wrong_type": ("int total, values[10];", "int total, values[10]; int *p = 3.5;",
+                   "…/main.c:10:29: error: initializing 'int *' with an expression of incompatible type 'double'"),
+    "two_mains": ("int main(void)", "int main(void) { return 0; }\nint main(void)",
+                  "…/main.c:28:5: error: redefinition of 'main'"),
+    "too_large": ("int total,", "int large[5000];\nint total,",
+                  "link: error: RAM: no room for large, 10000 bytes in 0x0800 to 0x27FF; largest: large 10000, … …, … …, … …, … …, … …, … …, … …"),
+    "zero_division": ("total = sum(values, 10);", "total = 45 / (beats - beats);",
+                      "puck: main (…/main.c:45): math error: division by zero, or an overflow of an accumulator; the program has no _MathError(), so the processor resets"),
+    "beyond_array": ("i < 10; i++)\n    values", "i < 12; i++)\n    values",
+                     "puck: main (…/main.c:36): sanitizer: write out of bounds of …: got byte …, expected 0 to …"),
+    "null": ("values[i] = i;", "*(int *)(i - i) = i;",
+             "puck: main (…/main.c:36): sanitizer: write through a null pointer, at 0x0000"),
+    "no_value": ("int i, all = 0;", "int i, all;",
+                 "puck: main (…/main.c:17): sanitizer: all is read, and nobody has written it; a branch depends on it"),
+    "overflow": ("all += from[i];", "all += from[i] + 32767;",
+                 "puck: main (…/main.c:17): sanitizer: integer overflow in an addition (… times)"),
+    "recursion": ("total = sum(values, 10);", "total = main();", "AssertionError: assert 0 == 45"),
+    "odd_address": ("due = 0;", "*(volatile int *)((char *)values + 1) = 0; due = 0;",
+                    "…/main.c:44: error: values: got address …, expected even and below 0x2000: a near variable"),
+    "long_copy": ("due = 0;", "{ char few[4]; memcpy(few, greeting, 8); due = few[0] - few[0]; }",
+                  "puck: main (…/main.c:44): sanitizer: in memcpy(): write out of bounds of the local variable few: got byte 4, expected 0 to 3"),
+    "freed": ("due = 0;", "{ int *p = malloc(4); free(p); *p = 0; due = 0; }",
+              "puck: main (…/main.c:44): sanitizer: use of freed heap memory: write of a heap block: got byte 1, expected 0 to 3"),
+    "abort": ("due = 0;", "abort();", "puck: main (…/main.c:44): abort: abort(), or exit() with a failure, resets the processor"),
     "stuck": ("e_send_uart1_char(greeting, 7);", "while (i) ;\n  e_send_uart1_char(greeting, 7);",
-              r"expected 'ready\\r\\n' within 0.5 s, nothing came; at .* stands in main \(.*main\.c:37\)"),
-    "waits_for_nobody": ("due = 1;", "due = 0;", r"assert|total"),
-    "no_agenda": ("e_start_agendas_processing();", "", r"8 <= 0|assert"),
-    "slow_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 5000);", r"assert 8 <= \d"),
-    "fast_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 100);", r"assert \d+ <= 10"),
-    "wrong_led": ("e_set_led(4, 1);", "e_set_led(3, 1);", r"At index 3 diff: True != False|index 3"),
-    "no_ports": ("e_init_port();", "", r"assert|x is"),
-    "no_motors": ("e_init_motors();", "", r"x is -0\.\d+ m"),
+              "robot 'puck' uart1: expected 'ready\\r\\n' within 0.5 s, nothing came; at 0.500 s the program stands in main (…/main.c:37)"),
+    "waits_for_nobody": ("due = 1;", "due = 0;", "AssertionError: assert 0 == 45"),
+    "no_agenda": ("e_start_agendas_processing();", "", "AssertionError: x is -0.300 m after 4.0 s"),
+    "slow_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 5000);", "AssertionError: assert 8 <= …"),
+    "fast_beat": ("e_activate_agenda(beat, 1000);", "e_activate_agenda(beat, 100);", "AssertionError: assert … <= 10"),
+    "wrong_led": ("e_set_led(4, 1);", "e_set_led(3, 1);", "assert (False, … False, ...) == (False, … False, ...)"),
+    "no_ports": ("e_init_port();", "", "assert (False, … False, ...) == (False, … False, ...)"),
+    "no_motors": ("e_init_motors();", "", "AssertionError: x is -0.300 m after 4.0 s"),
     "backwards": ("e_set_speed_left(600);\n  e_set_speed_right(600);", "e_set_speed_left(-600);\n  e_set_speed_right(-600);",
-                  r"x is -0\.\d+ m after 4\.0 s"),
-    "turns": ("e_set_speed_right(600);", "e_set_speed_right(-600);", r"x is -0\.3\d\d m after 4\.0 s"),
+                  "AssertionError: x is -0.… m after 4.0 s"),
+    "turns": ("e_set_speed_right(600);", "e_set_speed_right(-600);", "AssertionError: x is -0.300 m after 4.0 s"),
     "slow": ("e_set_speed_left(600);\n  e_set_speed_right(600);", "e_set_speed_left(300);\n  e_set_speed_right(300);",
-             r"x is -0\.\d+ m after 4\.0 s"),
-    "no_line_end": ('"ready\\r\\n";', '"ready\\n\\n";', r"expected 'ready\\r\\n' within 0.5 s, got 'ready\\n\\n"),
-    "wrong_text": ('"ready\\r\\n";', '"raedy\\r\\n";', r"got 'raedy\\r\\n"),
-    "wrong_sum": ("i = 0; i < count", "i = 1; i < count - 1", r"assert 3\d == 45"),
-    "returns": ("while (1) {\n    while", "while (beats < 3) {\n    while", r"assert|main"),
+             "AssertionError: x is -0.… m after 4.0 s"),
+    "no_line_end": ('"ready\\r\\n";', '"ready\\n\\n";',
+                    "robot 'puck' uart1: expected 'ready\\r\\n' within 0.5 s, got 'ready\\n\\n' behind the last match; at 0.500 s the program stands in main (…/main.c:42)"),
+    "wrong_text": ('"ready\\r\\n";', '"raedy\\r\\n";',
+                   "robot 'puck' uart1: expected 'ready\\r\\n' within 0.5 s, got 'raedy\\r\\n' behind the last match; at 0.500 s the program stands in main (…/main.c:42)"),
+    "wrong_sum": ("i = 0; i < count", "i = 1; i < count - 1", "AssertionError: assert 36 == 45"),
+    "returns": ("while (1) {\n    while", "while (beats < 3) {\n    while",
+                "puck: main (…/main.c:47): unexpected reset: main() returned: there is nothing to return to, so the processor resets"),
 }
 
 
@@ -164,9 +174,9 @@ def graded(tmp_path_factory):
 
 
 def messages(base, name):
-    """All that is said of a submission's failures."""
+    """The first lines of a submission's failures."""
     suite = next(s for s in xml.etree.ElementTree.parse(base / "g.xml").iter("testsuite") if s.get("name") == name)
-    return "\n".join((f.text or "") + f.get("message", "") for kind in ("failure", "error") for f in suite.iter(kind))
+    return [f.get("message") for kind in ("failure", "error") for f in suite.iter(kind)]
 
 
 def test_the_faultless_program_has_all_points(graded):
@@ -182,8 +192,7 @@ def test_the_faultless_program_has_all_points(graded):
 @pytest.mark.parametrize("name", PLANTED)
 def test_a_planted_error_fails_a_test_whose_message_names_it(graded, name):
     _, base = graded
-    said = messages(base, name)
-    assert re.search(PLANTED[name][2], said), said
+    reads(messages(base, name)[0], PLANTED[name][2])
 
 
 def test_the_page_holds_what_was_said(graded):
@@ -251,18 +260,8 @@ def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command
     assert time.monotonic() - began < 400 and done.returncode == 0
     rows = {row["submission"]: row for row in csv.DictReader(open(tmp_path / "g.csv", encoding="utf-8"))}
     assert rows["quick"]["points"] == "3" and re.search(r"^quick +50 % +pass +3$", done.stdout, re.M)
-    assert "got no end after 30 s" in rows["slow"]["problem"] and rows["slow"]["points"] == "0"
-
-
-@pytest.mark.parametrize("words, said", [
-    (("nowhere", "--submissions", "."), "nowhere: tests: got nothing"), ((".", "--submissions", "no"), "--submissions: got no folder"),
-    ((".", "--submissions", "empty"), "got an empty folder"), ((".", "--submissions", ".", "--seeds", "x"), "--seeds: got 'x'"),
-    ((".", "--submissions", ".", "--limit", "0"), "--limit: got 0"), ((".", "--submissions", ".", "--jobs", "0"), "--jobs: got 0"),
-    ((".",), "--submissions")])
-def test_bad_calls_are_bad_input(tmp_path, command, words, said):
-    (tmp_path / "empty").mkdir()
-    done = command("grade", *words, cwd=tmp_path)
-    assert done.returncode == 2 and said in done.stderr
+    reads(rows["slow"]["problem"], "got no end after 30 s, expected one (--limit)")
+    assert rows["slow"]["points"] == "0"
 
 
 def test_ctrl_c_ends_all_of_it(tmp_path):
@@ -277,11 +276,3 @@ def test_ctrl_c_ends_all_of_it(tmp_path):
     time.sleep(0.5)
     running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
     assert str(tmp_path) not in running
-
-
-def test_a_table_that_cannot_be_written_is_told(tmp_path, command):
-    (tmp_path / "tests").mkdir()
-    (tmp_path / "tests" / "test_a.py").write_text("def test_a(): pass\n")
-    (tmp_path / "class" / "a").mkdir(parents=True)
-    done = command("grade", "tests", "--submissions", "class", "--csv", "/dev/full", cwd=tmp_path)
-    assert done.returncode == 7 and "cannot be written" in done.stderr

@@ -7,7 +7,7 @@ import time
 import pytest
 from conftest import TWINPUCK
 
-from twinpuck import TwinpuckError, live
+from twinpuck import live
 
 DRIVE = """#include <motor_led/e_init_port.h>
 #include <motor_led/advance_one_timer/e_motors.h>
@@ -57,18 +57,11 @@ def test_a_client_steps_looks_and_touches(view):
         assert len(page.frame(lambda f: f.rays).rays) == 8
 
 
-def test_what_is_refused_says_why(view):
+def test_who_is_refused_gets_what_stands_there(view):
     with view() as page:
-        with pytest.raises(live.Refused, match="did you mean step"):
-            page.ask("stepp")
         with pytest.raises(live.Refused) as refused:
             page.ask("write_source", program="drive", file="main.c", text="int x;", base="")
         assert refused.value.more["conflict"]["text"] == DRIVE
-        page.timeout = 0.2
-        with pytest.raises(TimeoutError):
-            page.event("says")
-    with pytest.raises(TwinpuckError, match="nowhere"):
-        live.start("nowhere", command=TWINPUCK)
 
 
 def cpu_s(process):

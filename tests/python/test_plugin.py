@@ -8,6 +8,8 @@ import xml.etree.ElementTree
 
 import pytest
 
+from conftest import reads
+
 WORLD = """twinpuck = 1
 [arena]
 size = [1, 1]
@@ -88,16 +90,6 @@ def test_markers_say_what_a_test_runs_over(mine, command):
     assert sum("test_seeds" in name for name in names(command("test", "-v", "--seeds", "3", cwd=folder).stdout)) == 2
 
 
-@pytest.mark.parametrize("words, said", [
-    (("--seeds", "5..1"), "--seeds: got '5..1', expected numbers from 0"), (("--seeds", "x"), "--seeds: got 'x'"),
-    (("--hal", "native"), "--hal: got 'native', expected sim or dspic"),
-    (("--selector", "16"), "--selector: got '16', expected numbers from 0 to 15"),
-    (("--seeds", "0..999999999"), "--seeds: got"), (("nowhere.py",), "not found"), (("--nothing",), "unrecognized")])
-def test_bad_words_are_bad_input(mine, command, words, said):
-    done = command("test", *words, cwd=mine("def test_x(world): pass\n"))
-    assert done.returncode == 2 and said in done.stdout + done.stderr
-
-
 def test_exit_codes(mine, command):
     folder = mine("def test_good(): pass\ndef test_bad(): assert 0\n")
     assert command("test", "-k", "good", cwd=folder).returncode == 0
@@ -112,35 +104,24 @@ def test_a_failure_shows_what_it_can_and_leaves_a_run_to_look_at(mine, command):
                   "    assert not robot.leds[0]\n")
     done = command("test", "--seeds", "4", "--junitxml", "out.xml", cwd=folder)
     assert done.returncode == 1
-    for part in ("assert not", "at 0.500 s, seed 4", "stands in main", "main.c:15", "last lines of uart1:", "selector 0",
-                 "picture: .twinpuck/failures/", "again:   twinpuck view --replay '.twinpuck/failures/"):
-        assert part in done.stdout, part
     # inside of twinpuck nobody wants to see
     assert "_world.py" not in done.stdout
     case = xml.etree.ElementTree.parse(folder / "out.xml").find(".//testcase")
     properties = {p.get("name"): p.get("value") for p in case.iter("property")}
     assert properties["twinpuck_seed"] == "4" and properties["twinpuck_time_s"] == "0.5"
-    assert "[[ATTACHMENT|" + properties["twinpuck_picture"] + "]]" in case.find("system-out").text
-    assert "stands in main" in case.find("system-out").text
+    left = ".twinpuck/failures/test_mine.py_test_dark[seed=4]/"
+    reads(case.find("system-out").text.partition("\n")[2],
+          "at 0.500 s, seed 4\npuck: at (0.000, 0.000) m, 0 deg, selector 7, battery 4.00 V\n"
+          "  its program (…, hal sim) stands in main (…/main.c:15)\n"
+          "  it goes round in main() (main.c:15), … to …, and reads nothing by its address\n"
+          f"  last lines of uart1:\n    selector 0\npicture: {left}picture.png\n"
+          f"again:   twinpuck view --replay '{left}run.inputs'\n"
+          f"[[ATTACHMENT|{folder}/{left}picture.png]]\n[[ATTACHMENT|{folder}/{left}run.inputs]]")
     with open(properties["twinpuck_picture"], "rb") as picture:
         assert picture.read(4) == b"\x89PNG"
     again = command("run", "--replay", properties["twinpuck_recording"], "--summary", "s.json", "-q", cwd=folder)
     assert again.returncode == 0, again.stderr
     assert json.loads((folder / "s.json").read_text())["simulated_s"] == 0.5
-
-
-def test_a_trap_fails_a_test_with_its_line(mine, command):
-    folder = mine("def test_it(world):\n    world.run(1)\n",
-                  main__c="volatile int zero;\nint main(void)\n{\n  zero = 1 / zero;\n  while (1) ;\n}\n")
-    done = command("test", cwd=folder)
-    assert done.returncode == 1 and "math error" in done.stdout and re.search(r"main \(.*main\.c:4\)", done.stdout)
-
-
-def test_a_program_that_does_not_compile_fails_each_test(mine, command):
-    folder = mine("def test_a(world): pass\ndef test_b(world): pass\n", main__c="int main(void) { retrun 0; }\n")
-    done = command("test", cwd=folder)
-    assert done.returncode == 1 and done.stdout.count("main.c:1:18: error") >= 2
-    assert "_core" not in done.stdout  # nor the inside
 
 
 def test_plain_pytest_has_long_options_and_takes_no_short_ones_away(mine):
@@ -151,11 +132,6 @@ def test_plain_pytest_has_long_options_and_takes_no_short_ones_away(mine):
     words = [sys.executable, "-m", "pytest", "-p", "twinpuck.pytest_plugin", "--hal", "mine", "--twinpuck-seeds", "3"]
     done = subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=600, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
-
-
-def test_no_world_is_said(project, command):
-    done = command("test", cwd=project(test_a__py="def test_a(world): pass\n"))
-    assert done.returncode == 1 and "got no world.toml, expected one beside the test" in done.stdout
 
 
 def test_firmware_of_the_command_line_goes_before(mine, command, programs):
@@ -171,8 +147,7 @@ def test_coverage_and_sanitize(mine, command):
     assert f"SF:{folder / 'main.c'}" in (folder / "c.info").read_text()
     (folder / "main.c").write_text("int few[2]; volatile int n = 3;\nint main(void) { few[n] = 1; while (1) ; }\n")
     assert command("test", cwd=folder).returncode == 0
-    done = command("test", "--sanitize", cwd=folder)
-    assert done.returncode == 1 and "few" in done.stdout
+    assert command("test", "--sanitize", cwd=folder).returncode == 1
 
 
 def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path):
@@ -229,27 +204,6 @@ that = "led0 && $position == selector && time_s > 0.25"
     assert {f"robot.test.toml::says its selector[selector={i}]" for i in range(3)} <= set(names(done.stdout))
 
 
-@pytest.mark.parametrize("text, said", [
-    ('[[step]]\nexpect = "never"\nwithin_s = 0.1\nbecause = "it should"\n',
-     r"robot.test.toml:3: robot 'puck' uart1: expected 'never' within 0.1 s, got .*selector 0.*; it should"),
-    ('[[step]]\nwait = "led3"\n[[step]]\nwait = 1\n', r"robot.test.toml:3: step 1: expected 'led3' within 1 s, got otherwise up to 1.000 s \(it is 0\)"),
-    ('[[always]]\nthat = "!led0"\n', r"robot.test.toml:3: always: expected always '!led0', got otherwise at 0.0\d+ s"),
-    ('[[never]]\nthat = "led0"\nfrom_s = 0.5\nbecause = "dark"\n', r"robot.test.toml:3: never: expected never 'led0', got it at 0.500 s; dark"),
-    ('[[finally]]\nthat = "led0"\n[[finally]]\nthat = "led1"\n', r"robot.test.toml:5: finally: expected 'led1', got otherwise at 1.000 s"),
-    ('[[step]]\nwait = "lde3"\n', r"robot.test.toml:3: step: condition 'lde3': .*did you mean 'led"),
-    ('[[step]]\nset = "positon = 3"\n', r"robot.test.toml:3: step.set: .*"),
-    ('[[step]]\nwait = 5\n', r"robot.test.toml:3: step.wait: got 5 s, expected at most the 1 s that are left of at_most_s = 1"),
-    ('[[step]]\nexpect = "("\n', r"robot.test.toml:3: step.expect: got '\(', expected a regular expression"),
-    ('robot = "pack"\n[[step]]\nturn = 3\n', r"did you mean 'puck'"),
-])
-def test_what_a_test_file_expects_and_is_not_so(mine, command, text, said):
-    done = command("test", cwd=mine(robot__test__toml='world = "world.toml"\nat_most_s = 1\n'.replace("\n", "; ", 0) + text
-                                    if not text.startswith("robot") else f'world = "world.toml"\nat_most_s = 1\n{text}'))
-    assert done.returncode == 1, done.stdout
-    assert re.search(said, done.stdout), done.stdout
-    assert "again:   twinpuck view --replay" in done.stdout and "_declarative.py" not in done.stdout
-
-
 def test_steps_touch_the_robot(mine, command):
     folder = mine(robot__test__toml="""
 world = "world.toml"
@@ -274,21 +228,6 @@ wait = 0.1
 that = "$position == 12 && battery_v < 3.6"
 """)
     assert command("test", cwd=folder).returncode == 0
-
-
-@pytest.mark.parametrize("text, said", [
-    ('wrld = "x"\n', "unknown key 'wrld' in test; did you mean 'world'?"),
-    ('world = "world.toml"\nat_most_s = -1\n', "test.at_most_s: got -1, expected a number from 0 to 1e+06 s"),
-    ('world = "world.toml"\n[[step]]\nturn = 16\n', "robot.test.toml:2: step.turn: got 16, expected a whole number from 0 to 15"),
-    ('world = "world.toml"\n[[step]]\nturn = 1\nwait = 1\n', "step: got wait and turn to do, expected one of"),
-    ('world = "world.toml"\n[[step]]\n', "step: got nothing to do"),
-    ('world = "world.toml"\n[[always]]\n', "robot.test.toml:2: always.that: is missing"),
-    ('world = "world.toml"\nstep = 3\n', "step: got 3, expected [[step]] tables"),
-    ('world = "world.toml"\nseeds = "9..1"\n', "seeds: got '9..1'"), ('world = [\n', "Invalid"),
-    ('at_most_s = 1\n', "world: is missing")])
-def test_a_wrong_test_file_is_told_with_all_that_is_wrong(mine, command, text, said):
-    done = command("test", cwd=mine(robot__test__toml=text))
-    assert done.returncode == 2 and said in done.stdout, done.stdout
 
 
 def test_the_page_of_test_files_is_made_of_the_table():

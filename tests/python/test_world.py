@@ -48,31 +48,6 @@ def test_file_text_and_dict_are_one_world(tmp_path, programs):
     assert len(set(digests)) == 1
 
 
-@pytest.mark.parametrize("source, options, said", [
-    ("mase", {}, "mase: world: got a name that is neither a file, with or without .toml, nor one of worlds/; did you mean 'maze'?"),
-    ({**ARENA, "robots": []}, {}, "did you mean 'robot'?"),
-    ({"arena": {"size": [1, -1]}}, {}, "arena.size"),
-    ({**ARENA, "robot": [{"name": "puck", "firmware": "obstcle", "position": [0, 0]}]}, {}, "did you mean 'obstacle'?"),
-    ("maze", {"hal": "simm"}, "World: hal: got 'simm', expected 'sim' or 'dspic'"),
-    ("maze", {"traps": "ignore"}, "World: traps: got 'ignore', expected 'raise' or 'report'"),
-    ("maze", {"threads": 0}, "World: threads: got 0, expected 1 to 256"),
-    ("maze", {"optimise": "3"}, "World: optimise: got '3'"),
-    ("maze", {"measured": ["pick"]}, "measured: got 'pick', expected a robot of the world, or *"),
-    ("maze", {"firmware": {"pack": "blink"}}, "pack"),
-])
-def test_what_is_wrong_with_a_world_is_said(source, options, said):
-    with pytest.raises(twinpuck.WorldError) as wrong:
-        twinpuck.World(source, **options)
-    assert said in str(wrong.value)
-    assert wrong.value.problems
-
-
-def test_a_program_that_does_not_compile_is_told_with_its_line(programs):
-    with pytest.raises(twinpuck.WorldError) as wrong:
-        twinpuck.World("empty", firmware=programs("int main(void)\n{ return x; }\n"))
-    assert "main.c:2:" in str(wrong.value)
-
-
 def test_zero_robots_and_a_thousand():
     with twinpuck.World(ARENA) as world:
         world.run(1)
@@ -96,10 +71,6 @@ def test_time_goes_in_ticks(opened):
     assert world.time_s == 5 / 512
     world.run(0)
     assert world.time_s == 5 / 512
-    with pytest.raises(ValueError, match="run: got -1"):
-        world.run(-1)
-    with pytest.raises(ValueError):
-        world.run(float("nan"))
 
 
 def test_run_until_asks_before_and_after_each_tick(opened):
@@ -124,8 +95,6 @@ def test_what_a_condition_raises_passes(opened):
     with pytest.raises(ZeroDivisionError):
         world.run_until(lambda: world.time_s > 0.01 and 1 / 0, at_most=1)
     world.run(0.1)  # it goes on
-    with pytest.raises(twinpuck.WorldError, match="did you mean 'distance_m'"):
-        world.run_until("distnce_m > 1", at_most=1)
 
 
 def test_callables_look_each_tick_and_may_move_things(opened):
@@ -144,8 +113,6 @@ def test_callables_look_each_tick_and_may_move_things(opened):
     world.off_tick(shove)
     world.run(0.1)
     assert len(seen) == 52
-    with pytest.raises(RuntimeError, match="runs already"):
-        world.run_until(lambda: world.run(0.1), at_most=1)
 
 
 def test_reset_is_a_fresh_start():
@@ -208,7 +175,7 @@ def test_the_interpreter_goes_on_while_a_world_runs():
             refused = str(wrong)
     thread.join()
     assert counted[0] > 10
-    assert refused is None or "runs in another thread" in refused
+    assert refused in (None, "world: got a question while it runs in another thread, expected it when run() has returned")
 
 
 def test_ctrl_c_ends_a_run_at_a_tick_and_the_world_goes_on():
@@ -255,9 +222,6 @@ def test_a_closed_world_says_so(opened):
     world = opened(IDLE)
     world.close()
     world.close()
-    for use in (lambda: world.run(1), lambda: world.time_s, lambda: world.robots[0].x_m, lambda: world.poses):
-        with pytest.raises(RuntimeError, match="the world is closed"):
-            use()
     assert repr(world) == "<World, closed>"
 
 
@@ -272,14 +236,6 @@ def test_a_recording_has_rows_at_multiples_of_its_time():
     assert array["left_steps"][-1] == robot.steps[0] and array["ir3"][-1] == robot.proximity[3]
     assert array["x_m"][-1] == robot.x_m and array["battery_v"][-1] == robot.battery_v
     assert (recording.of("puck") == array).all()
-    with pytest.raises(ValueError, match="every_s"):
-        world.record(0)
-
-
-def test_what_is_no_recording_is_refused(tmp_path):
-    (tmp_path / "x.csv").write_text("a,b\n1,2\n")
-    with pytest.raises(ValueError, match="got columns"):
-        twinpuck.read_recording(tmp_path / "x.csv")
 
 
 def test_pictures_are_png_or_svg(opened, tmp_path):
@@ -288,8 +244,6 @@ def test_pictures_are_png_or_svg(opened, tmp_path):
     assert png[:8] == b"\x89PNG\r\n\x1a\n" and (tmp_path / "a.png").read_bytes() == png
     assert world.picture()[:4] == b"\x89PNG" and world._repr_png_()[:4] == b"\x89PNG"
     assert b"<svg" in world.picture(tmp_path / "a.svg", rays=True)
-    with pytest.raises(RuntimeError, match="cannot|No such"):
-        world.picture(tmp_path / "no" / "a.png")
 
 
 def test_every_touch_is_in_the_recording_that_run_repeats(command, tmp_path, programs):
@@ -334,7 +288,7 @@ def test_every_touch_is_in_the_recording_that_run_repeats(command, tmp_path, pro
     lambda w: w.robots[0].press_key(64), lambda w: w.robots[0].move(1e9, 0)])
 def test_what_cannot_be_done_to_a_world_is_an_error_and_nothing_changes(opened, touch):
     world, other = opened(IDLE), opened(IDLE)
-    with pytest.raises(ValueError, match="got|expected|JSON"):
+    with pytest.raises(ValueError):
         touch(world)
     world.run(0.1), other.run(0.1)
     assert world.digest == other.digest
@@ -349,14 +303,10 @@ def test_supervisors_end_runs_and_programs_of_the_pc_run(tmp_path):
         assert any("hello" in line for line in world.supervisor_lines)
 
 
-def test_names_that_are_not_there_are_guessed_at():
+def test_robots_have_names_and_numbers():
     world = twinpuck.World("maze", firmware="blink")
     assert world.robots.names == ["puck"] and "puck" in world.robots and len(world.robots) == 1
     assert world.robots[0] is world.robots["puck"] is list(world.robots)[0] is world.robots[-1]
-    with pytest.raises(KeyError, match="did you mean 'puck'"):
-        world.robots["pock"]
-    with pytest.raises(IndexError):
-        world.robots[1]
 
 
 def test_signals_by_name(opened):

@@ -179,7 +179,7 @@ static int connect_to(const char* path) {
   strcpy(address.sun_path, path);
   fd = socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
   if (fd < 0 || connect(fd, (struct sockaddr*)&address, sizeof address) != 0)
-    fatal("%s: nobody waits there (%s); start the simulation first: twinpuck run WORLD --extern ROBOT", path,
+    fatal("%s: got nobody who waits there (%s), expected a simulation; start one first: twinpuck run WORLD --extern ROBOT", path,
           strerror(errno));
   return fd;
 }
