@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Small worlds of Webots, one per feature, and what must stand in ours. Expectations are worked out by hand
 // from the .wbt text.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -325,6 +326,23 @@ Solid { children [ USE NOBODY ] }
     EXPECT_NEAR(o.material.colour.g, 0.5, 1e-6);
   }
   EXPECT_TRUE(r.reports(5, {"USE NOBODY", "no DEF"})) << r.all_reports();
+}
+
+TEST(Import, a_colour_is_written_unless_it_is_the_usual_one) {
+  for (const sim::Colour& c :
+       {sim::Colour{0.5, 1, 1}, sim::Colour{1, 0.5, 1}, sim::Colour{1, 1, 0.5}, sim::Colour{1, 1, 1}}) {
+    const std::string diffuse = fmt::format("{} {} {}", c.r, c.g, c.b);
+    const Result r =
+        import(kOld + ("Solid { children [ DEF S Shape { appearance Appearance { material Material { "
+                       "diffuseColor " +
+                       diffuse +
+                       " } } geometry Box { size 0.1 0.1 0.1 } } ] "
+                       "boundingObject USE S }"));
+    ASSERT_EQ(r.world.objects.size(), 1u);
+    const sim::Colour& made = r.world.objects[0].material.colour;
+    EXPECT_TRUE(made.r == c.r && made.g == c.g && made.b == c.b) << diffuse;
+    EXPECT_EQ(r.has("colour = "), diffuse != "1 1 1") << r.made.toml;
+  }
 }
 
 TEST(Import, lights_become_lamps_and_ambient_light) {

@@ -133,11 +133,15 @@ TEST_F(BuildTest, folders_are_told_apart) {
 TEST_F(BuildTest, files_are_told_apart) {
   const fs::path at = folder("files", {{"a.py", "1\n"},
                                        {"a.c", "int main(){}\n"},
+                                       {"b.PY", "1\n"},
+                                       {"c.Cpp", "int main(){}\n"},
                                        {"script", "#!/bin/sh\necho 1\n"},
                                        {"chip.hex", ":00000001FF\n"},
                                        {"text", "words\n"}});
   EXPECT_TRUE(programs::is_pc_program((at / "a.py").string()));
   EXPECT_TRUE(programs::is_pc_program((at / "a.c").string()));
+  EXPECT_TRUE(programs::is_pc_program((at / "b.PY").string()));
+  EXPECT_TRUE(programs::is_pc_program((at / "c.Cpp").string()));
   EXPECT_TRUE(programs::is_pc_program((at / "script").string()));
   EXPECT_TRUE(programs::is_pc_program("/bin/sh"));
   EXPECT_FALSE(programs::is_pc_program((at / "chip.hex").string()));
