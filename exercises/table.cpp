@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/toml_parser.h"

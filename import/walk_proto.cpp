@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The floors, walls and blocks that come with Webots as PROTOs.
-#include <fmt/format.h>
 
 #include <algorithm>
 

@@ -10,7 +10,6 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
-#include "install/places.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/verbs.h"
 

@@ -11,7 +11,6 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
-#include "viewer/text_file.h"
 
 namespace viewer {
 

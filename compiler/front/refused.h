@@ -2,7 +2,6 @@
 // What a PC offers and a robot does not: named here once, for headers and for functions, with
 // what to use instead.
 #pragma once
-#include <string>
 
 #include "llvm/ADT/StringRef.h"
 

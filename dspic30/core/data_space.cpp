@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/core/data_space.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/llvm/registers.h"
 
-#include "dspic30/llvm/frames.h"
 #include "dspic30/llvm/interrupts.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 #include "llvm/CodeGen/MachineFunction.h"

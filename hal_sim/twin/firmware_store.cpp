@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // From what a user calls a firmware to an image file: a file as it is, a folder or a
 // controller's name built first.
-#include <climits>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "compiler/build/build.h"
 #include "hal_sim/twin/firmware_store.h"
 #include "install/cache_bound.h"
 #include "install/places.h"
-#include "programs/build/build.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 

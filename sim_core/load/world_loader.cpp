@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <sstream>
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/floor_image.h"

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "compiler/build/build.h"
 #include "tests/support/wording.h"

@@ -3,7 +3,6 @@
 // from the .wbt text.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "hal_sim/board/epuck_model.h"

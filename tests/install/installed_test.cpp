@@ -3,7 +3,6 @@
 // while clone and build folder are out of sight and the installed tree cannot be written to.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>

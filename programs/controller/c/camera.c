@@ -2,7 +2,6 @@
  * Cameras: their picture, and the objects that they recognise on it.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "programs/controller/c/library.h"

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Emitters and receivers of packets.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "programs/controller/c/library.h"
