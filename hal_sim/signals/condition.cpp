@@ -315,10 +315,4 @@ bool Condition::holds(twin::Twin& twin) const {
   return now != 0 && !std::isnan(now);
 }
 
-bool Condition::rises(twin::Twin& twin) {
-  const bool held = held_;
-  held_ = holds(twin);
-  return held_ && !held;
-}
-
 }  // namespace signals
