@@ -78,6 +78,7 @@ const kNoWorld: World = {
   title: "",
   file: "",
   text: "",
+  base: "",
   step_s: 0.032,
   tick_s: 1 / 512,
   floor: { colour: [1, 1, 1], image: "" },
@@ -96,6 +97,7 @@ const kNoState: State = {
   undo: false,
   redo: false,
   steering: 0,
+  debugging: "",
   runs: false,
 };
 
