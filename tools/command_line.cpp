@@ -114,9 +114,8 @@ std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, c
     return option + ": got '" + given_for(option, argc, argv) + "', expected a number" +
            (option == "--for" ? " of seconds" : "") + ", without a unit";
   const auto verb_is = [&](const std::string& word) {
-    const std::string guess = sim::did_you_mean(word, known_words(*root_of(at)));
     return "verb: got '" + word + "', expected one of those that `twinpuck --help` lists" +
-           (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+           sim::did_you_mean_tail(word, known_words(*root_of(at)));
   };
   if (at.get_name() == "help" && argc > 2) return verb_is(argv[2]);
   if (is(CLI::ExitCodes::RequiredError) && !at.get_parent() && argc > 1) return verb_is(argv[1]);
