@@ -43,6 +43,21 @@ void add_hal(CLI::App& verb, std::string& hal) {
   verb.add_option_function<std::string>("--way", gone)->group("");
 }
 
+void add_firmware(CLI::App& verb, std::vector<std::string>& firmware) {
+  one_each(verb.add_option(
+      "--fw", firmware,
+      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
+      "every robot"));
+}
+
+void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads) {
+  verb.add_option("--seed", seed, "the world's seed, 0 or more, instead of the file's")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--threads", threads, "threads that run firmware; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+}
+
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
   const twin::FoundWorld found = twin::find_world(name, problems);
   if (!found.notice.empty()) std::cerr << found.notice << '\n';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/llvm/registers.h"
 
+#include "dspic30/llvm/frames.h"
 #include "dspic30/llvm/interrupts.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
 #include "llvm/CodeGen/MachineFunction.h"

@@ -14,6 +14,7 @@
 #include "hal_sim/drivers/driver_params.h"
 #include "programs/puck/ranging.h"
 #include "programs/puck/records.h"
+#include "programs/puck/world_device.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/world/scene.h"
 
