@@ -193,7 +193,6 @@ class Reader {
       }
     }
     out.remarks = std::move(remarks_);
-    out.nodes_read = used_;
   }
 
   /// From behind the word PROTO and its name. `skip_body`: read on behind its closing brace.

@@ -7,6 +7,7 @@
 
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
+#include "sim_core/base/base64.h"
 
 namespace debug {
 
@@ -409,18 +410,6 @@ void DapServer::evaluate(const Json& request) {
 
 namespace {
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < left ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= left ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 /// "0x900", or a number alone. False: it is none.
 bool reference_of(const nlohmann::json& arguments, std::int64_t& address) {
   const std::string text = arguments.at("memoryReference");
@@ -447,7 +436,8 @@ void DapServer::read_memory(const Json& request) {
     session_->machine().read({at, 1}, &byte);
     bytes.push_back(byte);
   }
-  Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))}, {"data", base64(bytes)}};
+  Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))},
+            {"data", sim::base64({bytes.begin(), bytes.end()})}};
   if (const auto missing = wanted - static_cast<std::int64_t>(bytes.size()); missing > 0)
     body["unreadableBytes"] = missing;
   respond(request, body);
