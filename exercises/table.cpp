@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/toml_parser.h"
@@ -49,8 +48,7 @@ class Reader {
     for (const auto& [key, node] : t) {
       const std::string name(key.str());
       if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      const std::string guess = sim::did_you_mean(name, known);
-      problem(node, "unknown key '" + name + "'" + (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+      problem(node, "unknown key '" + name + "'" + sim::did_you_mean_tail(name, known));
     }
   }
 
@@ -92,9 +90,8 @@ class Reader {
     const std::vector<std::string> known(std::begin(kMeasureNames), std::end(kMeasureNames));
     for (std::size_t i = 0; i < known.size(); ++i)
       if (known[i] == name) return static_cast<Measure>(i);
-    const std::string guess = sim::did_you_mean(name, known);
-    problem(where, "got measure '" + name + "', expected one that is known" +
-                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    problem(where,
+            "got measure '" + name + "', expected one that is known" + sim::did_you_mean_tail(name, known));
     return Measure::Count;
   }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <ctime>
-#include <filesystem>
 
 #include "hal_sim/twin/world_file.h"
 #include "install/places.h"

@@ -3,7 +3,6 @@
 
 #include "import/carried.h"
 #include "import/walk.h"
-#include "import/wbt_reader.h"
 
 namespace wbt {
 

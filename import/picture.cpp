@@ -3,12 +3,9 @@
 #include "import/picture.h"
 
 #include <csetjmp>
-#include <cstdio>
 // libjpeg wants FILE to be known
 #include <jpeglib.h>
 
-#include <memory>
-#include <string>
 #include <vector>
 
 #include "sim_core/base/input_file.h"

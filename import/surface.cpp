@@ -15,11 +15,6 @@ namespace fs = std::filesystem;
 
 double part(double x) { return std::clamp(x, 0.0, 1.0); }
 
-sim::Colour colour_of(const Node& n, const char* field, double otherwise) {
-  return {part(n.number(field, otherwise, 0)), part(n.number(field, otherwise, 1)),
-          part(n.number(field, otherwise, 2))};
-}
-
 sim::Colour times(sim::Colour a, sim::Colour b) { return {a.r * b.r, a.g * b.g, a.b * b.b}; }
 
 // what names of pictures and appearances say
@@ -42,6 +37,11 @@ std::optional<sim::Colour> named(std::string name) {
 std::string url_of(const Node& texture) { return texture.text("url"); }
 
 }  // namespace
+
+sim::Colour colour_of(const Node& n, const char* field, double otherwise) {
+  return {part(n.number(field, otherwise, 0)), part(n.number(field, otherwise, 1)),
+          part(n.number(field, otherwise, 2))};
+}
 
 std::string Surfaces::find(const std::string& url) const {
   if (folder_.empty() || url.empty() || url.size() > 1000) return {};

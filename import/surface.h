@@ -11,6 +11,9 @@
 
 namespace wbt {
 
+/// Red, green and blue of a field, each 0 to 1; `otherwise` where it is not written.
+sim::Colour colour_of(const Node& n, const char* field, double otherwise);
+
 class Surfaces {
  public:
   /// `folder`: of the world; empty: no file is read.

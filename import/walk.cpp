@@ -199,10 +199,7 @@ void Walk::world_info(const Node& n) {
 }
 
 void Walk::background(const Node& n) {
-  if (n.field("skyColor"))
-    scene_.sky = sim::Colour{std::clamp(n.number("skyColor", 0, 0), 0.0, 1.0),
-                             std::clamp(n.number("skyColor", 0, 1), 0.0, 1.0),
-                             std::clamp(n.number("skyColor", 0, 2), 0.0, 1.0)};
+  if (n.field("skyColor")) scene_.sky = colour_of(n, "skyColor", 0);
 }
 
 void Walk::lamp(const Node& n, const Affine& frame) {
@@ -210,9 +207,7 @@ void Walk::lamp(const Node& n, const Affine& frame) {
   out.type = n.type;
   out.line = n.line;
   // What all kinds of lamps have.
-  const sim::Colour c{std::clamp(n.number("color", 1, 0), 0.0, 1.0),
-                      std::clamp(n.number("color", 1, 1), 0.0, 1.0),
-                      std::clamp(n.number("color", 1, 2), 0.0, 1.0)};
+  const sim::Colour c = colour_of(n, "color", 1);
   out.lamp.name = n.def;
   out.lamp.colour = c;
   out.lamp.on = n.truth("on", true);

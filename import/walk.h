@@ -2,7 +2,6 @@
 // Goes through the nodes of a world and sorts what it meets into a Scene: which node is a body, a robot, a
 // floor, a lamp. Knows the PROTOs that come with Webots by name, and unfolds those that lie beside the world.
 #pragma once
-#include <map>
 #include <set>
 #include <string>
 #include <vector>

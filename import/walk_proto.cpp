@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The floors, walls and blocks that come with Webots as PROTOs.
-#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -100,11 +99,7 @@ void Walk::arena(const Node& n, const Affine& frame) {
   }
   // Walls and floor without a look of their own have the PROTO's.
   if (const Node* look = n.node("wallAppearance")) a.walls = surfaces_.of(look);
-  if (n.field("wallColor"))
-    a.walls = Surface{
-        {std::clamp(n.number("wallColor", 1, 0), 0.0, 1.0), std::clamp(n.number("wallColor", 1, 1), 0.0, 1.0),
-         std::clamp(n.number("wallColor", 1, 2), 0.0, 1.0)},
-        0};
+  if (n.field("wallColor")) a.walls = Surface{colour_of(n, "wallColor", 1), 0};
   if (!a.walls) a.walls = Surface{kMetal, 0};
   if (!a.floor) a.floor = Surface{kParquet, 0};
   known_fields(
@@ -196,10 +191,7 @@ void Walk::block_proto(const Node& n, const Affine& frame) {
   b.pieces = pieces_of(shape, place, z_up_, why);
   if (!why.empty()) report_.add(n, why);
   Surface surface{known->colour, 0};
-  if (n.field("color"))
-    surface.colour = {std::clamp(n.number("color", 1, 0), 0.0, 1.0),
-                      std::clamp(n.number("color", 1, 1), 0.0, 1.0),
-                      std::clamp(n.number("color", 1, 2), 0.0, 1.0)};
+  if (n.field("color")) surface.colour = colour_of(n, "color", 1);
   if (const Node* look = n.node("appearance")) surface = surfaces_.of(look);
   for (Piece& p : b.pieces) p.surface = surface;
   known_fields(n, {"size", "radius", "height", "mass", "physics", "color", "appearance", "contactMaterial",

@@ -158,6 +158,26 @@ bool same(const sim::ProximitySettings& a, const sim::ProximitySettings& b) {
          a.gaussian_width == b.gaussian_width;
 }
 
+// a lookupTable, nearest row first
+std::vector<sim::ResponseRow> sorted_rows(const Field& table) {
+  std::vector<sim::ResponseRow> rows;
+  for (std::size_t i = 0; i + 2 < std::min(table.numbers.size(), 3 * kMostRows + 3); i += 3)
+    rows.push_back({table.numbers[i], table.numbers[i + 1], std::max(0.0, table.numbers[i + 2])});
+  std::sort(rows.begin(), rows.end(),
+            [](const sim::ResponseRow& a, const sim::ResponseRow& b) { return a.distance_m < b.distance_m; });
+  return rows;
+}
+
+// two rows or more, in order, with values from `least` to `most`
+bool is_table(const std::vector<sim::ResponseRow>& rows, double farthest_m, double least, double most) {
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].distance_m < 0 || rows[i].distance_m > farthest_m || rows[i].value < least ||
+        rows[i].value > most || rows[i].relative_noise > most ||
+        (i > 0 && rows[i].distance_m <= rows[i - 1].distance_m + 1e-7))
+      return false;
+  return rows.size() >= 2 && rows.size() <= kMostRows;
+}
+
 }  // namespace
 
 void Walk::collect(const Node& n, const Affine& at, const std::set<std::string>& types,
@@ -443,19 +463,8 @@ void Walk::sensors(const std::vector<const Node*>& nodes, FoundRobot& out) {
     sim::ProximitySettings& p = s.proximity;
     // Its table, where it is one that a profile can have.
     if (const Field* table = d->field("lookupTable")) {
-      std::vector<sim::ResponseRow> rows;
-      for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
-        rows.push_back({table->numbers[i], table->numbers[i + 1], std::max(0.0, table->numbers[i + 2])});
-      std::sort(rows.begin(), rows.end(), [](const sim::ResponseRow& a, const sim::ResponseRow& b) {
-        return a.distance_m < b.distance_m;
-      });
-      bool good = rows.size() >= 2;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= kFarthestRowM && rows[i].value >= 0 &&
-               rows[i].value <= 1e6 && rows[i].relative_noise <= 1e6 &&
-               (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
-      }
-      if (good && rows.size() <= kMostRows)
+      const std::vector<sim::ResponseRow> rows = sorted_rows(*table);
+      if (is_table(rows, kFarthestRowM, 0, 1e6))
         p.table = rows;
       else
         report_.add(
@@ -504,17 +513,8 @@ void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
 std::vector<sim::ResponseRow> Walk::rows_of(const Node& n) {
   const Field* table = n.field("lookupTable");
   if (!table) return {{0, 0, 0}, {0.1, 1000, 0}};  // [Webots: DistanceSensor, the field's default]
-  std::vector<sim::ResponseRow> rows;
-  for (std::size_t i = 0; i + 2 < std::min(table->numbers.size(), 3 * kMostRows + 3); i += 3)
-    rows.push_back({table->numbers[i], table->numbers[i + 1], std::max(0.0, table->numbers[i + 2])});
-  std::sort(rows.begin(), rows.end(),
-            [](const sim::ResponseRow& a, const sim::ResponseRow& b) { return a.distance_m < b.distance_m; });
-  bool good = rows.size() >= 2 && rows.size() <= kMostRows;
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    good = good && rows[i].distance_m >= 0 && rows[i].distance_m <= kFarthestM &&
-           std::abs(rows[i].value) <= 1e9 && rows[i].relative_noise <= 1e9 &&
-           (i == 0 || rows[i].distance_m > rows[i - 1].distance_m + 1e-7);
-  if (good) return rows;
+  const std::vector<sim::ResponseRow> rows = sorted_rows(*table);
+  if (is_table(rows, kFarthestM, -1e9, 1e9)) return rows;
   report_.add(n, *table, "a table with fewer than two rows, or without order", "it measures nothing");
   return {};
 }

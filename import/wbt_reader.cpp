@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace wbt {
 
@@ -194,7 +193,6 @@ class Reader {
       }
     }
     out.remarks = std::move(remarks_);
-    out.nodes_read = used_;
   }
 
   /// From behind the word PROTO and its name. `skip_body`: read on behind its closing brace.

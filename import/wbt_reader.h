@@ -36,7 +36,6 @@ struct WorldText {
   std::map<std::string, Proto> protos;     ///< declared in the file itself
   std::vector<Remark> remarks;             ///< what was skipped
   std::vector<Remark> errors;              ///< when there is one, nothing else counts
-  std::size_t nodes_read = 0;
 
   /// True from the release on, such as at_least(2022, 'a').
   bool at_least(int y, char l) const { return year > y || (year == y && letter >= l); }

@@ -130,9 +130,8 @@ std::vector<std::string> Budgets::unknown(const dspic::FirmwareFile& program) co
         problems.push_back(fmt::format("{}: got function '{}', which {}", b.place, b.name, why));
     }
     if (b.of != Of::Interrupt || std::find(vectors.begin(), vectors.end(), b.name) != vectors.end()) continue;
-    const std::string guess = sim::did_you_mean(b.name, vectors);
     problems.push_back(fmt::format("{}: got interrupt '{}', which the program has not{}", b.place, b.name,
-                                   guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                                   sim::did_you_mean_tail(b.name, vectors)));
   }
   return problems;
 }

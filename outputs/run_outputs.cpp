@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "outputs/run_outputs.h"
 
-#include <fmt/format.h>
-
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <fstream>
 #include <iostream>
 

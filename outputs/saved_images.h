@@ -3,8 +3,6 @@
 // FOLDER/ROBOT_000001.png, and so on. Rows and columns as in the buffer.
 #pragma once
 #include <atomic>
-#include <cstdint>
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -51,11 +51,10 @@ bool TraceOutputs::add(const std::string& word, const char* option,
         mine.push_back(std::move(signal));
   }
   if (found) return true;
-  const std::string guess = sim::did_you_mean(robot, known);
   std::string names;
   for (const std::string& k : known) names += (names.empty() ? "" : ", ") + k;
   problems.push_back(where + "got robot '" + robot + "', expected one of " + names +
-                     (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                     sim::did_you_mean_tail(robot, known));
   return false;
 }
 

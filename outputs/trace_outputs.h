@@ -3,7 +3,6 @@
 // gathered robot by robot while they run and put in order at each tick, so the files do not depend on the
 // number of threads.
 #pragma once
-#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>

@@ -10,7 +10,6 @@
 
 #include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
-#include "install/places.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/verbs.h"
 
@@ -42,6 +41,21 @@ void add_hal(CLI::App& verb, std::string& hal) {
                                             "sim now, chip is --hal dspic");
   };
   verb.add_option_function<std::string>("--way", gone)->group("");
+}
+
+void add_firmware(CLI::App& verb, std::vector<std::string>& firmware) {
+  one_each(verb.add_option(
+      "--fw", firmware,
+      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
+      "every robot"));
+}
+
+void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads) {
+  verb.add_option("--seed", seed, "the world's seed, 0 or more, instead of the file's")
+      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--threads", threads, "threads that run firmware; the result does not depend on it")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
 }
 
 std::string find_world(const std::string& name, std::vector<std::string>& problems) {
@@ -115,9 +129,8 @@ std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, c
     return option + ": got '" + given_for(option, argc, argv) + "', expected a number" +
            (option == "--for" ? " of seconds" : "") + ", without a unit";
   const auto verb_is = [&](const std::string& word) {
-    const std::string guess = sim::did_you_mean(word, known_words(*root_of(at)));
     return "verb: got '" + word + "', expected one of those that `twinpuck --help` lists" +
-           (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+           sim::did_you_mean_tail(word, known_words(*root_of(at)));
   };
   if (at.get_name() == "help" && argc > 2) return verb_is(argv[2]);
   if (is(CLI::ExitCodes::RequiredError) && !at.get_parent() && argc > 1) return verb_is(argv[1]);

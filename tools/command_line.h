@@ -33,6 +33,9 @@ void add_help(CLI::App& app);
 CLI::Option* one_each(CLI::Option* option);
 /// "--hal sim|dspic" of a verb that builds or runs controllers; --way, which came before it, says so.
 void add_hal(CLI::App& verb, std::string& hal);
+/// "--fw" of a verb that runs a world; and "--seed", "--threads".
+void add_firmware(CLI::App& verb, std::vector<std::string>& firmware);
+void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads);
 
 /// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.
 bool split_choices(const std::vector<std::string>& words, const char* option,

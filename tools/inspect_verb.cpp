@@ -45,9 +45,8 @@ std::vector<outputs::CurveRequest> profiles_of(const std::string& names) {
     const std::string name = rest.substr(0, rest.find(','));
     const sim::ProximityProfile* profile = sim::find_profile(name);
     if (!profile) {
-      const std::string guess = sim::did_you_mean(name, known);
       wrong(fmt::format("--profile: got '{}', expected all or {}{}", name, fmt::join(known, ", "),
-                        guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                        sim::did_you_mean_tail(name, known)));
       return {};
     }
     out.push_back({name, sim::config_of(*profile)});
@@ -130,10 +129,10 @@ int inspect_world(const InspectArguments& a) {
     if (world.robots[i].name == a.robot) robot = static_cast<int>(i);
   }
   if (robot < 0) {
-    const std::string guess = sim::did_you_mean(a.robot, names);
+    const std::string tail = sim::did_you_mean_tail(a.robot, names);
     if (names.size() > 12) names.resize(12), names.push_back("...");
-    return wrong(fmt::format("--robot: got '{}', expected one of {}{}", a.robot, fmt::join(names, ", "),
-                             guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+    return wrong(
+        fmt::format("--robot: got '{}', expected one of {}{}", a.robot, fmt::join(names, ", "), tail));
   }
   const int sensors =
       static_cast<int>(world.model_of(world.robots[static_cast<std::size_t>(robot)])->proximity.size());

@@ -73,9 +73,7 @@ std::vector<std::string> parts_of(const std::string& trial) {
 }
 
 std::string guess_text(const std::string& word, const std::vector<std::string>& known) {
-  const std::string guess = sim::did_you_mean(word, known);
-  return fmt::format("expected one of {}{}", fmt::join(known, ", "),
-                     guess.empty() ? "" : "; did you mean '" + guess + "'?");
+  return fmt::format("expected one of {}{}", fmt::join(known, ", "), sim::did_you_mean_tail(word, known));
 }
 
 /// The trial that is meant, and the step it is of; none: lines in `problems`.

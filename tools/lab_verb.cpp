@@ -50,10 +50,8 @@ std::vector<const lab::Exercise*> choose(const std::vector<lab::Exercise>& all,
   }
   for (const std::string& id : ids) {
     if (std::find(known.begin(), known.end(), id) != known.end()) continue;
-    const std::string guess = sim::did_you_mean(id, known);
     problems.push_back(fmt::format("command line: lab: got '{}', expected one of {}{}", id,
-                                   fmt::join(known, " "),
-                                   guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                                   fmt::join(known, " "), sim::did_you_mean_tail(id, known)));
   }
   return chosen;
 }

@@ -16,7 +16,6 @@
 
 #include "compiler/projects/program_files.h"
 #include "hal_sim/twin/firmware_store.h"
-#include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/templates.h"
 #include "tools/verbs.h"

@@ -40,9 +40,8 @@ void add_paths(CLI::App& app, int& exit_code) {
   verb->add_option("WHAT", *what, fmt::format("one of them alone: {}", fmt::join(names, ", ")));
   verb->callback([what, names, &exit_code] {
     if (!what->empty() && std::find(names.begin(), names.end(), *what) == names.end()) {
-      const std::string guess = sim::did_you_mean(*what, names);
       complain({fmt::format("command line: WHAT: got '{}', expected one of {}{}", *what,
-                            fmt::join(names, ", "), guess.empty() ? "" : "; did you mean '" + guess + "'?")});
+                            fmt::join(names, ", "), sim::did_you_mean_tail(*what, names))});
       exit_code = kBadInput;
       return;
     }

@@ -74,8 +74,7 @@ std::string add_key(const std::string& robot, const std::string& press, std::vec
     if (code == named.name) key.code = named.code, known = true;
   }
   if (!known) {
-    const std::string guess = sim::did_you_mean(code, names);
-    return form + ", KEY 0 to 63 or a name" + (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+    return form + ", KEY 0 to 63 or a name" + sim::did_you_mean_tail(code, names);
   }
   std::string time = press.substr(at + 1);
   if (const std::size_t plus = time.find('+', 1); plus != std::string::npos) {
@@ -92,9 +91,8 @@ std::string add_key(const std::string& robot, const std::string& press, std::vec
     found = true;
   }
   if (found) return "";
-  const std::string guess = sim::did_you_mean(robot, robot_names);
   return fmt::format("got robot '{}', expected a robot of the world{}", robot,
-                     guess.empty() ? "" : "; did you mean '" + guess + "'?");
+                     sim::did_you_mean_tail(robot, robot_names));
 }
 
 }  // namespace tools

@@ -425,10 +425,7 @@ void add_run(CLI::App& app, int& exit_code) {
   auto a = std::make_shared<RunArguments>();
   auto* world = verb->add_option("WORLD", a->world, "world file, or the name of one in worlds/");
   verb->option_defaults()->group("Robots");
-  one_each(verb->add_option(
-      "--fw", a->firmware,
-      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
-      "every robot"));
+  add_firmware(*verb, a->firmware);
   add_hal(*verb, a->hal);
   one_each(verb->add_option(
       "--uart", a->uart1,
@@ -450,11 +447,7 @@ void add_run(CLI::App& app, int& exit_code) {
   verb->add_option("--for", a->seconds, "simulated seconds")->check(between(0, 1e7))->capture_default_str();
   auto* speed = verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
                     ->capture_default_str();
-  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_seed_and_threads(*verb, a->seed, a->threads);
   verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124)")
       ->check(between(0, 1e7));
   auto* replay =

@@ -2,7 +2,6 @@
 // The command twinpuck: options, help, and what is made of errors. Verbs live in files of their own.
 #include <algorithm>
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <iostream>

@@ -2,8 +2,6 @@
 // The verbs of the `twinpuck` command and what they share. Exit codes are those of docs/start.md.
 #pragma once
 #include <CLI/CLI.hpp>
-#include <string>
-#include <vector>
 
 namespace tools {
 

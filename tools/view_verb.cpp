@@ -88,10 +88,7 @@ void add_view(CLI::App& app, int& exit_code) {
   auto* replay = verb->add_option("--replay", a->replay,
                                   "show again what --record-inputs or a failed test wrote; the world is the "
                                   "recording's, and it stands still at the recording's end");
-  one_each(verb->add_option(
-      "--fw", a->firmware,
-      "[ROBOT=]FILE: a .elf or .hex, a folder of C files, or a controller's name; without ROBOT, for "
-      "every robot"));
+  add_firmware(*verb, a->firmware);
   verb->add_option("--port", a->port, "of 127.0.0.1; 0 takes any that is free")
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
@@ -100,11 +97,7 @@ void add_view(CLI::App& app, int& exit_code) {
       ->excludes(replay);
   add_hal(*verb, a->hal);
   one_each(verb->add_option("--supervisor", a->supervisors, "a program attached to the world"));
-  verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--threads", a->threads, "threads that run firmware; the result does not depend on it")
-      ->check(CLI::Range(1, 256))
-      ->capture_default_str();
+  add_seed_and_threads(*verb, a->seed, a->threads);
   verb->add_option(
           "--opt", a->optimisation,
           "level for controllers built from source; without it, that of a program's project file, else -O1")

@@ -11,7 +11,6 @@
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/schema.h"
-#include "viewer/text_file.h"
 
 namespace viewer {
 
@@ -263,21 +262,14 @@ std::string Document::text_of(const std::vector<int>& ids) const {
   return out;
 }
 
-bool Document::undo() {
-  if (undo_.empty()) return false;
-  redo_.push_back(std::move(text_));
-  text_ = std::move(undo_.back());
-  undo_.pop_back();
-  group_ = 0;
-  load();
-  return true;
-}
+bool Document::undo() { return go_to_last(undo_, redo_); }
+bool Document::redo() { return go_to_last(redo_, undo_); }
 
-bool Document::redo() {
-  if (redo_.empty()) return false;
-  undo_.push_back(std::move(text_));
-  text_ = std::move(redo_.back());
-  redo_.pop_back();
+bool Document::go_to_last(std::vector<sim::WorldText>& from, std::vector<sim::WorldText>& back) {
+  if (from.empty()) return false;
+  back.push_back(std::move(text_));
+  text_ = std::move(from.back());
+  from.pop_back();
   group_ = 0;
   load();
   return true;

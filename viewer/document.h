@@ -57,7 +57,7 @@ class Document {
   void disk_holds(std::string bytes);
   void remember(int group);
   void load();
-
+  bool go_to_last(std::vector<sim::WorldText>& from, std::vector<sim::WorldText>& back);
   std::string file_, bytes_, saved_text_;  // what the file held when it was read or written, and its text
   std::string disk_;                       // base of what it holds
   bool is_new_ = false;                    // it was not there when it was opened

@@ -40,10 +40,9 @@ Named find_named(twin::Twin& twin, const std::string& name) {
                 return factor * look(t, robot, index);
               }};
   }
-  const std::string guess = sim::did_you_mean(what, names_of_robots());
   throw std::runtime_error(
       fmt::format("got '{}', expected a name such as ir0, speed, pin:D3 or var:counter{}", what,
-                  guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                  sim::did_you_mean_tail(what, names_of_robots())));
 }
 
 std::vector<std::string> names_of_robots() {

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "sim_core/base/base64.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/output_file.h"
 #include "sim_core/load/world_loader.h"
-#include "viewer/base64.h"
 #include "viewer/events.h"
 #include "viewer/frame.h"
 #include "viewer/sources.h"
@@ -48,7 +48,7 @@ std::string packed(const std::vector<std::string>& frames) {
   compress2(reinterpret_cast<Bytef*>(out.data()), &length, reinterpret_cast<const Bytef*>(plain.data()),
             plain.size(), Z_DEFAULT_COMPRESSION);
   out.resize(length);
-  return base64(out);
+  return sim::base64(out);
 }
 
 void replace(std::string& text, const std::string& what, const std::string& by) {

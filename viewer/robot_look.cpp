@@ -2,7 +2,7 @@
 #include "viewer/robot_look.h"
 
 #include "hal_sim/board/camera_params.h"
-#include "viewer/base64.h"
+#include "sim_core/base/base64.h"
 
 namespace viewer {
 
@@ -48,7 +48,7 @@ Json RobotLook::take() {
     if (has_picture) {
       if (packed_ != picture_.number) {
         const auto rgb = board::decode_picture(picture_);
-        pixels_ = base64(std::string(rgb.begin(), rgb.end()));
+        pixels_ = sim::base64(std::string(rgb.begin(), rgb.end()));
         packed_ = picture_.number;
       }
       look["picture"] = {{"number", picture_.number},

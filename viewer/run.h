@@ -6,7 +6,6 @@
 //   An input is done at its tick, also when a debugger repeats the run.
 #pragma once
 #include <functional>
-#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>

@@ -10,7 +10,6 @@
 #include "hal_sim/chip/chip_runner.h"
 #include "sim_core/load/world_loader.h"
 #include "viewer/events.h"
-#include "viewer/world_json.h"
 
 namespace viewer {
 

@@ -112,7 +112,6 @@ class Session {
   void step_until(sim::Clicks end);
   bool step_interrupt(int robot);
   void after_ticks();
-  void repeat_until(sim::Clicks end);
   void input(const Json& request, const sim::WorldDesc* world = nullptr);
   void debug_robot(int robot);
   void debug_no_more();

@@ -8,7 +8,6 @@
 
 #include "install/places.h"
 #include "sim_core/base/did_you_mean.h"
-#include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "viewer/events.h"
 #include "viewer/requests.h"

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "sim_core/base/input_file.h"
-#include "viewer/text_file.h"
 
 namespace viewer {
 

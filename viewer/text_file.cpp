@@ -10,7 +10,6 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <string_view>
 #include <vector>
 
 #include "compiler/cache/object_cache.h"

@@ -8,10 +8,10 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
+#include "sim_core/base/base64.h"
 #include "sim_core/base/common_ends.h"
 #include "sim_core/load/schema.h"
 #include "sim_core/sound/sound_source.h"
-#include "viewer/base64.h"
 
 namespace viewer {
 
@@ -359,7 +359,7 @@ std::optional<Json> world_changes(const Told& told, const sim::LoadedWorld& load
 Json floor_json(const sim::FloorDesc& floor) {
   return {{"width", floor.image_width},
           {"height", floor.image_height},
-          {"rgb", base64(std::string(floor.image_rgb.begin(), floor.image_rgb.end()))}};
+          {"rgb", sim::base64(std::string(floor.image_rgb.begin(), floor.image_rgb.end()))}};
 }
 
 std::vector<int> movable_ids(const sim::WorldDesc& world, const sim::WorldText& text) {

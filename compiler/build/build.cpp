@@ -7,12 +7,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
-#include <fstream>
 #include <iterator>
-#include <map>
 #include <set>
-#include <sstream>
 
 #include "build_plan.h"
 #include "build_record.h"
@@ -29,7 +25,6 @@
 #include "library_objects.h"
 #include "link_chip.h"
 #include "link_messages.h"
-#include "sim_core/base/pattern.h"
 
 namespace cc {
 namespace fs = std::filesystem;

@@ -3,10 +3,8 @@
 // the place of ours.
 #include "library_objects.h"
 
-#include "build_record.h"
 #include "compiler/cache/elf_reader.h"
 #include "compiler/cache/inputs.h"
-#include "compiler/cache/object_cache.h"
 #include "compiler/cache/shared_variables.h"
 #include "compiler/projects/program_files.h"
 #include "install/cache_bound.h"

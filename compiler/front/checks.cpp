@@ -3,7 +3,6 @@
 // a gap on both sides, and are told when they come into being; clang's checks of 16-bit arithmetic
 // call functions without arguments, whose place says all. What is looked at, and how, is no affair of
 // the program's (dspic30/core/memory_check.h).
-#include <map>
 
 #include "chip.h"
 #include "dspic30/memory/host_places.h"

@@ -209,15 +209,9 @@ class FieldWidths {
     }
     // All others have a width that holds both sides; where that is clang's own, nothing is to be done.
     const MaybeWidth b = visit_operand(right);
-    const Width w = a && b ? common(*a, *b) : width_of(type);
-    if (w == width_of(type)) {
-      convert(left, type);
-      convert(right, type);
-      return llvm::None;
-    }
-    make(left, *a, w);
-    make(right, *b, w);
-    if (e->isComparisonOp()) return llvm::None;
+    const MaybeWidth both = make_alike(left, right, a, b, type);
+    if (!both || e->isComparisonOp()) return llvm::None;
+    const Width w = *both;
     e->setType(whole(w));
     // Carries out of the width have to go, as they do in gcc.
     const bool stays_inside =
@@ -277,6 +271,19 @@ class FieldWidths {
   }
 
   /// The type of c ? a : b. `known`: a's width, if it has been visited.
+  /// Both of the width that holds them; none where that is clang's own, of `type`.
+  MaybeWidth make_alike(Stmt*& first, Stmt*& second, MaybeWidth a, MaybeWidth b, QualType type) {
+    const Width w = a && b ? common(*a, *b) : width_of(type);
+    if (w == width_of(type)) {
+      convert(first, type);
+      convert(second, type);
+      return llvm::None;
+    }
+    make(first, *a, w);
+    make(second, *b, w);
+    return w;
+  }
+
   MaybeWidth choose(Expr* e, Stmt*& first, Stmt*& second, MaybeWidth known = llvm::None) {
     const QualType type = e->getType();
     if (!type->isIntegerType()) {
@@ -287,16 +294,9 @@ class FieldWidths {
     if (known) peel(first);
     const MaybeWidth a = known ? known : visit_operand(first);
     const MaybeWidth b = visit_operand(second);
-    const Width w = a && b ? common(*a, *b) : width_of(type);
-    if (w == width_of(type)) {
-      convert(first, type);
-      convert(second, type);
-      return llvm::None;
-    }
-    make(first, *a, w);
-    make(second, *b, w);
-    e->setType(whole(w));
-    return w;
+    const MaybeWidth both = make_alike(first, second, a, b, type);
+    if (both) e->setType(whole(*both));
+    return both;
   }
 
   /// ({ ...; x; }) is as wide as x.

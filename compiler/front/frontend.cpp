@@ -5,7 +5,6 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <set>
 
 #include "chip.h"
 #include "clang/AST/ASTConsumer.h"

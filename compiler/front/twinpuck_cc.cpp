@@ -3,8 +3,6 @@
 // --link: objects to an image.
 #include <unistd.h>
 
-#include <cstring>
-
 #include "chip.h"
 #include "compiler/cache/memory_limit.h"
 #include "dspic30/link/link.h"

@@ -4,7 +4,6 @@
 #include "library_copies.h"
 
 #include <algorithm>
-#include <set>
 #include <tuple>
 
 #include "compiler/cache/object_cache.h"

@@ -4,7 +4,6 @@
 #include "sim_core/base/pattern.h"
 
 #include <algorithm>
-#include <map>
 
 namespace cc {
 namespace {

@@ -356,8 +356,6 @@ void take_condition(std::string& name, std::vector<Written>& operands) {
 
 }  // namespace
 
-bool is_mnemonic(const std::string& name) { return mnemonics().count(name) != 0; }
-
 std::vector<std::string> split(const std::string& text) {
   std::vector<std::string> parts;
   std::string part;

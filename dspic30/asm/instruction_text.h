@@ -31,8 +31,6 @@ struct Choice {
 using Value = std::function<std::int64_t(const std::string& text)>;
 using Complaint = std::function<void(const std::string& message)>;
 
-/// Is there an instruction of that name, with or without suffix?
-bool is_mnemonic(const std::string& name);
 /// The row that fits; null, with a complaint, if there is none.
 Choice choose(const std::string& mnemonic, const std::string& operands, const Complaint& complain);
 /// Words of a chosen instruction at `address`; ranges are checked.

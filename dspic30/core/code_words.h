@@ -2,7 +2,6 @@
 // The decoded words that a robot's program runs on, and where they lie in flash. They are in a CodeTable
 // (code_store.h), which robots with the same image share until one of them writes its flash.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <vector>

@@ -7,7 +7,6 @@
 #include "dspic30/core/memory_check_each.h"
 #include "dspic30/core/pointers.h"
 #include "dspic30/core/waits.h"
-#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/core/data_space.h"
 
-#include <algorithm>
 #include <string>
 #include <utility>
 
@@ -112,7 +111,7 @@ void DataSpace::trap(Trap which) {
   // beyond the limit and beyond RAM at once: the limit is what the program was to keep
   const bool follows = which == Trap::AddressError && parts.interrupts.control().has_trap(Trap::StackError) &&
                        latest_trap && latest_trap->pc == address_of(at);
-  if (!follows) latest_trap = {which, address_of(at), w[15], splim_on ? splim : 0u, now};
+  if (!follows) latest_trap = {which, address_of(at), now};
   const char* name = vector_name(static_cast<int>(which));
   const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
   parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);

@@ -2,7 +2,6 @@
 // Branches, calls, returns, loops.
 #include "dspic30/core/host_handlers.h"
 #include "dspic30/core/operands.h"
-#include "dspic30/memory/host_places.h"
 
 namespace dspic {
 

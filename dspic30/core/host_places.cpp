@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 
 #include "dspic30/core/host_handlers.h"
 #include "dspic30/core/memory_check.h"

@@ -3,7 +3,6 @@
 // functions the program stands at.
 #pragma once
 #include <cstdint>
-#include <functional>
 
 #include "dspic30/core/decoded.h"
 #include "dspic30/core/host_calls.h"

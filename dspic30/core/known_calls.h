@@ -8,7 +8,6 @@
 // what they never wrote can tell.
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include "dspic30/core/known_routine.h"

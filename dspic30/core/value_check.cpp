@@ -15,7 +15,6 @@ namespace {
 
 using Use = MemoryFinding::Use;
 constexpr unsigned kFirstPointer = 14;  // the frame's and the stack's always hold something
-constexpr unsigned kScratch = 0xFF;     // registers that a function of the host may write
 
 /// All bits from the lowest one up.
 unsigned upwards(unsigned bits) { return bits ? ~((bits & (0u - bits)) - 1) : 0; }

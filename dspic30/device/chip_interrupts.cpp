@@ -14,7 +14,6 @@ InterruptEntry ChipInterrupts::enter(int vector, Cycle now) { return parts_.inte
 Cycle ChipInterrupts::leave(Cycle now) { return parts_.interrupts.leave(now); }
 
 int ChipInterrupts::cpu_level() const { return parts_.interrupts.cpu().level(); }
-void ChipInterrupts::set_cpu_level(int level, Cycle now) { parts_.interrupts.set_level(level, now); }
 int ChipInterrupts::nesting() const { return parts_.interrupts.cpu().nesting(); }
 void ChipInterrupts::disi(unsigned count, Cycle now) { parts_.interrupts.disi(count, now); }
 bool ChipInterrupts::disi_active(Cycle now) const { return parts_.interrupts.cpu().disi_active(now); }

@@ -22,9 +22,8 @@ class ChipInterrupts {
   InterruptEntry enter(int vector, Cycle now);
   /// RETFIE executes in cycle `now`: the level of before. Returns the cycle of the next instruction.
   Cycle leave(Cycle now);
-  /// SR.IPL, and IPL3 above 7. Levels 0 to 7 can be set (unless INTCON1.NSTDIS).
+  /// SR.IPL, and IPL3 above 7.
   int cpu_level() const;
-  void set_cpu_level(int level, Cycle now);
   /// Handlers entered and not yet left.
   int nesting() const;
   /// DISI #count executes in cycle `now`: priorities 1 to 6 wait for count + 1 cycles. Also

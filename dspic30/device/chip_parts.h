@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <memory>
 
 #include "dspic30/device/dspic30f6014a.h"
 #include "dspic30/periph/adc.h"

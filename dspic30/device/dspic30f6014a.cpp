@@ -79,9 +79,7 @@ void ChipParts::switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle n
 }
 
 Dspic30f6014a::Dspic30f6014a(Outside& outside, DiagnosticSink* sink, const Configuration& configuration)
-    : parts_(std::make_unique<ChipParts>(outside, sink, configuration)),
-      interrupts_(*parts_),
-      i2c_master_(*parts_) {
+    : parts_(std::make_unique<ChipParts>(outside, sink, configuration)), interrupts_(*parts_) {
   reset(ResetKind::PowerOn, 0);
 }
 
@@ -161,11 +159,6 @@ Cycle Dspic30f6014a::horizon(unsigned address, Cycle now) {
 const char* Dspic30f6014a::register_name(unsigned address) {
   const SfrInfo* info = sfr_info(address);
   return info ? info->name : nullptr;
-}
-
-int Dspic30f6014a::register_address(const std::string& name) {
-  const SfrInfo* info = sfr_named(name);
-  return info ? info->address : -1;
 }
 
 // --- time

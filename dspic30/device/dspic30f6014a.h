@@ -21,7 +21,6 @@
 #include <string>
 
 #include "dspic30/device/chip_interrupts.h"
-#include "dspic30/device/i2c_master.h"
 #include "dspic30/memory/cycle.h"
 #include "dspic30/memory/diagnosis.h"
 #include "dspic30/periph/outside.h"
@@ -81,9 +80,8 @@ class Dspic30f6014a {
   /// Until when a read of that register gives the same value, if the program writes nothing and no interrupt
   /// handler runs: > now, kNever if it cannot change by itself. Never too late; may be too early.
   Cycle horizon(unsigned address, Cycle now);
-  /// "T2CON"; nullptr where nothing is. And its address; -1 for unknown names.
+  /// "T2CON"; nullptr where nothing is.
   static const char* register_name(unsigned address);
-  static int register_address(const std::string& name);
 
   // --- time
 
@@ -102,8 +100,6 @@ class Dspic30f6014a {
   /// A word arrives at UART 1 or 2. Words are told in their order and may be told ahead of time; one that
   /// begins before `now`, or before the end of the one before, is moved to the next free instant.
   void uart_receive(int uart, const UartFrame& frame, Cycle now);
-  /// Another master of the I2C bus.
-  I2cMaster& i2c_master() { return i2c_master_; }
 
   // --- interrupts
 
@@ -142,7 +138,6 @@ class Dspic30f6014a {
  private:
   std::unique_ptr<ChipParts> parts_;
   ChipInterrupts interrupts_;
-  I2cMaster i2c_master_;
 };
 
 }  // namespace dspic

@@ -2,9 +2,7 @@
 #include <gelf.h>
 #include <libelf.h>
 
-#include <cstdio>
 #include <memory>
-#include <vector>
 
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/hex.h"

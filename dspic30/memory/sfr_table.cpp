@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/memory/sfr_table.h"
 
-#include <array>
 #include <cstdlib>
 #include <sstream>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/periph/adc.h"
 
-#include <algorithm>
 #include <string>
 #include <type_traits>
 

@@ -13,7 +13,6 @@
 // ADIF one cycle after the end, one TAD between clearing SAMP and the conversion, scan position when SMPI+1
 // differs from the number of inputs.
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cstdint>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/periph/interrupts.h"
 
-#include <algorithm>
 #include <string>
 
 #include "dspic30/periph/fabric.h"

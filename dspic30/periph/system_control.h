@@ -9,7 +9,6 @@
 // LVDL after a reset.
 #pragma once
 #include <cstdint>
-#include <optional>
 
 #include "dspic30/periph/fabric.h"
 

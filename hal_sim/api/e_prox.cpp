@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // a_d/advance_ad_scan/e_prox.h. Source: [lib: a_d/advance_ad_scan/e_prox.c], facts restated.
-#include "hal_sim/api/host_functions.h"
 #include "hal_sim/api/host_library.h"
 
 namespace api {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/api/host_library.h"
 
-#include <algorithm>
 #include <cstdlib>
 
-#include "dspic30/memory/irqs.h"
 #include "dspic30/periph/vectors.h"
 #include "hal_sim/api/host_functions.h"
 #include "hal_sim/board/board.h"

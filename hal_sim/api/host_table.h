@@ -2,7 +2,6 @@
 // The rows of host_table.inc, for who links images, and the sum by which an image says which
 // table it was linked for.
 #pragma once
-#include <cstddef>
 #include <cstdint>
 
 namespace api {

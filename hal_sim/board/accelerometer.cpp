@@ -7,7 +7,6 @@
 
 #include "hal_sim/board/specimen.h"
 #include "sim_core/base/portable_math.h"
-#include "sim_core/world/true_motion.h"
 
 namespace board {
 

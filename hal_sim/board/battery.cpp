@@ -7,7 +7,6 @@
 #include <iterator>
 
 #include "hal_sim/board/battery_params.h"
-#include "hal_sim/board/epuck_params.h"
 
 namespace board {
 

@@ -230,6 +230,19 @@ SensorSetup CameraSensor::setup_3030() const {
   return s;
 }
 
+// mirrors, automatics, exposure and gains, which both later kinds have alike
+void CameraSensor::set_automatics(SensorSetup& s, int mirror, int automatics, int exposure, Bank gains,
+                                  int red) const {
+  s.mirror_lines = (at(A, mirror) & 0x80) != 0;
+  s.mirror_columns = (at(A, mirror) & 0x40) != 0;
+  s.auto_white = (at(C, automatics) & 4) == 0;
+  s.auto_exposure = (at(C, automatics) & 1) == 0;
+  s.exposure_lines = (static_cast<double>(word(C, exposure)) * 65536 + word(C, exposure + 2)) / 64.0;
+  s.red = at(gains, red) / 64.0;
+  s.green = at(gains, red + 1) / 64.0;
+  s.blue = at(gains, red + 2) / 64.0;
+}
+
 SensorSetup CameraSensor::setup_6030() const {
   using namespace po6030;
   SensorSetup s;
@@ -247,14 +260,7 @@ SensorSetup CameraSensor::setup_6030() const {
   s.longest_integration = kLongestFrames * kPo6030FrameLines - kIntegrationMargin;
   s.first_x = (static_cast<std::int16_t>(word(B, kWindowX)) + 2) * s.sub_sampling - kOriginX;
   s.first_y = word(B, kVsync) + s.sub_sampling - kOriginY;
-  s.mirror_lines = (at(A, kMirror) & 0x80) != 0;
-  s.mirror_columns = (at(A, kMirror) & 0x40) != 0;
-  s.auto_white = (at(C, kAutomatics) & 4) == 0;
-  s.auto_exposure = (at(C, kAutomatics) & 1) == 0;
-  s.exposure_lines = (static_cast<double>(word(C, kExposure)) * 65536 + word(C, kExposure + 2)) / 64.0;
-  s.red = at(C, kRed) / 64.0;
-  s.green = at(C, kRed + 1) / 64.0;
-  s.blue = at(C, kRed + 2) / 64.0;
+  set_automatics(s, kMirror, kAutomatics, kExposure, C, kRed);
   return s;
 }
 
@@ -275,14 +281,7 @@ SensorSetup CameraSensor::setup_8030() const {
   s.longest_integration = kLongestFrames * kPo8030FrameLines - kIntegrationMargin;
   s.first_x = word(A, kWindowX) * s.sub_sampling + s.sub_sampling + (s.sub_sampling == 1 ? 1 : 0);
   s.first_y = 0;  // the library never sets the window's first line
-  s.mirror_lines = (at(A, kMirror) & 0x80) != 0;
-  s.mirror_columns = (at(A, kMirror) & 0x40) != 0;
-  s.auto_white = (at(C, kAutomatics) & 4) == 0;
-  s.auto_exposure = (at(C, kAutomatics) & 1) == 0;
-  s.exposure_lines = (static_cast<double>(word(C, kExposure)) * 65536 + word(C, kExposure + 2)) / 64.0;
-  s.red = at(A, kRed) / 64.0;
-  s.green = at(A, kRed + 1) / 64.0;
-  s.blue = at(A, kRed + 2) / 64.0;
+  set_automatics(s, kMirror, kAutomatics, kExposure, A, kRed);
   s.brightness = signed_magnitude(at(B, kBrightness));
   return s;
 }

@@ -75,6 +75,7 @@ class CameraSensor final : public I2cRegisters {
   int word(Bank bank, int high) const { return at(bank, high) << 8 | at(bank, high + 1); }
   SensorSetup setup_3030() const;
   SensorSetup setup_6030() const;
+  void set_automatics(SensorSetup& s, int mirror, int automatics, int exposure, Bank gains, int red) const;
   SensorSetup setup_8030() const;
 
   CameraKind kind_;

@@ -2,7 +2,6 @@
 // Checks of the board: what a program does to motors, emitters and pins that no register knows to be
 // wrong. Counters are kept where things happen anyway (stepper.h, ir_circuit.h); sentences are
 // made when asked for.
-#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 

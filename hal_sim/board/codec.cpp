@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/board/codec.h"
 
-#include <algorithm>
-
 #include "hal_sim/board/sound_bank.h"
 #include "sim_core/base/hash.h"
 

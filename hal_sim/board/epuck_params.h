@@ -7,7 +7,6 @@
 //   [assumed: ..]  chosen, with the reason
 #pragma once
 #include <cstddef>
-#include <cstdint>
 
 #include "hal_sim/board/cycle.h"
 

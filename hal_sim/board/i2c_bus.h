@@ -35,7 +35,6 @@ class I2cBus {
   std::uint8_t read(Cycle at);
   void stop(Cycle at);
   /// I2CSTAT.P: the bus is idle, or a stop was the last thing on it.
-  bool is_stopped() const { return !open_; }
 
   void processor_reset(Cycle at);
   /// It and its devices begin as when they were first switched on.

@@ -33,8 +33,6 @@ class RemoteReceiver {
   void press(const KeyPress& key);
   /// Nobody has pressed a key yet: the world begins again.
   void forget() { presses_.clear(); }
-  /// False: nobody ever pressed a key; the pin is high for ever.
-  bool in_use() const { return !presses_.empty(); }
 
   /// Level of the pin.
   bool level(Cycle at) const { return level_at(clock_.click_at(at)); }

@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <cstring>
 
 #include "hal_sim/board/uart_programs.h"
 #include "sim_core/base/output_file.h"

@@ -10,7 +10,6 @@
 //   RG2 RG3 I2C    RG6..9 selector
 //   AN2..4 microphones  AN5..7 accelerometer (revision 1.3: AN7 battery)  AN8..15 proximity sensors
 #pragma once
-#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/chip/chip_runner.h"
 
-#include <algorithm>
 #include <bitset>
 
 #include "dspic30/core/cpu.h"

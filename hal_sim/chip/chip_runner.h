@@ -11,7 +11,6 @@
 // (endings.h), and so is what it makes of the library (library_calls.h). Lines, variables and types are those
 // of the image's debug information; without it, functions and variables are known by name.
 #pragma once
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <set>

@@ -65,13 +65,19 @@ std::vector<fs::path> sources_in(const fs::path& folder) {
   return files;
 }
 
+/// Is there a line of the sources with that name, and of that kind?
+template <class Test>
+bool any_line(const fs::path& folder, const std::string& name, const Test& test) {
+  for (const fs::path& file : sources_in(folder))
+    for (const std::string& line : lines_of(file.string()))
+      if (line.find(name) != std::string::npos && test(line)) return true;
+  return false;
+}
+
 /// Is it given to the library's agendas, which timer 2 serves?
 bool is_agenda(const std::string& function, const fs::path& folder) {
   const sim::Pattern given("\\be_activate_agenda\\s*\\(\\s*&?\\s*" + function + "\\b");
-  for (const fs::path& file : sources_in(folder))
-    for (const std::string& line : lines_of(file.string()))
-      if (line.find(function) != std::string::npos && std::regex_search(line, given)) return true;
-  return false;
+  return any_line(folder, function, [&](const std::string& line) { return std::regex_search(line, given); });
 }
 
 /// Is it one of the C sources' own? The library's variables, and those of assembler, have writers that no
@@ -80,12 +86,9 @@ bool is_defined_in(const fs::path& folder, const std::string& variable) {
   const sim::Pattern defines("^\\s*(\\w+[\\s*]+)+([^;=(){}]*,[\\s*]*)?" + variable +
                              "\\s*(=[^=]|[;,\\[]|__attribute__)");
   const sim::Pattern no_definition("\\b(extern|return|goto)\\b");
-  for (const fs::path& file : sources_in(folder))
-    for (const std::string& line : lines_of(file.string()))
-      if (line.find(variable) != std::string::npos && std::regex_search(line, defines) &&
-          !std::regex_search(line, no_definition))
-        return true;
-  return false;
+  return any_line(folder, variable, [&](const std::string& line) {
+    return std::regex_search(line, defines) && !std::regex_search(line, no_definition);
+  });
 }
 
 std::string joined(const std::vector<std::string>& parts) {

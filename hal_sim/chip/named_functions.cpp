@@ -57,8 +57,7 @@ std::string why_no_code(const dspic::FirmwareFile& file, const std::string& func
     if (!f.inlined_at.empty()) known.push_back(f.name);
     if (f.name == function) return "has no code: nothing calls it, so the linker left it out";
   }
-  const std::string guess = sim::did_you_mean(function, known);
-  return "is not in the program" + (guess.empty() ? "" : "; did you mean '" + guess + "'?");
+  return "is not in the program" + sim::did_you_mean_tail(function, known);
 }
 
 }  // namespace chip

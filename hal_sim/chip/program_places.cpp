@@ -5,7 +5,6 @@
 #include <map>
 
 #include "dspic30/core/instruction_table.h"
-#include "dspic30/memory/irqs.h"
 #include "hal_sim/api/host_index.h"
 
 namespace chip {

@@ -3,7 +3,6 @@
 // student wrote, not the library's or the start-up code's. By the image's lines; what calls led there is read
 // from the stack, where each return address stands behind a call. Looks only, and only when asked.
 #pragma once
-#include <cstdint>
 #include <string>
 
 #include "dspic30/core/processor.h"

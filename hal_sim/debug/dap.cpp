@@ -7,6 +7,7 @@
 
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
+#include "sim_core/base/base64.h"
 
 namespace debug {
 
@@ -225,11 +226,6 @@ void DapServer::answer(const Json& request) {
 
 // --- breakpoints
 
-void DapServer::replace(std::set<int>& old, std::set<int> now) {
-  for (const int id : old) session_->remove(id);
-  old = std::move(now);
-}
-
 nlohmann::json DapServer::told(const Breakpoint* b, const std::string& error) {
   if (!b) return {{"verified", false}, {"message", error}};
   Json out{{"verified", true}, {"id", b->id}};
@@ -240,49 +236,44 @@ nlohmann::json DapServer::told(const Breakpoint* b, const std::string& error) {
   return out;
 }
 
-void DapServer::set_breakpoints(const Json& request) {
-  const Json& arguments = request.at("arguments");
-  const std::string path = arguments.at("source").at("path");
-  replace(of_source_[path], {});
-  for (const std::size_t file : session_->files_meant(path)) paths_[file] = path;
+void DapServer::set_all(const Json& request, std::set<int>& ours, const Adds& add) {
+  for (const int id : ours) session_->remove(id);
+  ours.clear();
   Json all = Json::array();
-  for (const Json& wanted : arguments.value("breakpoints", Json::array())) {
+  for (const Json& wanted : request.at("arguments").at("breakpoints")) {
     std::string error;
-    const Breakpoint* b = session_->add_breakpoint(fmt::format("{}:{}", path, wanted.at("line").get<int>()),
-                                                   wanted.value("condition", ""), error);
-    if (b) of_source_[path].insert(b->id);
+    const Breakpoint* b = add(wanted, wanted.value("condition", ""), error);
+    if (b) ours.insert(b->id);
     all.push_back(told(b, error));
   }
   respond(request, {{"breakpoints", all}});
+}
+
+void DapServer::set_breakpoints(const Json& request) {
+  const std::string path = request.at("arguments").at("source").at("path");
+  for (const std::size_t file : session_->files_meant(path)) paths_[file] = path;
+  Json given = request;
+  given["arguments"].emplace("breakpoints", Json::array());
+  set_all(given, of_source_[path], [&](const Json& wanted, const std::string& condition, std::string& error) {
+    return session_->add_breakpoint(fmt::format("{}:{}", path, wanted.at("line").get<int>()), condition,
+                                    error);
+  });
 }
 
 void DapServer::set_function_breakpoints(const Json& request) {
-  replace(of_functions_, {});
-  Json all = Json::array();
-  for (const Json& wanted : request.at("arguments").at("breakpoints")) {
-    std::string error;
-    const Breakpoint* b =
-        session_->add_breakpoint(wanted.at("name").get<std::string>(), wanted.value("condition", ""), error);
-    if (b) of_functions_.insert(b->id);
-    all.push_back(told(b, error));
-  }
-  respond(request, {{"breakpoints", all}});
+  set_all(request, of_functions_, [&](const Json& wanted, const std::string& condition, std::string& error) {
+    return session_->add_breakpoint(wanted.at("name").get<std::string>(), condition, error);
+  });
 }
 
 void DapServer::set_instruction_breakpoints(const Json& request) {
-  replace(of_instructions_, {});
-  Json all = Json::array();
-  for (const Json& wanted : request.at("arguments").at("breakpoints")) {
-    std::string error;
-    const std::string reference = wanted.at("instructionReference");
-    const auto address = static_cast<std::int64_t>(std::strtoll(reference.c_str(), nullptr, 0)) +
-                         wanted.value("offset", std::int64_t{0});
-    const Breakpoint* b =
-        session_->add_breakpoint(fmt::format("{:#x}", address), wanted.value("condition", ""), error);
-    if (b) of_instructions_.insert(b->id);
-    all.push_back(told(b, error));
-  }
-  respond(request, {{"breakpoints", all}});
+  set_all(request, of_instructions_,
+          [&](const Json& wanted, const std::string& condition, std::string& error) {
+            const std::string reference = wanted.at("instructionReference");
+            const auto address = static_cast<std::int64_t>(std::strtoll(reference.c_str(), nullptr, 0)) +
+                                 wanted.value("offset", std::int64_t{0});
+            return session_->add_breakpoint(fmt::format("{:#x}", address), condition, error);
+          });
 }
 
 void DapServer::data_breakpoint_info(const Json& request) {
@@ -293,16 +284,9 @@ void DapServer::data_breakpoint_info(const Json& request) {
 }
 
 void DapServer::set_data_breakpoints(const Json& request) {
-  replace(of_data_, {});
-  Json all = Json::array();
-  for (const Json& wanted : request.at("arguments").at("breakpoints")) {
-    std::string error;
-    const Breakpoint* b = session_->add_watchpoint(wanted.at("dataId").get<std::string>(),
-                                                   wanted.value("condition", ""), error);
-    if (b) of_data_.insert(b->id);
-    all.push_back(told(b, error));
-  }
-  respond(request, {{"breakpoints", all}});
+  set_all(request, of_data_, [&](const Json& wanted, const std::string& condition, std::string& error) {
+    return session_->add_watchpoint(wanted.at("dataId").get<std::string>(), condition, error);
+  });
 }
 
 // --- what is shown
@@ -426,18 +410,6 @@ void DapServer::evaluate(const Json& request) {
 
 namespace {
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = std::min<std::size_t>(3, bytes.size() - i);
-    unsigned three = 0;
-    for (std::size_t k = 0; k < 3; ++k) three = three << 8 | (k < left ? bytes[i + k] : 0u);
-    for (std::size_t k = 0; k < 4; ++k) text += k <= left ? kDigits[three >> (18 - 6 * k) & 63] : '=';
-  }
-  return text;
-}
-
 /// "0x900", or a number alone. False: it is none.
 bool reference_of(const nlohmann::json& arguments, std::int64_t& address) {
   const std::string text = arguments.at("memoryReference");
@@ -464,7 +436,8 @@ void DapServer::read_memory(const Json& request) {
     session_->machine().read({at, 1}, &byte);
     bytes.push_back(byte);
   }
-  Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))}, {"data", base64(bytes)}};
+  Json body{{"address", fmt::format("{:#x}", std::max<std::int64_t>(0, address))},
+            {"data", sim::base64({bytes.begin(), bytes.end()})}};
   if (const auto missing = wanted - static_cast<std::int64_t>(bytes.size()); missing > 0)
     body["unreadableBytes"] = missing;
   respond(request, body);

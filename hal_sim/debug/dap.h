@@ -73,7 +73,9 @@ class DapServer {
   /// Name and path of a source, the path as the editor has it.
   Json told_source(std::size_t file) const;
   void begin_run(Plan plan);
-  void replace(std::set<int>& old, std::set<int> now);
+  using Adds =
+      std::function<const Breakpoint*(const Json& wanted, const std::string& condition, std::string& error)>;
+  void set_all(const Json& request, std::set<int>& ours, const Adds& add);
   Json told(const Breakpoint* b, const std::string& error);
 
   Send send_;

@@ -212,9 +212,8 @@ class Expression {
     // Nothing has this name: the nearest that something has is told.
     std::vector<std::string> known;
     for (const auto& variable : names_.debug_info().variables) known.push_back(variable.name);
-    const std::string near = sim::did_you_mean(name, known);
     return fail("unknown symbol '" + name + "', expected a variable of the image that is known here" +
-                (near.empty() ? "" : "; did you mean '" + near + "'?"));
+                sim::did_you_mean_tail(name, known));
   }
 
   // --- constants

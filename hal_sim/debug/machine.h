@@ -58,9 +58,8 @@ class Machine {
   /// False: it cannot be written.
   bool write(const Data& data, const void* from);
   unsigned word(Address address) const;
-  /// A register of the processor by its number in the debug information: its place and its value.
+  /// A register of the processor by its number in the debug information: its place.
   static Data register_data(int number) { return {2 * static_cast<Address>(number)}; }
-  Address register_value(int number) const { return word(register_data(number).address); }
   /// A register by name: of the processor, or REG, REG.FIELD and REGbits.FIELD of the chip.
   static std::optional<Data> find_register(const std::string& name);
 

@@ -25,8 +25,6 @@ class CameraCapture {
   /// `camera`: null where the robot carries none; nothing but reset() may be called then. It outlives this.
   explicit CameraCapture(board::Camera* camera) : camera_(camera) {}
 
-  bool has_camera() const { return camera_ != nullptr; }
-
   /// What a program wants of a frame.
   struct Request {
     int rows = 0, columns = 0;

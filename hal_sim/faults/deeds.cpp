@@ -9,7 +9,6 @@
 #include <cstring>
 
 #include "hal_sim/board/accelerometer.h"
-#include "hal_sim/board/battery_params.h"
 #include "hal_sim/host/variables.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/base/portable_math.h"

@@ -64,11 +64,6 @@ sim::SectionSpec section_of(const Kind& kind, const char* path) {
   return spec;
 }
 
-std::string hint(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string meant = sim::did_you_mean(word, candidates);
-  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
-}
-
 class Reader : private sim::SchemaReader {
  public:
   LoadedFaults read(std::string_view text, const std::string& path) {
@@ -94,7 +89,7 @@ class Reader : private sim::SchemaReader {
       return problem(written_kind ? written_kind->source() : table.source(),
                      fmt::format("fault.kind: {}, expected one of twinpuck list faults{}",
                                  written_kind ? "got " + written(*written_kind) : std::string("missing"),
-                                 hint(name, kind_names())));
+                                 sim::did_you_mean_tail(name, kind_names())));
     read_as(*kind, "fault", table, faults);
   }
 
@@ -117,7 +112,7 @@ class Reader : private sim::SchemaReader {
     // whichever key is the least like the others'
     std::string meant;
     for (const auto& [key, node] : table)
-      if (meant.empty()) meant = hint(std::string(key.str()), words);
+      if (meant.empty()) meant = sim::did_you_mean_tail(std::string(key.str()), words);
     problem(table.source(), fmt::format("stimulus: got none of {}, expected one{}", all, meant));
   }
 
@@ -250,7 +245,7 @@ bool parse_fault_line(const std::string& line, Fault& fault, std::string& error)
   }
   if (!find_kind(words[0].key)) {
     error = fmt::format("got '{}', expected a kind of twinpuck list faults{}", words[0].key,
-                        hint(words[0].key, kind_names()));
+                        sim::did_you_mean_tail(words[0].key, kind_names()));
     return false;
   }
   // The line becomes a file of one fault, so both are read, and refused, by one reader.

@@ -28,9 +28,8 @@ std::string check_values(const Fault& fault, const Kind& kind) {
   for (const auto& [name, value] : fault.values) {
     const auto known = std::find(names.begin(), names.end(), name);
     if (known == names.end()) {
-      const std::string meant = sim::did_you_mean(name, names);
       return fmt::format("unknown parameter '{}' of {}{}", name, kind.name,
-                         meant.empty() ? "" : "; did you mean '" + meant + "'?");
+                         sim::did_you_mean_tail(name, names));
     }
     const Parameter& p = kind.parameters[static_cast<std::size_t>(known - names.begin())];
     const double number =
@@ -74,10 +73,8 @@ class Injector::Work {
     auto entry = std::make_unique<Entry>();
     entry->kind = find_kind(fault.kind);
     if (!entry->kind) {
-      const std::string meant = sim::did_you_mean(fault.kind, kind_names());
       throw std::runtime_error(fmt::format("kind: got '{}', expected one of twinpuck list faults{}",
-                                           fault.kind,
-                                           meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+                                           fault.kind, sim::did_you_mean_tail(fault.kind, kind_names())));
     }
     // Values are judged before anything is kept.
     if (const std::string wrong = check_values(fault, *entry->kind); !wrong.empty())

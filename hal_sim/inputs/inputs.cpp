@@ -92,12 +92,11 @@ struct Inputs::Kind {
   const char* name;
   void (Inputs::*of_world)(const Json&);
   void (Inputs::*of_robot)(const Json&, int robot);
-  bool is_asked_for = true;  ///< by pages; else it follows from something that they ask for
 };
 
 const std::vector<Inputs::Kind>& Inputs::kinds() {
   static const std::vector<Kind> all = {
-      {"world", &Inputs::refurnish, nullptr},     {"program", &Inputs::flash, nullptr, false},
+      {"world", &Inputs::refurnish, nullptr},     {"program", &Inputs::flash, nullptr},
       {"move", &Inputs::move, nullptr},           {"faults", &Inputs::add_faults, nullptr},
       {"end_fault", &Inputs::end_fault, nullptr}, {"lamp", &Inputs::set_lamp, nullptr},
       {"sensor", nullptr, &Inputs::set_sensor},   {"selector", nullptr, &Inputs::turn_selector},
@@ -106,12 +105,6 @@ const std::vector<Inputs::Kind>& Inputs::kinds() {
       {"set", nullptr, &Inputs::set_variable},    {"write", nullptr, &Inputs::write_memory},
   };
   return all;
-}
-
-bool Inputs::is_input(const std::string& what) {
-  const auto& all = kinds();
-  return std::any_of(all.begin(), all.end(),
-                     [&](const Kind& kind) { return kind.is_asked_for && what == kind.name; });
 }
 
 int Inputs::robot_of(const Json& input) const {

@@ -30,8 +30,6 @@ class Inputs {
   void apply(const Json& input);
   /// A "world", for whoever has parsed its text already.
   void refurnish(const Json& input, sim::WorldDesc world);
-  /// Is it one of these? Other requests do not change the world.
-  static bool is_input(const std::string& what);
   /// Those that inputs have asked for, and others'. Whoever steps the twin steps by its
   /// advance(), or by step().
   faults::Injector& faults() { return faults_; }

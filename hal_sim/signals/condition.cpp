@@ -138,9 +138,8 @@ class Translation {
   std::string unknown_robot(const std::string& name) const {
     std::vector<std::string> all;
     for (const auto& r : twin_.world().robots) all.push_back(r.name);
-    const std::string guess = sim::did_you_mean(name, all);
     return fmt::format("got '{}', expected a robot{}; {}", name.substr(0, 60),
-                       guess.empty() ? "" : "; did you mean '" + guess + "'?", robots_text(twin_));
+                       sim::did_you_mean_tail(name, all), robots_text(twin_));
   }
 
   void word() {
@@ -169,9 +168,8 @@ class Translation {
     if (is_called && name != "pin" && name != "reg" && name != "var") {
       const std::vector<std::string> known(std::begin(kFunctions), std::end(kFunctions));
       if (std::find(known.begin(), known.end(), name) == known.end()) {
-        const std::string guess = sim::did_you_mean(name, known);
         refuse(fmt::format("got '{}(', expected a function: {}{}", name.substr(0, 60), fmt::join(known, " "),
-                           guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                           sim::did_you_mean_tail(name, known)));
       }
       return put(name.c_str());
     }
@@ -313,12 +311,6 @@ double Condition::value(twin::Twin& twin) const {
 bool Condition::holds(twin::Twin& twin) const {
   const double now = value(twin);
   return now != 0 && !std::isnan(now);
-}
-
-bool Condition::rises(twin::Twin& twin) {
-  const bool held = held_;
-  held_ = holds(twin);
-  return held_ && !held;
 }
 
 }  // namespace signals

@@ -29,15 +29,11 @@ class Condition {
   /// As it stands now.
   double value(twin::Twin& twin) const;
   bool holds(twin::Twin& twin) const;
-  /// Does it hold now and did not when it was looked at last? The first look counts as one after which it
-  /// did not hold: one that holds from the beginning rises there.
-  bool rises(twin::Twin& twin);
 
  private:
   struct Formula;
   std::string text_;
   std::unique_ptr<Formula> formula_;
-  bool held_ = false;
 };
 
 }  // namespace signals

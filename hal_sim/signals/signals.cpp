@@ -420,10 +420,9 @@ Named find(twin::Twin& twin, int robot, const std::string& name) {
     return {s.unit, [robot, index, look = s.look](twin::Twin& t) { return look(t, robot, index); }};
   }
   std::vector<std::string> candidates = names(true);
-  const std::string guess = sim::did_you_mean(name, candidates);
   throw std::runtime_error(fmt::format(
       "got '{}', expected a signal{}; twinpuck list signals names them, $NAME is a variable of the program",
-      name.substr(0, 60), guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+      name.substr(0, 60), sim::did_you_mean_tail(name, candidates)));
 }
 
 }  // namespace signals

@@ -240,10 +240,9 @@ std::vector<Signal> find_signals(const std::string& name, const host::Runner* ru
     for (const char* kind : {"LAT", "PORT", "TRIS"}) known.push_back(std::string(kind) + *p);
   if (has_chip)
     for (const dspic::SfrInfo& r : dspic::kSfrRows) known.push_back(r.name);
-  const std::string guess = sim::did_you_mean(name, known);
   error = fmt::format(
       "got '{}', expected a pin, a port, a register, an interrupt, a UART's line or a variable ({}){}", name,
-      wrong, guess.empty() ? "" : "; did you mean '" + guess + "'?");
+      wrong, sim::did_you_mean_tail(name, known));
   return {};
 }
 

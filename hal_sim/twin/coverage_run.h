@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Coverage of a run: counts what the chip's code of all robots does, and adds it to an lcov file.
 #pragma once
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>

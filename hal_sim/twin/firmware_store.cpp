@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // From what a user calls a firmware to an image file: a file as it is, a folder or a
 // controller's name built first.
-#include <climits>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 
 #include "compiler/build/build.h"
 #include "hal_sim/twin/firmware_store.h"
 #include "install/cache_bound.h"
 #include "install/places.h"
-#include "programs/build/build.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/load/world_loader.h"
 
@@ -168,12 +165,11 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
     return "";
   }
   if (!fs::exists(path, none)) {
-    const std::string guess = sim::did_you_mean(name, controller_names());
     problems.push_back(name +
                        ": firmware: got a name that is neither a file nor a controller, expected an image, a "
                        "folder with C files, a program of the PC "
                        "or a folder under firmware/" +
-                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                       sim::did_you_mean_tail(name, controller_names()));
     return "";
   }
   // "." and ".." are nobody's names

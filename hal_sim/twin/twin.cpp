@@ -52,10 +52,8 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
   for (const auto& r : world.robots) names.push_back(r.name);
   for (const auto& c : choices) {
     if (c.robot == "*" || std::find(names.begin(), names.end(), c.robot) != names.end()) continue;
-    const std::string guess = sim::did_you_mean(c.robot, names);
     problems.push_back("command line: " + std::string(option) + ": got robot '" + c.robot +
-                       "', expected a robot of the world" +
-                       (guess.empty() ? "" : "; did you mean '" + guess + "'?"));
+                       "', expected a robot of the world" + sim::did_you_mean_tail(c.robot, names));
   }
 }
 

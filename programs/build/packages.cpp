@@ -3,7 +3,6 @@
 #include <array>
 
 #include "build.h"
-#include "files.h"
 #include "sim_core/base/pattern.h"
 
 namespace programs {

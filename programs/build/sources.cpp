@@ -3,7 +3,6 @@
 #include "sources.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 namespace programs {

@@ -192,14 +192,19 @@ class Starter {
     return on_path("python3");
   }
 
+  /// What runtime.ini gives to the interpreter.
+  void add_options(const std::string& language) {
+    const auto options = ini_.options.find(language);
+    if (options != ini_.options.end())
+      launch_.words.insert(launch_.words.end(), options->second.begin(), options->second.end());
+  }
+
   bool python() {
     if (found_.main.empty()) return fail(found_.why);
     const fs::path file = interpreter();
     if (file.empty()) return fail("got a program in Python, expected python3 to run it; apt install python3");
     launch_.words = {file.string(), "-u"};
-    const auto options = ini_.options.find("python");
-    if (options != ini_.options.end())
-      launch_.words.insert(launch_.words.end(), options->second.begin(), options->second.end());
+    add_options("python");
     const fs::path ours = places::product_share() / "programs" / "controller" / "python";
     // a copy of Webots' own package beside the program would hide ours, and is nothing without Webots
     const fs::path copy = found_.folder / "controller.py";
@@ -296,9 +301,7 @@ class Starter {
                      "-classpath",
                      classpath,
                      "-Djava.library.path=" + libraries};
-    const auto options = ini_.options.find("java");
-    if (options != ini_.options.end())
-      launch_.words.insert(launch_.words.end(), options->second.begin(), options->second.end());
+    add_options("java");
     launch_.words.push_back(found_.main.stem().string());
     return true;
   }

@@ -14,6 +14,7 @@
 #include "hal_sim/drivers/driver_params.h"
 #include "programs/puck/ranging.h"
 #include "programs/puck/records.h"
+#include "programs/puck/world_device.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/world/scene.h"
 
@@ -164,75 +165,63 @@ void Puck::add_of_world() {
   for (int r = 0; r < packets.receivers(); ++r)
     add(packets.receiver_name(r), Kind::Receiver, WB_NODE_RECEIVER, r, {double(packets.receiver_channel(r))});
   int number = -1;  // of the setup's devices
-  // Its other devices, each with what a program asks about it (put_device()).
-  for (const sim::DeviceDesc& device : board_.setup().devices) switch (++number, device.kind) {
+  // Its other devices.
+  for (const sim::DeviceDesc& device : board_.setup().devices) {
+    ++number;
+    auto [node, needs] = world_device(device);
+    switch (device.kind) {
+      case sim::DeviceKind::Emitter:
+      case sim::DeviceKind::Receiver:
+        break;  // the packet devices know them
       case sim::DeviceKind::Gps:
-        add(device.name, Kind::Gps, WB_NODE_GPS, 0);
+        add(device.name, Kind::Gps, node, 0);
         break;
       case sim::DeviceKind::Compass:
-        add(device.name, Kind::Compass, WB_NODE_COMPASS, 0);
+        add(device.name, Kind::Compass, node, 0);
         break;
       case sim::DeviceKind::Inertial:
-        add(device.name, Kind::Inertial, WB_NODE_INERTIAL_UNIT, 0);
+        add(device.name, Kind::Inertial, node, 0);
         break;
       case sim::DeviceKind::Gyro:
-        add(device.name, Kind::TrueGyro, WB_NODE_GYRO, 0);
+        add(device.name, Kind::TrueGyro, node, 0);
         break;
       case sim::DeviceKind::Distance: {
         if (device.table.empty()) {
-          add(device.name, Kind::Virtual, WB_NODE_DISTANCE_SENSOR, 0, {0, kFullScale, 0, kGeneric});
+          add(device.name, Kind::Virtual, node, 0, std::move(needs));
           break;
         }
         const auto [least, most] =
             std::minmax_element(device.table.begin(), device.table.end(),
                                 [](const auto& a, const auto& b) { return a.value < b.value; });
-        std::vector<double> needs{least->value, most->value, device.aperture_rad, kGeneric};
+        needs = {least->value, most->value, device.aperture_rad, kGeneric};
         for (const sim::ResponseRow& row : device.table)
           needs.insert(needs.end(), {row.distance_m, row.value, row.relative_noise});
-        add(device.name, Kind::Distance, WB_NODE_DISTANCE_SENSOR, number, std::move(needs));
+        add(device.name, Kind::Distance, node, number, std::move(needs));
         break;
       }
       case sim::DeviceKind::Lidar:
-      case sim::DeviceKind::RangeFinder: {
-        const RangeGrid grid = range_grid(device);
-        add(device.name, Kind::Ranges,
-            device.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER, number,
-            {double(grid.columns), double(grid.rows), device.fov_rad, device.near_m, device.far_m,
-             device.kind == sim::DeviceKind::Lidar ? device.vertical_fov_rad : 0});
+      case sim::DeviceKind::RangeFinder:
+        add(device.name, Kind::Ranges, node, number, std::move(needs));
         break;
-      }
       case sim::DeviceKind::Display:
-        add(device.name, Kind::Display, WB_NODE_DISPLAY, 0, {double(device.width), double(device.height)});
-        break;
-      case sim::DeviceKind::Emitter:
-      case sim::DeviceKind::Receiver:
-        break;  // the packet devices know them
-      case sim::DeviceKind::Motor:
-        add(device.name, Kind::Idle, WB_NODE_ROTATIONAL_MOTOR, 0, {kMostWheelRadS, 0});
+        add(device.name, Kind::Display, node, 0, std::move(needs));
         break;
       case sim::DeviceKind::Touch:
-        add(device.name, Kind::Virtual, WB_NODE_TOUCH_SENSOR, 0, {0});
-        break;
       case sim::DeviceKind::Light:
-        add(device.name, Kind::Virtual, WB_NODE_LIGHT_SENSOR, 0);
+        add(device.name, Kind::Virtual, node, 0, std::move(needs));
         break;
-      case sim::DeviceKind::Led:
-        add(device.name, Kind::Idle, WB_NODE_LED, 0);
+      case sim::DeviceKind::Motor:
+        needs[0] = kMostWheelRadS;
+        add(device.name, Kind::Idle, node, 0, std::move(needs));
         break;
       case sim::DeviceKind::Camera:
-        add(device.name, Kind::Idle, WB_NODE_CAMERA, 0,
-            {double(device.width), double(device.height), kCameraFovRad, 0, 0});
+        needs[2] = kCameraFovRad;
+        add(device.name, Kind::Idle, node, 0, std::move(needs));
         break;
-      case sim::DeviceKind::Speaker:
-        add(device.name, Kind::Idle, WB_NODE_SPEAKER, 0);
-        break;
-      case sim::DeviceKind::Pen:
-        add(device.name, Kind::Idle, WB_NODE_PEN, 0);
-        break;
-      case sim::DeviceKind::Position:
-        add(device.name, Kind::Idle, WB_NODE_POSITION_SENSOR, 0, {0});
-        break;
+      default:
+        add(device.name, Kind::Idle, node, 0, std::move(needs));
     }
+  }
 }
 
 void Puck::tell(std::size_t number, link_packet& to) const {

@@ -133,7 +133,7 @@ class Puck {
   Wheels wheels_;
   std::unique_ptr<PuckCamera> camera_;
   std::vector<Device> devices_;
-  bool has_lsm_ = false, has_ground_ = false;
+  bool has_lsm_ = false;
   std::uint64_t hash_ = 1;
 
   // the loudspeaker

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/include/webots/nodes.h"
 #include "hal_sim/board/camera_params.h"
 #include "programs/puck/puck.h"
 #include "sim_core/world/scene.h"

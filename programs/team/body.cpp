@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "firmware/include/webots/nodes.h"
 #include "hal_sim/board/packet_devices.h"
-#include "programs/puck/ranging.h"
 #include "programs/puck/records.h"
+#include "programs/puck/world_device.h"
 
 namespace programs {
 
@@ -30,73 +31,13 @@ BodilessBody::BodilessBody(const sim::SupervisorDesc& desc) : desc_(desc) { rest
 void BodilessBody::restart() {
   devices_.clear();
   time_ms_ = step_ms_ = 0;
-  // Each device with what its program has to know of it (put_device()).
   bool has_emitter = false, has_receiver = false;
-  for (const sim::DeviceDesc& d : desc_.devices) switch (d.kind) {
-      case sim::DeviceKind::Emitter:
-        has_emitter = true;
-        devices_.push_back({d.name,
-                            WB_NODE_EMITTER,
-                            {double(d.channel), d.range_m, board::kPacketQueueBytes},
-                            d.channel,
-                            d.range_m});
-        break;
-      case sim::DeviceKind::Receiver:
-        has_receiver = true;
-        devices_.push_back({d.name, WB_NODE_RECEIVER, {double(d.channel)}, d.channel});
-        break;
-      case sim::DeviceKind::Display:
-        devices_.push_back({d.name, WB_NODE_DISPLAY, {double(d.width), double(d.height)}});
-        break;
-      case sim::DeviceKind::Distance:
-        devices_.push_back({d.name, WB_NODE_DISTANCE_SENSOR, {0, 4095, 0, 0}});
-        break;
-      case sim::DeviceKind::Motor:
-        devices_.push_back({d.name, WB_NODE_ROTATIONAL_MOTOR, {10, 0}});
-        break;
-      case sim::DeviceKind::Camera:
-        devices_.push_back({d.name, WB_NODE_CAMERA, {double(d.width), double(d.height), d.fov_rad, 0, 0}});
-        break;
-      case sim::DeviceKind::Lidar:
-      case sim::DeviceKind::RangeFinder: {
-        const RangeGrid grid = range_grid(d);
-        devices_.push_back({d.name,
-                            d.kind == sim::DeviceKind::Lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER,
-                            {double(grid.columns), double(grid.rows), d.fov_rad, d.near_m, d.far_m,
-                             d.kind == sim::DeviceKind::Lidar ? d.vertical_fov_rad : 0}});
-        break;
-      }
-      case sim::DeviceKind::Gps:
-        devices_.push_back({d.name, WB_NODE_GPS, {}});
-        break;
-      case sim::DeviceKind::Compass:
-        devices_.push_back({d.name, WB_NODE_COMPASS, {}});
-        break;
-      case sim::DeviceKind::Inertial:
-        devices_.push_back({d.name, WB_NODE_INERTIAL_UNIT, {}});
-        break;
-      case sim::DeviceKind::Gyro:
-        devices_.push_back({d.name, WB_NODE_GYRO, {}});
-        break;
-      case sim::DeviceKind::Touch:
-        devices_.push_back({d.name, WB_NODE_TOUCH_SENSOR, {0}});
-        break;
-      case sim::DeviceKind::Light:
-        devices_.push_back({d.name, WB_NODE_LIGHT_SENSOR, {}});
-        break;
-      case sim::DeviceKind::Led:
-        devices_.push_back({d.name, WB_NODE_LED, {}});
-        break;
-      case sim::DeviceKind::Speaker:
-        devices_.push_back({d.name, WB_NODE_SPEAKER, {}});
-        break;
-      case sim::DeviceKind::Pen:
-        devices_.push_back({d.name, WB_NODE_PEN, {}});
-        break;
-      case sim::DeviceKind::Position:
-        devices_.push_back({d.name, WB_NODE_POSITION_SENSOR, {0}});
-        break;
-    }
+  for (const sim::DeviceDesc& d : desc_.devices) {
+    WorldDevice device = world_device(d);
+    has_emitter |= d.kind == sim::DeviceKind::Emitter;
+    has_receiver |= d.kind == sim::DeviceKind::Receiver;
+    devices_.push_back({d.name, device.node, std::move(device.needs), d.channel, d.range_m});
+  }
   // a world file that names none had these
   if (!has_emitter) devices_.push_back({"emitter", WB_NODE_EMITTER, {1, -1, board::kPacketQueueBytes}, 1});
   if (!has_receiver) devices_.push_back({"receiver", WB_NODE_RECEIVER, {1}, 1});

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "programs/team/names.h"
 
-#include <fmt/format.h>
-
 #include <cstring>
 
 #include "sim_core/base/hash.h"

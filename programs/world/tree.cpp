@@ -11,6 +11,16 @@ using wbt::Vec3;
 
 namespace {
 
+/// As a node has it of which nothing is said.
+Value usual(const FieldRow& row) {
+  Value v;
+  v.name = row.name;
+  v.type = row.type;
+  v.numbers = row.numbers;
+  if (row.type == kText) v.texts = {row.text};
+  return v;
+}
+
 /// What a field is that no table knows, by what stands in it.
 int guessed_type(const wbt::Field& f) {
   if (!f.nodes.empty()) return f.nodes.size() == 1 ? kNode : kNode + kList;
@@ -75,14 +85,7 @@ TreeNode& Tree::make(const std::string& type, const std::string& def, int parent
   n.type = type;
   n.base = base_of(type);
   n.def = def;
-  for (const FieldRow& row : fields_of(type)) {
-    Value v;
-    v.name = row.name;
-    v.type = row.type;
-    v.numbers = row.numbers;
-    if (row.type == kText) v.texts = {row.text};
-    n.values.push_back(std::move(v));
-  }
+  for (const FieldRow& row : fields_of(type)) n.values.push_back(usual(row));
   return n;
 }
 
@@ -159,15 +162,8 @@ int Tree::add(const wbt::Node& from, int parent, const std::string& field, int i
   }
   for (const wbt::Field& f : from.fields) fill(f, true);
   // whatever is placed can be asked for its place
-  for (const FieldRow& row : fields_of(node(id).base)) {
-    if (node(id).find(row.name)) continue;
-    Value v;
-    v.name = row.name;
-    v.type = row.type;
-    v.numbers = row.numbers;
-    if (row.type == kText) v.texts = {row.text};
-    node(id).values.push_back(std::move(v));
-  }
+  for (const FieldRow& row : fields_of(node(id).base))
+    if (!node(id).find(row.name)) node(id).values.push_back(usual(row));
   attach(id, parent, field, index);
   return id;
 }

@@ -384,30 +384,22 @@ py::array_t<double> rows_of(const Record& record) {
   return array;
 }
 
+/// A property of a row a robot.
+template <int kColumns, class Numbers>
+auto rows_in(Numbers Arrays::*numbers) {
+  return [numbers](const py::object& self) {
+    auto& a = self.cast<Arrays&>();
+    return view(a.*numbers, {static_cast<py::ssize_t>(a.battery_v.size()), kColumns}, self);
+  };
+}
+
 void bind_arrays(py::module_& module) {
   py::class_<Arrays, std::shared_ptr<Arrays>>(module, "Arrays")
       .def(py::init<std::size_t>())
-      .def_property_readonly("poses",
-                             [](const py::object& self) {
-                               auto& a = self.cast<Arrays&>();
-                               return view(a.poses, {static_cast<py::ssize_t>(a.battery_v.size()), 3}, self);
-                             })
-      .def_property_readonly(
-          "proximity",
-          [](const py::object& self) {
-            auto& a = self.cast<Arrays&>();
-            return view(a.proximity, {static_cast<py::ssize_t>(a.battery_v.size()), 8}, self);
-          })
-      .def_property_readonly("leds",
-                             [](const py::object& self) {
-                               auto& a = self.cast<Arrays&>();
-                               return view(a.leds, {static_cast<py::ssize_t>(a.battery_v.size()), 10}, self);
-                             })
-      .def_property_readonly("steps",
-                             [](const py::object& self) {
-                               auto& a = self.cast<Arrays&>();
-                               return view(a.steps, {static_cast<py::ssize_t>(a.battery_v.size()), 2}, self);
-                             })
+      .def_property_readonly("poses", rows_in<3>(&Arrays::poses))
+      .def_property_readonly("proximity", rows_in<8>(&Arrays::proximity))
+      .def_property_readonly("leds", rows_in<10>(&Arrays::leds))
+      .def_property_readonly("steps", rows_in<2>(&Arrays::steps))
       .def_property_readonly("battery_v", [](const py::object& self) {
         auto& a = self.cast<Arrays&>();
         return view(a.battery_v, {static_cast<py::ssize_t>(a.battery_v.size())}, self);

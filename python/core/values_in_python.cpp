@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "python/core/values_in_python.h"
 
-#include <functional>
 #include <stdexcept>
-
-#include "hal_sim/debug/values.h"
 
 namespace py = pybind11;
 

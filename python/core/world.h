@@ -7,7 +7,6 @@
 //
 // Knows nothing of Python. Threads: one at a time; run() may be left to another one while nobody else asks.
 #pragma once
-#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <map>

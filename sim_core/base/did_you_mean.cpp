@@ -34,4 +34,9 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return best;
 }
 
+std::string did_you_mean_tail(const std::string& word, const std::vector<std::string>& candidates) {
+  const std::string meant = did_you_mean(word, candidates);
+  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+}
+
 }  // namespace sim

@@ -4,7 +4,6 @@
 #include "sim_core/geometry/neighbours.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_core/base/check.h"
 

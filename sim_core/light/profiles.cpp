@@ -264,6 +264,15 @@ std::string sensor_list(const std::vector<int>& sensors) {
   return text;
 }
 
+/// Of the group with that text, a new one behind the others where there is none yet.
+template <class Member>
+std::vector<Member>& members_of(std::vector<std::pair<std::string, std::vector<Member>>>& groups,
+                                const std::string& text) {
+  for (auto& group : groups)
+    if (group.first == text) return group.second;
+  return groups.emplace_back(text, std::vector<Member>{}).second;
+}
+
 }  // namespace
 
 std::vector<std::string> proximity_notices(const WorldDesc& world) {
@@ -277,24 +286,10 @@ std::vector<std::string> proximity_notices(const WorldDesc& world) {
     for (int i = 0; i < static_cast<int>(model->proximity.size()); ++i) {
       const std::string text = notice_of(resolve_proximity(world, r, i));
       if (text.empty()) continue;
-      const auto same =
-          std::find_if(mine.begin(), mine.end(), [&](const auto& m) { return m.first == text; });
-      if (same == mine.end()) {
-        mine.push_back({text, {i}});
-      } else {
-        same->second.push_back(i);
-      }
+      members_of(mine, text).push_back(i);
     }
-    for (const auto& [text, sensors] : mine) {
-      const std::string key = sensor_list(sensors) + ": " + text;
-      const auto same =
-          std::find_if(found.begin(), found.end(), [&](const auto& f) { return f.first == key; });
-      if (same == found.end()) {
-        found.push_back({key, {robot.name}});
-      } else {
-        same->second.push_back(robot.name);
-      }
-    }
+    for (const auto& [text, sensors] : mine)
+      members_of(found, sensor_list(sensors) + ": " + text).push_back(robot.name);
   }
   std::vector<std::string> out;
   for (const auto& [text, robots] : found) {

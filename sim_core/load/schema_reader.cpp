@@ -172,12 +172,11 @@ void SchemaReader::read_table(const SectionSpec& spec, const std::vector<std::st
               "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
       continue;
     }
-    const std::string meant = did_you_mean(name, candidates);
     std::string all;
     for (const std::string& c : candidates) all += (all.empty() ? "" : ", ") + c;
-    problem(key.source(), fmt::format("unknown key '{}'{}{} (keys: {})", name.substr(0, 60),
-                                      path.empty() ? "" : " in " + path,
-                                      meant.empty() ? "" : "; did you mean '" + meant + "'?", all));
+    problem(key.source(),
+            fmt::format("unknown key '{}'{}{} (keys: {})", name.substr(0, 60),
+                        path.empty() ? "" : " in " + path, did_you_mean_tail(name, candidates), all));
   }
   for (const KeySpec& k : spec.keys) {
     const toml::node* node = table.get(k.key);
@@ -205,8 +204,7 @@ std::string SchemaReader::choice_hint(const KeySpec& k, const std::string& got) 
   std::vector<std::string> words;
   std::istringstream in(k.choices);
   for (std::string w; std::getline(in, w, '|');) words.push_back(w);
-  const std::string meant = did_you_mean(got, words);
-  return meant.empty() ? "" : "; did you mean '" + meant + "'?";
+  return did_you_mean_tail(got, words);
 }
 
 }  // namespace sim

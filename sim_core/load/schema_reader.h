@@ -2,7 +2,6 @@
 // What readers of TOML files by a schema share: parsing, messages with line and column, keys with their types
 // and ranges, unknown keys with what they may mean.
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

@@ -2,8 +2,6 @@
 // Words made from the schema: what a message says was expected, and the tables of keys in docs/worlds.md.
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "sim_core/light/profiles.h"
 #include "sim_core/load/schema.h"
 

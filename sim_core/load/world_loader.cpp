@@ -7,9 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
-#include <sstream>
 
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/floor_image.h"
@@ -270,11 +268,10 @@ class Reader : private SchemaReader {
       names.push_back(kind.name);
       known += (known.empty() ? "" : ", ") + kind.name;
     }
-    const std::string meant = did_you_mean(name, names);
     problem(written_kind ? written_kind->source() : table.source(),
             fmt::format("robot.part.kind: {}, expected one of {}{}",
                         written_kind ? "got " + written(*written_kind) : std::string("missing"), known,
-                        meant.empty() ? "" : "; did you mean '" + meant + "'?"));
+                        did_you_mean_tail(name, names)));
   }
 
   WorldDesc world_;

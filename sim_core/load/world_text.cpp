@@ -205,6 +205,13 @@ std::vector<int> WorldText::ids() const {
   return out;
 }
 
+std::size_t WorldText::end_of(int element) const {
+  std::size_t end = 0;
+  for (const Table& t : tables_)
+    if (t.element == element) end = t.end;
+  return end;
+}
+
 int WorldText::index_of(int id) const {
   return id < 0 || id >= static_cast<int>(index_of_id_.size()) ? -1
                                                                : index_of_id_[static_cast<std::size_t>(id)];
@@ -307,9 +314,7 @@ int WorldText::insert(const std::string& path, const std::string& table) {
   for (std::size_t i = 0; i < elements_.size(); ++i)
     if (elements_[i].path == path) after = static_cast<int>(i);
   if (after < 0) after = static_cast<int>(elements_.size()) - 1;
-  std::size_t at = 0;
-  for (const Table& t : tables_)
-    if (t.element == after) at = t.end;
+  const std::size_t at = end_of(after);
   const auto ends_with = [&](const char* end) {
     const std::string_view before = std::string_view(text_).substr(0, at);
     const std::string_view tail(end);
@@ -371,9 +376,7 @@ bool WorldText::add_inner(int id, const std::string& path, const Values& values)
   if (index < 0) return false;
   std::string table = fmt::format("[[{}]]\n", path);
   for (const auto& [key, value] : values) table += fmt::format("{} = {}\n", key, value);
-  std::size_t at = 0;
-  for (const Table& t : tables_)
-    if (t.element == index) at = t.end;
+  const std::size_t at = end_of(index);
   if (at > 0 && text_[at - 1] != '\n') table = "\n" + table;
   const bool has_gap = at > 1 && text_[at - 1] == '\n' && text_[at - 2] == '\n';
   // the blank line that stood below the element goes on doing so
@@ -404,9 +407,7 @@ bool WorldText::remove_inner(int id, const std::string& path, int index) {
 int WorldText::copy(int id) {
   const int index = index_of(id);
   if (index < 0 || !elements_[static_cast<std::size_t>(index)].many) return 0;
-  std::size_t at = 0;
-  for (const Table& t : tables_)
-    if (t.element == index) at = t.end;
+  const std::size_t at = end_of(index);
   std::string table = text_of(id, true);
   while (table.size() > 1 && table[table.size() - 1] == '\n' && table[table.size() - 2] == '\n')
     table.pop_back();

@@ -82,6 +82,7 @@ class WorldText {
   void index_ids();
   std::vector<int> ids() const;
   int index_of(int id) const;
+  std::size_t end_of(int element) const;  // 0: it has no table
   int insert(const std::string& path, const std::string& element);
   const Table* own_table(int id) const;
   std::string text_;

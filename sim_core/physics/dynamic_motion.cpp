@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim_core/base/check.h"
 #include "sim_core/physics/motion.h"
 #include "sim_core/physics/physics_params.h"
 

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "sim_core/base/check.h"
-#include "sim_core/physics/physics_params.h"
 
 namespace sim {
 

@@ -5,7 +5,6 @@
 #include "sim_core/radio/radio_medium.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_core/base/portable_math.h"
 #include "sim_core/radio/radio_params.h"

@@ -2,7 +2,6 @@
 #include "sim_core/record/map_painter.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "sim_core/light/proximity.h"
 

@@ -7,7 +7,6 @@
 #include <vpx/vp8cx.h>
 #include <vpx/vpx_encoder.h>
 
-#include <algorithm>
 #include <cstring>
 
 #include "sim_core/record/frame_encoder.h"

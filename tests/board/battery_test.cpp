@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/board/epuck_params.h"
 
 namespace {
 

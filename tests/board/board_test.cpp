@@ -4,10 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <ctime>
-#include <memory>
-#include <random>
-
 #include "tests/board/flat_scene.h"
 
 namespace {

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "hal_sim/board/board.h"
-#include "hal_sim/board/camera_params.h"
 #include "tests/board/flat_scene.h"
 
 namespace {

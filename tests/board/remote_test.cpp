@@ -33,7 +33,6 @@ std::string decoded(const RemoteReceiver& remote, double frame_at_s) {
 TEST(Remote, line_is_high_for_ever_when_nobody_presses_anything) {
   RobotClock clock;
   RemoteReceiver remote(clock);
-  EXPECT_FALSE(remote.in_use());
   EXPECT_TRUE(remote.level(0));
   EXPECT_EQ(remote.horizon(0), board::kNever);
 }

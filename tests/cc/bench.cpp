@@ -55,6 +55,15 @@ cc::BuildResult build(const Folder& folder, const std::string& main_c, const std
   return cc::build_image(options);
 }
 
+cc::BuildResult build_folder(const Folder& folder, const std::string& name) {
+  cc::BuildOptions options;
+  options.source_dir = folder.path / name;
+  options.output = folder.path / "out.elf";
+  return cc::build_image(options);
+}
+
+std::string said(const Folder& folder) { return output_of(folder.path / "out.elf"); }
+
 std::string output_of(const fs::path& image) {
   dspic::FirmwareFile file;
   std::string error;

@@ -4,7 +4,6 @@
 #include <filesystem>
 #include <functional>
 #include <string>
-#include <vector>
 
 #include "compiler/build/build.h"
 #include "tests/support/wording.h"
@@ -29,6 +28,10 @@ using Change = std::function<void(cc::BuildOptions&)>;
 /// One main.c, in the folder prog/; messages in the result.
 cc::BuildResult build(const Folder& folder, const std::string& main_c, const std::string& level = "-O1",
                       const Change& change = {});
+
+/// A folder below it, with the defaults; the image is out.elf. What the program prints then.
+cc::BuildResult build_folder(const Folder& folder, const std::string& name);
+std::string said(const Folder& folder);
 
 /// What an image prints over UART 1, which is on, until its main() returns or resets, for
 /// some seconds at most.

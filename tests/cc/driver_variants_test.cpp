@@ -12,13 +12,6 @@ using namespace cc_test;
 
 namespace {
 
-cc::BuildResult build_it(const Folder& folder) {
-  cc::BuildOptions options;
-  options.source_dir = folder.path / "prog";
-  options.output = folder.path / "out.elf";
-  return cc::build_image(options);
-}
-
 bool has_function(const Folder& folder, const std::string& name) {
   std::ifstream in(folder.path / "out.map");
   const std::string map{std::istreambuf_iterator<char>(in), {}};
@@ -43,7 +36,7 @@ TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
     folder.file(
         "prog/a.mcp",
         mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
-    auto built = build_it(folder);
+    auto built = build_folder(folder, "prog");
     ASSERT_TRUE(built.ok) << text_of(built);
     EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
     EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
@@ -51,7 +44,7 @@ TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
     Folder other;
     other.file("prog/main.c", kAgendaHeader + kDrive);
     other.file("prog/a.mcp", mcp("file_000=main.c\r\nfile_001=..\\..\\library\\motor_led\\e_motors.c\r\n"));
-    built = build_it(other);
+    built = build_folder(other, "prog");
     ASSERT_TRUE(built.ok) << text_of(built);
     EXPECT_TRUE(has_function(other, "tp_basic_e_set_speed_left"));
     EXPECT_FALSE(has_function(other, "e_set_speed_left"));
@@ -62,14 +55,14 @@ TEST(driver_variants, what_the_project_lists_wins_over_what_a_header_suggests) {
 TEST(driver_variants, a_driver_that_is_not_linked_owns_no_timer) {
   Folder folder;
   folder.file("prog/main.c", kBasicHeader + "#include <camera/fast_2_timer/e_poxxxx.h>\n" + kDrive);
-  auto built = build_it(folder);
+  auto built = build_folder(folder, "prog");
   ASSERT_EQ(built.conflicts.size(), 2u);
   EXPECT_TRUE(reads(folder, built.conflicts[0],
                     "main.c: warning: Timer 4: got two owners (the basic motors and the camera), expected "
                     "one; the later one silences the other"));
   folder.file("prog/a.mcp",
               mcp("file_000=main.c\r\nfile_001=C:\\lib\\motor_led\\advance_one_timer\\e_motors.c\r\n"));
-  built = build_it(folder);
+  built = build_folder(folder, "prog");
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(built.conflicts.empty());
 }
@@ -79,7 +72,7 @@ TEST(driver_variants, files_that_include_headers_of_two_forms_share_one_driver) 
   folder.file("prog/main.c",
               kAgendaHeader + "void other(void);\nint main(void) { e_init_motors(); other(); return 0; }");
   folder.file("prog/other.c", kBasicHeader + "void other(void) { e_set_speed_left(100); }");
-  auto built = build_it(folder);
+  auto built = build_folder(folder, "prog");
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_set_speed_left"));
   EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
@@ -97,7 +90,7 @@ TEST(driver_variants, a_function_of_the_programs_own_is_called_whatever_header_d
   folder.file("prog/main.c", kBasicHeader + kDrive);
   folder.file("prog/drive.c",
               "int own; void e_init_motors(void) { own = 1; } void e_set_speed_left(int v) { own = v; }");
-  auto built = build_it(folder);
+  auto built = build_folder(folder, "prog");
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_FALSE(has_function(folder, "tp_basic_e_set_speed_left"));
 }
@@ -108,7 +101,7 @@ TEST(driver_variants, functions_of_a_form_link_without_a_header) {
         "e_init_micro();", "e_start_timer_processing(1); e_configure_timer(1);"}) {
     Folder folder;
     folder.file("prog/main.c", "int main() { " + calls + " return 0; }");
-    auto built = build_it(folder);
+    auto built = build_folder(folder, "prog");
     EXPECT_TRUE(built.ok) << calls << text_of(built);
     // one driver, not the beginning of one and the rest of another
     if (calls.find("prox") != std::string::npos) {
@@ -126,7 +119,7 @@ TEST(driver_variants, forms_with_other_arguments_are_not_exchanged) {
               "int main(void) { int x, y, z; e_get_acc(&x, &y, &z); return other(); }");
   folder.file("prog/other.c",
               "#include <a_d/advance_ad_scan/e_acc.h>\nint other(void) { return e_get_acc(0); }");
-  auto built = build_it(folder);
+  auto built = build_folder(folder, "prog");
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(has_function(folder, "e_get_acc"));
   EXPECT_TRUE(has_function(folder, "tp_basic_e_get_acc"));

@@ -10,13 +10,8 @@ using namespace cc_test;
 namespace {
 
 cc::BuildResult build_folder(const Folder& folder) {
-  cc::BuildOptions options;
-  options.source_dir = folder.path / "controllers/prog";
-  options.output = folder.path / "out.elf";
-  return cc::build_image(options);
+  return cc_test::build_folder(folder, "controllers/prog");
 }
-
-std::string said(const Folder& folder) { return output_of(folder.path / "out.elf"); }
 
 const char* kMain =
     "#include <stdio.h>\n#include \"part.h\"\nint part(void);\n"

@@ -17,14 +17,7 @@ namespace {
 const char* kMain =
     "#include <stdio.h>\nint part(void);\nint main(void) { printf(\"%d\", part()); return 0; }";
 
-cc::BuildResult build_folder(const Folder& folder, const std::string& name = "prog") {
-  cc::BuildOptions options;
-  options.source_dir = folder.path / name;
-  options.output = folder.path / "out.elf";
-  return cc::build_image(options);
-}
-
-std::string said(const Folder& folder) { return output_of(folder.path / "out.elf"); }
+cc::BuildResult build_folder(const Folder& folder) { return cc_test::build_folder(folder, "prog"); }
 
 std::string mcp(const std::string& files, const std::string& include = "") {
   return "[HEADER]\r\ndevice=dsPIC30F6014A\r\n[PATH_INFO]\r\ndir_src=\r\ndir_inc=" + include +

@@ -3,7 +3,6 @@
 // at the same place, have said the same and show the same.
 #include <cmath>
 
-#include "dspic30/memory/irqs.h"
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/drivers/drivers.h"
 #include "tests/chip/hal_flight.h"

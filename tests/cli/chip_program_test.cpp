@@ -216,10 +216,8 @@ TEST_F(ChipProgram, exact_cycles_of_the_docs_are_those_of_the_chip) {
   const std::string check =
       "cd '" TWINPUCK_SOURCE_DIR "' && python3 scripts/exact_cycles.py '" TWINPUCK_BUILD_DIR
       "' --check braitenberg_2a tilt blink 2>&1";
-  FILE* pipe = popen(check.c_str(), "r");
-  std::string text;
-  for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
-  EXPECT_EQ(pclose(pipe), 0) << text;
+  const auto said = shell::run(check);
+  EXPECT_EQ(said.exit_code, 0) << said.text;
 }
 
 // a HEX file names nothing: what the vectors and calls lead to are its functions

@@ -2,18 +2,16 @@
 // Runs the `twinpuck` command as a user would and keeps what it said.
 #pragma once
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/support/shell.h"
 #include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
@@ -21,25 +19,14 @@ namespace cli_test {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int exit_code = -1;
-  std::string text;  ///< stdout and stderr
-};
+using shell::Said;
 
 inline std::string executable() { return std::string(TWINPUCK_BUILD_DIR) + "/twinpuck"; }
 
 /// `arguments` go through the shell; the current folder is the project's.
 inline Said twinpuck(const std::string& arguments, const std::string& before = "") {
-  Said said;
-  const std::string line = "cd '" TWINPUCK_SOURCE_DIR "' && " + before + " '" + executable() + "' " +
-                           arguments + " 2>&1 </dev/null";
-  FILE* pipe = popen(line.c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
-    said.text.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return said;
+  return shell::run("cd '" TWINPUCK_SOURCE_DIR "' && " + before + " '" + executable() + "' " + arguments +
+                    " 2>&1 </dev/null");
 }
 
 /// For twinpuck(..., before): sends `signal` so many seconds after `file` has come and grown to `bytes`,

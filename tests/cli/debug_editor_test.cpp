@@ -20,11 +20,9 @@ class DebugEditor : public cli_test::CommandTest {
     const std::string line =
         "cd '" + workspace + "' && python3 '" TWINPUCK_SOURCE_DIR "/tests/cli/dap_paths.py' '" +
         cli_test::executable() + "' '" + firmware + "' '" + source + "' " + more + " 2>&1";
-    FILE* pipe = popen(line.c_str(), "r");
-    std::string text;
-    for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
-    EXPECT_EQ(pclose(pipe), 0) << line << "\n" << text;
-    EXPECT_EQ(text, "all as expected\n") << line;
+    const auto said = shell::run(line);
+    EXPECT_EQ(said.exit_code, 0) << line << "\n" << said.text;
+    EXPECT_EQ(said.text, "all as expected\n") << line;
   }
   static void write_program(const std::string& at) {
     cli_test::fs::create_directories(at);

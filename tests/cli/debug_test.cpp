@@ -164,11 +164,9 @@ TEST_P(Debug, editors_speak_with_it) {
   const std::string line = "python3 '" TWINPUCK_SOURCE_DIR "/tests/cli/dap_client.py' '" +
                            cli_test::executable() + "' '" + program() + "' '" + path("mine/main.c") +
                            "' 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
-  std::string text;
-  for (char bytes[4096]; const std::size_t n = fread(bytes, 1, sizeof bytes, pipe);) text.append(bytes, n);
-  EXPECT_EQ(pclose(pipe), 0) << text;
-  EXPECT_EQ(text, "all as expected\n");
+  const auto said = shell::run(line);
+  EXPECT_EQ(said.exit_code, 0) << said.text;
+  EXPECT_EQ(said.text, "all as expected\n");
 }
 
 TEST_P(Debug, mistakes_are_answered) {

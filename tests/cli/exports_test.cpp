@@ -13,11 +13,9 @@ class Exports : public CommandTest {
  protected:
   static std::set<std::string> exported(const std::string& program) {
     std::set<std::string> names;
-    FILE* pipe = popen(("nm -D --defined-only '" + program + "'").c_str(), "r");
-    std::string text;
-    for (int c; (c = fgetc(pipe)) != EOF;) text.push_back(static_cast<char>(c));
-    EXPECT_EQ(pclose(pipe), 0) << program;
-    std::istringstream lines(text);
+    const Said said = shell::run("nm -D --defined-only '" + program + "'");
+    EXPECT_EQ(said.exit_code, 0) << program;
+    std::istringstream lines(said.text);
     for (std::string address, kind, name; lines >> address >> kind >> name;)
       // what templates and vague linkage leave behind is the linker's business, and the libraries' copies too
       if (std::string("TDRG").find(kind) != std::string::npos && name.find('@') == std::string::npos)

@@ -30,11 +30,7 @@ class Limits : public CommandTest {
   }
   /// Compilers that work on this test's files.
   std::string compilers() const {
-    std::string text;
-    FILE* pipe = popen(("pgrep -fa '([t]winpuck-cc|[c]c1).*" + path("") + "'").c_str(), "r");
-    for (int c; (c = fgetc(pipe)) != EOF;) text.push_back(static_cast<char>(c));
-    pclose(pipe);
-    return text;
+    return shell::run("pgrep -fa '([t]winpuck-cc|[c]c1).*" + path("") + "'").text;
   }
   /// `arguments` with the end asked for after a second and a half: seconds until it came.
   void expect_quick_end(const std::string& arguments, const std::string& signal) const {

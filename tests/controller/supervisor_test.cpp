@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 
 #include "tests/controller/fake_simulator.h"
 #include "tests/support/wording.h"

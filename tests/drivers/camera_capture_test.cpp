@@ -99,10 +99,6 @@ TEST(CameraCapture, a_short_buffer_gets_what_it_holds_and_a_reset_ends_the_pictu
   EXPECT_EQ(line[2], 9);
   robot.capture.reset();
   EXPECT_EQ(robot.capture.take_line(line, 4, first), 0);
-  board::Setup blind;
-  blind.camera = board::CameraKind::None;
-  board::Board without(blind);
-  EXPECT_FALSE(CameraCapture(without.camera()).has_camera());
 }
 
 }  // namespace

@@ -2,9 +2,6 @@
 // The board under the library's drivers: pins that they move, wheels that turn, what they draw.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "hal_sim/board/battery_params.h"
 #include "tests/board/flat_scene.h"
 #include "tests/drivers/driven_board.h"
 #include "tests/drivers/scan_times.h"

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "hal_sim/board/sound_bank.h"
-#include "hal_sim/board/sound_params.h"
 #include "hal_sim/drivers/sound_driver.h"
 #include "sim_core/world/world_desc.h"
 #include "tests/board/flat_scene.h"

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "dspic30/device/dspic30f6014a.h"
+#include "dspic30/memory/sfr_table.h"
 
 namespace bench {
 
@@ -129,9 +130,9 @@ struct Bench {
   dspic::Dspic30f6014a chip;
 
   static unsigned at(const std::string& name) {
-    const int address = dspic::Dspic30f6014a::register_address(name);
-    EXPECT_GE(address, 0) << name;
-    return static_cast<unsigned>(address);
+    const dspic::SfrInfo* info = dspic::sfr_named(name);
+    EXPECT_TRUE(info) << name;
+    return info ? info->address : 0;
   }
   void write(const std::string& name, unsigned value, Cycle now) {
     chip.write(at(name), static_cast<std::uint16_t>(value), 16, now);

@@ -84,8 +84,8 @@ TEST(Bus, names_and_addresses) {
   EXPECT_STREQ(dspic::Dspic30f6014a::register_name(0x111), "T2CON");
   EXPECT_EQ(dspic::Dspic30f6014a::register_name(0x054), nullptr);
   EXPECT_EQ(dspic::Dspic30f6014a::register_name(0x900), nullptr);
-  EXPECT_EQ(dspic::Dspic30f6014a::register_address("NVMKEY"), 0x766);
-  EXPECT_EQ(dspic::Dspic30f6014a::register_address("NOTHING"), -1);
+  EXPECT_EQ(dspic::sfr_named("NVMKEY")->address, 0x766);
+  EXPECT_EQ(dspic::sfr_named("NOTHING"), nullptr);
   EXPECT_EQ(dspic::sfr_bit_name(*dspic::sfr_info(0x104), 5), "T1CON.TCKPS");
 }
 

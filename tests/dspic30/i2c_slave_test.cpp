@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The I2C module as a slave: a turret's program of sixteen cells, spoken to by a master that the test plays.
+#include "dspic30/device/chip_parts.h"
 #include "tests/dspic30/core_bench.h"
 
 namespace {
@@ -61,9 +62,29 @@ handled: .space 2
 )";
 constexpr std::uint8_t kWrite = 0x42 << 1, kRead = kWrite | 1;
 
+/// Another master of the chip's I2C bus, to which the chip is a slave. The program has run up to `now`.
+class I2cMaster {
+ public:
+  explicit I2cMaster(dspic::Dspic30f6014a& chip) : parts_(chip.parts()) {}
+  void start(Cycle now) { at(now).hear_start(now); }
+  bool write(std::uint8_t byte, Cycle now) { return at(now).hear_byte(byte, now); }
+  std::uint8_t read(Cycle now) { return at(now).say_byte(); }
+  void acknowledge(bool acknowledged, Cycle now) { at(now).hear_acknowledge(acknowledged, now); }
+  void stop(Cycle now) { at(now).hear_stop(now); }
+  bool holds_clock() const { return parts_.i2c.holds_clock(); }
+
+ private:
+  dspic::I2c& at(Cycle now) {
+    parts_.events.run_to(now);
+    return parts_.i2c;
+  }
+  dspic::ChipParts& parts_;
+};
+
 /// 100 kHz or so, and patient.
 struct Master {
   CoreBench& b;
+  I2cMaster master{*b.chip};
   Cycle now = 1000, waited = 0;
   static constexpr Cycle kBit = 147, kPatience = 10000;
 
@@ -74,30 +95,30 @@ struct Master {
   }
   void wait() {
     const Cycle begin = now;
-    while (b.chip->i2c_master().holds_clock() && now - begin < kPatience) go_on(1);
+    while (master.holds_clock() && now - begin < kPatience) go_on(1);
     EXPECT_LT(now - begin, kPatience) << "the slave never let SCL go";
     waited += now - begin;
   }
   void start() {
     go_on(kBit);
-    b.chip->i2c_master().start(now);
+    master.start(now);
   }
   void stop() {
     wait();
     go_on(kBit);
-    b.chip->i2c_master().stop(now);
+    master.stop(now);
   }
   bool write(std::uint8_t byte) {
     wait();
     go_on(9 * kBit);
-    return b.chip->i2c_master().write(byte, now);
+    return master.write(byte, now);
   }
   std::uint8_t read(bool more) {
     wait();
     go_on(8 * kBit);
-    const std::uint8_t byte = b.chip->i2c_master().read(now);
+    const std::uint8_t byte = master.read(now);
     go_on(kBit);
-    b.chip->i2c_master().acknowledge(more, now);
+    master.acknowledge(more, now);
     return byte;
   }
 };
@@ -146,6 +167,7 @@ TEST(I2cSlave, answers_to_no_other_address) {
 /// Registers alone, the module at address 0x42.
 struct I2cSlaveRegisters : ::testing::Test {
   bench::Bench b;
+  I2cMaster master{b.chip};
   I2cSlaveRegisters() {
     b.write("I2CADD", 0x42, 0);
     b.write("I2CCON", 0x9000, 1);
@@ -153,78 +175,78 @@ struct I2cSlaveRegisters : ::testing::Test {
 };
 
 TEST_F(I2cSlaveRegisters, an_unread_byte_is_kept_and_the_next_is_not_acknowledged) {
-  b.chip.i2c_master().start(100);
+  master.start(100);
   EXPECT_EQ(b.read("I2CSTAT", 101) & 0x18, 0x08u);  // S
-  EXPECT_TRUE(b.chip.i2c_master().write(kWrite, 200));
+  EXPECT_TRUE(master.write(kWrite, 200));
   EXPECT_EQ(b.read("I2CSTAT", 201) & 0x26, 0x02u);  // RBF; no data, no read
   EXPECT_TRUE(b.flag(irq::SlaveI2c, 202));
   b.clear_flag(irq::SlaveI2c, 203);
-  EXPECT_FALSE(b.chip.i2c_master().write(0x77, 300));
+  EXPECT_FALSE(master.write(0x77, 300));
   EXPECT_TRUE(b.flag(irq::SlaveI2c, 301));
   EXPECT_EQ(b.read("I2CSTAT", 302) & 0x62, 0x62u);  // I2COV, D_A, RBF
   EXPECT_EQ(b.read("I2CRCV", 303), unsigned{kWrite});
   b.clear("I2CSTAT", 0x40, 304);
-  EXPECT_TRUE(b.chip.i2c_master().write(0x78, 400));
+  EXPECT_TRUE(master.write(0x78, 400));
   EXPECT_EQ(b.read("I2CRCV", 401), 0x78u);
-  b.chip.i2c_master().stop(500);
+  master.stop(500);
   EXPECT_EQ(b.read("I2CSTAT", 501) & 0x18, 0x10u);  // P
 }
 
 TEST_F(I2cSlaveRegisters, the_clock_is_held_until_the_program_releases_it) {
-  b.chip.i2c_master().start(100);
-  EXPECT_TRUE(b.chip.i2c_master().write(kRead, 200));
-  EXPECT_TRUE(b.chip.i2c_master().holds_clock());
+  master.start(100);
+  EXPECT_TRUE(master.write(kRead, 200));
+  EXPECT_TRUE(master.holds_clock());
   EXPECT_EQ(b.read("I2CCON", 201), 0x8000u);
   b.write("I2CTRN", 0xA5, 202);
   EXPECT_EQ(b.read("I2CSTAT", 203) & 0x4001, 1u);  // TBF, and no transmission of a master's
-  EXPECT_TRUE(b.chip.i2c_master().holds_clock());
+  EXPECT_TRUE(master.holds_clock());
   b.set("I2CCON", 0x1000, 204);
-  EXPECT_FALSE(b.chip.i2c_master().holds_clock());
-  EXPECT_EQ(b.chip.i2c_master().read(300), 0xA5);
+  EXPECT_FALSE(master.holds_clock());
+  EXPECT_EQ(master.read(300), 0xA5);
   EXPECT_EQ(b.read("I2CSTAT", 301) & 0x1, 0u);
   b.write("I2CTRN", 0x5A, 302);  // in time: nothing is held
-  b.chip.i2c_master().acknowledge(true, 310);
-  EXPECT_FALSE(b.chip.i2c_master().holds_clock());
-  EXPECT_EQ(b.chip.i2c_master().read(400), 0x5A);
+  master.acknowledge(true, 310);
+  EXPECT_FALSE(master.holds_clock());
+  EXPECT_EQ(master.read(400), 0x5A);
   b.clear_flag(irq::SlaveI2c, 401);
-  b.chip.i2c_master().acknowledge(false, 410);
+  master.acknowledge(false, 410);
   EXPECT_TRUE(b.flag(irq::SlaveI2c, 411));
-  EXPECT_FALSE(b.chip.i2c_master().holds_clock());
-  EXPECT_EQ(b.chip.i2c_master().read(500), 0xFF);  // it is over
+  EXPECT_FALSE(master.holds_clock());
+  EXPECT_EQ(master.read(500), 0xFF);  // it is over
   EXPECT_TRUE(b.outside.i2c.empty());
 }
 
 TEST_F(I2cSlaveRegisters, with_stren_each_byte_received_holds_the_clock) {
   b.write("I2CCON", 0x9040, 50);
-  b.chip.i2c_master().start(100);
-  EXPECT_TRUE(b.chip.i2c_master().write(kWrite, 200));
-  EXPECT_TRUE(b.chip.i2c_master().holds_clock());
+  master.start(100);
+  EXPECT_TRUE(master.write(kWrite, 200));
+  EXPECT_TRUE(master.holds_clock());
   b.read("I2CRCV", 201);
   b.set("I2CCON", 0x1000, 202);
-  EXPECT_FALSE(b.chip.i2c_master().holds_clock());
+  EXPECT_FALSE(master.holds_clock());
   b.clear("I2CCON", 0x1000, 203);  // by the program, which STREN allows
-  EXPECT_TRUE(b.chip.i2c_master().holds_clock());
+  EXPECT_TRUE(master.holds_clock());
   b.set("I2CCON", 0x1000, 204);
   b.write("I2CCON", 0x9000, 205);
   b.clear("I2CCON", 0x1000, 206);  // and without it does not
-  EXPECT_FALSE(b.chip.i2c_master().holds_clock());
+  EXPECT_FALSE(master.holds_clock());
 }
 
 TEST_F(I2cSlaveRegisters, the_general_call_is_answered_with_gcen_alone) {
-  b.chip.i2c_master().start(100);
-  EXPECT_FALSE(b.chip.i2c_master().write(0, 200));
+  master.start(100);
+  EXPECT_FALSE(master.write(0, 200));
   b.write("I2CCON", 0x9080, 250);
-  b.chip.i2c_master().start(300);
-  EXPECT_TRUE(b.chip.i2c_master().write(0, 400));
+  master.start(300);
+  EXPECT_TRUE(master.write(0, 400));
   EXPECT_EQ(b.read("I2CSTAT", 401) & 0x200, 0x200u);  // GCSTAT
   EXPECT_EQ(b.read("I2CRCV", 402), 0u);
-  EXPECT_TRUE(b.chip.i2c_master().write(6, 500));
+  EXPECT_TRUE(master.write(6, 500));
 }
 
 TEST_F(I2cSlaveRegisters, a_module_that_is_off_hears_nothing) {
   b.write("I2CCON", 0x1000, 50);
-  b.chip.i2c_master().start(100);
-  EXPECT_FALSE(b.chip.i2c_master().write(kWrite, 200));
+  master.start(100);
+  EXPECT_FALSE(master.write(kWrite, 200));
   EXPECT_EQ(b.read("I2CSTAT", 201), 0u);
 }
 

@@ -2,7 +2,6 @@
 // Program files: what is read, and what is said about broken ones.
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <map>
 
 #include "dspic30/load/firmware_file.h"

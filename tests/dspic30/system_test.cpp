@@ -38,7 +38,7 @@ TEST(Reset, peripherals_stop_and_registers_return) {
   b.write("T1CON", 0x8000, 0);
   b.enable(irq::T1, 0);
   b.write("TRISA", 0, 0);
-  b.chip.interrupts().set_cpu_level(5, 0);
+  b.chip.parts().interrupts.set_level(5, 0);
   b.chip.reset(ResetKind::Instruction, 100);
   EXPECT_EQ(b.read("PR1", 101), 0xFFFFu);
   EXPECT_EQ(b.read("T1CON", 101), 0u);
@@ -225,8 +225,7 @@ TEST(ModuleDisable, is_each_chips_own) {
   EXPECT_EQ(b.read("PR2", 51), 100u);
   b.write("PR3", 7, 60);
   const auto wrote = [](Bench& one, const char* name) {
-    return one.chip.parts().bus.was_written(
-        static_cast<unsigned>(dspic::Dspic30f6014a::register_address(name)));
+    return one.chip.parts().bus.was_written(Bench::at(name));
   };
   EXPECT_TRUE(wrote(b, "PR3"));
   EXPECT_FALSE(wrote(a, "PR3"));

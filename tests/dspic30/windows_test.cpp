@@ -2,7 +2,6 @@
 // How run() is called changes nothing: neither the course, nor what is counted as waited, nor what whoever
 // plays the library sees and when.
 #include "dspic30/core/cpu.h"
-#include "dspic30/memory/host_places.h"
 #include "tests/dspic30/core_bench.h"
 
 namespace {

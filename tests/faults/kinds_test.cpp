@@ -7,7 +7,6 @@
 #include <functional>
 #include <set>
 
-#include "sim_core/base/hash.h"
 #include "tests/faults/looker.h"
 
 namespace {

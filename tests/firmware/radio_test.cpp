@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The functions of ComModule.h between whole robots: from the library's call over I2C and the air to
 // the other's buffer.
-#include <map>
 
 #include "hal_sim/board/radio_turret.h"
 #include "tests/support/firmware_test.h"

@@ -4,7 +4,6 @@
 //   build/sound_samples hal_dspic/codec/sound_samples.c
 #include <cstdio>
 #include <fstream>
-#include <iostream>
 
 #include "tests/hal_dspic/sound_samples.h"
 

@@ -3,13 +3,12 @@
 // one is what its generator writes.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "tests/hal_dspic/sound_samples.h"
+#include "tests/support/shell.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -37,13 +36,8 @@ std::string compile(const fs::path& source) {
     line += " -I" + include + folder;
   line += " -include " + root + "/firmware/libc/include/xc16_builtins.h";
   line += " -I" + root + "/firmware/libc/include '" + source.string() + "' 2>&1";
-  FILE* pipe = popen(line.c_str(), "r");
-  std::string said;
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe)) said.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  if (status != 0 && said.empty()) said = "exit " + std::to_string(status);
-  return said;
+  const shell::Said said = shell::run(line);
+  return said.exit_code != 0 && said.text.empty() ? "exit " + std::to_string(said.exit_code) : said.text;
 }
 
 std::string text_of(const fs::path& file) {

@@ -3,12 +3,10 @@
 // while clone and build folder are out of sight and the installed tree cannot be written to.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -16,6 +14,7 @@
 #include <sstream>
 #include <string>
 
+#include "tests/support/shell.h"
 #include "tests/support/wording.h"
 #include "twinpuck_paths.h"
 
@@ -23,21 +22,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Said {
-  int exit_code = -1;
-  std::string text;
-};
+using shell::Said;
 
-Said shell(const std::string& line) {
-  Said said;
-  FILE* const pipe = popen(("{ " + line + "\n} 2>&1 </dev/null").c_str(), "r");
-  std::array<char, 4096> buffer;
-  while (const std::size_t n = fread(buffer.data(), 1, buffer.size(), pipe))
-    said.text.append(buffer.data(), n);
-  const int status = pclose(pipe);
-  said.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  return said;
-}
+Said in_shell(const std::string& line) { return shell::run("{ " + line + "\n} 2>&1 </dev/null"); }
 
 std::string read(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
@@ -67,7 +54,7 @@ class Installed : public testing::Test {
     fs::create_directories(top());
     fs::permissions(top(), fs::perms(0755));
     const Said made =
-        shell("cmake --install '" TWINPUCK_BUILD_DIR "' --prefix '" + (top() / "made").string() + "'");
+        in_shell("cmake --install '" TWINPUCK_BUILD_DIR "' --prefix '" + (top() / "made").string() + "'");
     installed() = made.exit_code == 0 ? "" : made.text;
     // it works where it lies, not where it was put
     if (made.exit_code == 0) fs::rename(top() / "made", prefix());
@@ -115,7 +102,7 @@ class Installed : public testing::Test {
         "sh '" + (top() / (user + ".sh")).string() + "' " + std::to_string(id(user)) + " '" + quoted + "'";
     return "if unshare -m true 2>/dev/null; then unshare -m " + words + "; else " + words + "; fi";
   }
-  static Said said_by(const std::string& user, const std::string& line) { return shell(as(user, line)); }
+  static Said said_by(const std::string& user, const std::string& line) { return in_shell(as(user, line)); }
   /// A controller of the user's own.
   static void write_mine(const std::string& user, const std::string& text = kMine) {
     fs::create_directories(home(user) / "mine");
@@ -131,7 +118,7 @@ class Installed : public testing::Test {
 };
 
 TEST_F(Installed, it_runs_what_it_brings_along) {
-  const Said here = shell("cd / && '" TWINPUCK_BUILD_DIR "/twinpuck' run maze --for 2");
+  const Said here = in_shell("cd / && '" TWINPUCK_BUILD_DIR "/twinpuck' run maze --for 2");
   const bool has_page = fs::exists(TWINPUCK_BUILD_DIR "/page/page.js");  // a build of its own
   const Said there = said_by(
       "ann", std::string("twinpuck run maze --for 2 --picture p.png") + (has_page ? " --report r.html" : ""));
@@ -195,7 +182,7 @@ TEST_F(Installed, two_users_do_not_meet) {
   fs::create_directories(shared);
   ASSERT_EQ(chmod(shared.c_str(), 01777), 0);
   const std::string line = "XDG_CACHE_HOME=" + shared.string() + " twinpuck run maze --fw mine --for 1";
-  const Said both = shell("(" + as("ann", line) + ") & (" + as("bob", line) + ") & wait");
+  const Said both = in_shell("(" + as("ann", line) + ") & (" + as("bob", line) + ") & wait");
   EXPECT_NE(both.text.find("digest "), both.text.rfind("digest ")) << both.text;
   EXPECT_EQ(said_by("ann", line).exit_code, 0);
   EXPECT_EQ(said_by("bob", line).exit_code, 0);
@@ -214,7 +201,7 @@ TEST_F(Installed, a_home_that_cannot_be_written_is_no_hindrance) {
 }
 
 TEST_F(Installed, a_full_disk_is_told_in_a_line) {
-  if (geteuid() != 0 || shell("unshare -m true").exit_code != 0)
+  if (geteuid() != 0 || in_shell("unshare -m true").exit_code != 0)
     GTEST_SKIP() << "only root makes small disks";
   write_mine("bob");
   const std::string disk = home("bob").string() + "/disk";
@@ -222,8 +209,8 @@ TEST_F(Installed, a_full_disk_is_told_in_a_line) {
                           (home("bob") / "mine").string() + "' --for 1";
   fs::create_directories(disk);
   const auto on_it = [&](const std::string& then) {
-    return shell("unshare -m sh -c \"mount -t tmpfs -o size=64k none '" + disk + "' && XDG_CACHE_HOME='" +
-                 disk + "' " + then + "\"");
+    return in_shell("unshare -m sh -c \"mount -t tmpfs -o size=64k none '" + disk + "' && XDG_CACHE_HOME='" +
+                    disk + "' " + then + "\"");
   };
   const Said full = on_it("HOME=/proc TMPDIR='" + disk + "' " + run);
   EXPECT_EQ(full.exit_code, 2) << full.text;
@@ -235,14 +222,14 @@ TEST_F(Installed, a_full_disk_is_told_in_a_line) {
 }
 
 TEST_F(Installed, what_new_makes_passes_its_own_tests) {
-  if (shell("/usr/bin/python3 -c 'import numpy, pytest'").exit_code != 0)
+  if (in_shell("/usr/bin/python3 -c 'import numpy, pytest'").exit_code != 0)
     GTEST_SKIP() << "numpy or pytest is not here";
   const Said made = said_by("ann", "twinpuck new my_robot && cd my_robot && twinpuck test");
   EXPECT_EQ(made.exit_code, 0) << made.text;
 }
 
 TEST_F(Installed, python_finds_its_module) {
-  if (shell("/usr/bin/python3 -c 'import numpy'").exit_code != 0) GTEST_SKIP() << "numpy is not here";
+  if (in_shell("/usr/bin/python3 -c 'import numpy'").exit_code != 0) GTEST_SKIP() << "numpy is not here";
   const Said s =
       said_by("ann", "PYTHONPATH=" + (prefix() / "lib/twinpuck/python").string() +
                          " /usr/bin/python3 -c 'import twinpuck; w = twinpuck.World(\\\"maze\\\"); "
@@ -292,11 +279,12 @@ TEST_F(Installed, pages_of_the_manual_have_no_mistakes) {
   int count = 0;
   for (const auto& page : fs::directory_iterator(pages)) {
     ++count;
-    const Said lint = shell("mandoc -T lint -W warning '" + page.path().string() + "'");
+    const Said lint = in_shell("mandoc -T lint -W warning '" + page.path().string() + "'");
     EXPECT_EQ(lint.exit_code, 0) << lint.text;
   }
   EXPECT_GE(count, 17);
-  const std::string run = shell("mandoc -T utf8 '" + (pages / "twinpuck-run.1").string() + "' | col -b").text;
+  const std::string run =
+      in_shell("mandoc -T utf8 '" + (pages / "twinpuck-run.1").string() + "' | col -b").text;
   for (const char* part : {"SYNOPSIS", "--fw TEXT", "--hal sim|dspic", "Traces", "EXIT STATUS",
                            "TWINPUCK_CACHE_MB", "twinpuck run maze --fw obstacle --for 60"})
     EXPECT_NE(run.find(part), std::string::npos) << part << "\n" << run;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Edges on the chip's pins as programs count them: the camera's VSYNC, HREF and pixel clock at the clock
 // inputs of timers 5, 4 and 1, as a capture uses them, and the remote control's pulses at INT0.
-#include <cmath>
 
 #include "tests/own_drivers/fixture.h"
 

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Wheels and LEDs of the e-puck as programs of Webots' interfaces command them; and that a robot does the
 // same with an equal program on its own library.
-#include <algorithm>
-#include <cmath>
-#include <map>
 #include <set>
 
 #include "tests/programs/program_fixture.h"

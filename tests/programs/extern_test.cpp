@@ -43,11 +43,8 @@ class Extern : public WatchedRuns {
                              "/libcontroller.so"
                              " TWINPUCK_CONTROLLER=unix:" +
                              socket + " timeout -s KILL 20 python3 outside.py " + arguments + " 2>&1";
-    std::string text;
-    FILE* pipe = popen(line.c_str(), "r");
-    for (int c; (c = fgetc(pipe)) != EOF;) text.push_back(static_cast<char>(c));
-    text += "status " + std::to_string(WEXITSTATUS(pclose(pipe)));
-    return text;
+    const Said said = shell::run(line);
+    return said.text + "status " + std::to_string(said.exit_code);
   }
   const Said& end() {
     run_.join();

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 
+#include "tests/support/shell.h"
 #include "twinpuck_paths.h"
 
 namespace {
@@ -20,10 +21,8 @@ std::string failed(const std::string& file, const std::string& words) {
 #endif
   const std::string command =
       "cd '" + folder + "' && " + environment + " python3 -B " + file + " " + words + " 2>&1";
-  std::string out;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  for (char piece[256]; std::fgets(piece, sizeof piece, pipe);) out += piece;
-  return ::pclose(pipe) == 0 ? "" : out;
+  const shell::Said said = shell::run(command);
+  return said.exit_code == 0 ? "" : said.text;
 }
 
 class PythonPrograms : public testing::TestWithParam<const char*> {};

@@ -3,8 +3,6 @@
 // simulator's truth, pictures, sounds, packets. Expectations by hand, or from the board itself.
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <set>
 
 #include "tests/programs/program_fixture.h"
 

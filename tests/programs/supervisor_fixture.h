@@ -2,7 +2,6 @@
 // Supervisors in tests: a judge in C that looks, and ends the run as passed when it comes to its end.
 #pragma once
 #include <algorithm>
-#include <cmath>
 
 #include "tests/programs/program_fixture.h"
 

@@ -70,13 +70,8 @@ TEST_F(ConditionTest, names_are_the_robots_own_or_have_a_robot_before_them) {
 TEST_F(ConditionTest, it_is_looked_at_as_things_stand) {
   Condition later("time_s >= 0.5", twin());
   EXPECT_FALSE(later.holds(twin()));
-  EXPECT_FALSE(later.rises(twin()));
   run_for(0.5);
-  EXPECT_TRUE(later.rises(twin()));
-  EXPECT_FALSE(later.rises(twin()));
   EXPECT_TRUE(later.holds(twin()));
-  Condition always("1", twin());
-  EXPECT_TRUE(always.rises(twin()));
 }
 
 TEST_F(ConditionTest, what_is_no_condition_is_told) {

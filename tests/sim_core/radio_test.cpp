@@ -5,7 +5,6 @@
 #include <map>
 
 #include "sim_core/radio/radio_medium.h"
-#include "sim_core/radio/radio_params.h"
 #include "tests/sim_core/fixture.h"
 
 namespace {

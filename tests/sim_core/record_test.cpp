@@ -4,7 +4,6 @@
 #include <sys/stat.h>
 
 #include <fstream>
-#include <sstream>
 
 #include "sim_core/record/csv_recorder.h"
 #include "sim_core/record/picture.h"

@@ -6,7 +6,6 @@
 #include <filesystem>
 
 #include "sim_core/sound/sound_field.h"
-#include "sim_core/sound/sound_params.h"
 #include "sim_core/sound/wav_file.h"
 #include "tests/sim_core/fixture.h"
 

@@ -2,7 +2,6 @@
 // What the tests of Braitenberg's vehicles share: starts around the lamp of worlds/braitenberg.toml, each
 // with its own seed and unequal wheels, and what one would note down when watching.
 #pragma once
-#include <algorithm>
 #include <cmath>
 #include <vector>
 

@@ -7,6 +7,7 @@
 #include "hal_sim/twin/world_file.h"
 
 #include "hal_sim/inputs/recording.h"
+#include "tests/support/shell.h"
 #include "tests/viewer/driven_world.h"
 #include "twinpuck_paths.h"
 
@@ -148,10 +149,8 @@ TEST_F(Session, the_example_client_drives_it) {
   open("world.toml");
   const std::string command =
       "python3 " TWINPUCK_SOURCE_DIR "/tests/viewer/example_client.py " + view().server().address() + " 2>&1";
-  std::string out;
-  FILE* pipe = ::popen(command.c_str(), "r");
-  for (char piece[256]; std::fgets(piece, sizeof piece, pipe);) out += piece;
-  EXPECT_EQ(::pclose(pipe), 0) << out;
+  const auto [exit_code, out] = shell::run(command);
+  EXPECT_EQ(exit_code, 0) << out;
   EXPECT_EQ(std::count(out.begin(), out.end(), '\n'), 20) << out;
   EXPECT_NE(out.find("1.9"), std::string::npos) << out;
 }

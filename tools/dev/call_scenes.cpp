@@ -28,7 +28,6 @@ constexpr double kMostS = 4;  // simulated; the program takes a second
 constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
 constexpr int kT2 = dspic::kFirstIrqVector + dspic::irq::T2, kAdc = dspic::kFirstIrqVector + dspic::irq::Adc,
               kMathError = 4, kStack = 15;
-constexpr int kEntryAndReturn = 7;            // of an interrupt: entry 4, RETFIE 3 [DS70143 5.4]
 constexpr int kDark = 0x1235, kLit = 0x0777;  // values that no register has otherwise
 
 /// What happens in the program: code that is not measured, then what is.

@@ -2,7 +2,6 @@
 // twinpuck-dev page FILE: what is made of the code's own tables in a page of docs/, or the page's types of
 // the live view's protocol.
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <memory>
 

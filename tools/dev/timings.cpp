@@ -6,7 +6,6 @@
 #include <map>
 #include <memory>
 
-#include "hal_sim/twin/twin.h"
 #include "install/places.h"
 #include "tools/command_line.h"
 #include "tools/dev/call_cycles.h"

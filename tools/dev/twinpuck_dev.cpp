@@ -2,7 +2,6 @@
 // The command twinpuck-dev (verbs.h).
 #include <iostream>
 
-#include "tools/command_line.h"
 #include "tools/dev/verbs.h"
 #include "tools/verbs.h"
 

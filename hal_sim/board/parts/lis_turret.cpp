@@ -14,7 +14,6 @@
 // contrib/LIS_sensors_turret/], the maker's data sheet.
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "hal_sim/board/board.h"
 #include "hal_sim/board/part.h"

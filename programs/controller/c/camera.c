@@ -2,7 +2,6 @@
  * Cameras: their picture, and the objects that they recognise on it.
  */
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "programs/controller/c/library.h"
@@ -63,12 +62,7 @@ void take_picture(const struct link_record* record) {
   d->fresh = true;
 }
 
-void wb_camera_enable(WbDeviceTag tag, int sampling_period) { device_enable(device(tag, "wb_camera_enable"), sampling_period); }
-void wb_camera_disable(WbDeviceTag tag) { device_enable(device(tag, "wb_camera_disable"), 0); }
-int wb_camera_get_sampling_period(WbDeviceTag tag) {
-  const struct device* d = device(tag, "wb_camera_get_sampling_period");
-  return d ? d->period : 0;
-}
+SAMPLING(camera, device)
 
 const unsigned char* wb_camera_get_image(WbDeviceTag tag) {
   struct device* d = device(tag, "wb_camera_get_image");

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Displays: pictures of the program's own, which nobody sees during the run and image_save() writes.
  */
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

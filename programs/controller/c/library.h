@@ -129,6 +129,21 @@ WbDeviceTag find_device(const char* name, const char* function);
 
 /** ENABLE; 0 or less: no more. */
 void device_enable(struct device* device, int period);
+/* enable, disable and period of a kind, whose device `found` gives by its tag */
+#define SAMPLING(name, found)                                                                         \
+  void wb_##name##_enable(WbDeviceTag tag, int sampling_period) {                                     \
+    device_enable(found(tag, "wb_" #name "_enable"), sampling_period);                                \
+  }                                                                                                   \
+  void wb_##name##_disable(WbDeviceTag tag) { device_enable(found(tag, "wb_" #name "_disable"), 0); } \
+  int wb_##name##_get_sampling_period(WbDeviceTag tag) {                                              \
+    const struct device* d = found(tag, "wb_" #name "_get_sampling_period");                          \
+    return d ? d->period : 0;                                                                         \
+  }
+#define SENSOR(name, KIND)                                            \
+  static struct device* name(WbDeviceTag tag, const char* function) { \
+    return device_of(tag, KIND, function);                            \
+  }                                                                   \
+  SAMPLING(name, name)
 /** One number of a sensor, NaN before the first; a warning where it is not enabled. */
 double device_value(const struct device* device, const char* function);
 /** Several numbers, NaN before the first and for no device. */

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * Emitters and receivers of packets.
  */
-#include <stdlib.h>
 #include <string.h>
 
 #include "programs/controller/c/library.h"
@@ -168,14 +167,7 @@ void take_packet(const struct link_record* record) {
   r->queued += size;
 }
 
-void wb_receiver_enable(WbDeviceTag tag, int sampling_period) {
-  device_enable(receiver_device(tag, "wb_receiver_enable"), sampling_period);
-}
-void wb_receiver_disable(WbDeviceTag tag) { device_enable(receiver_device(tag, "wb_receiver_disable"), 0); }
-int wb_receiver_get_sampling_period(WbDeviceTag tag) {
-  const struct device* d = receiver_device(tag, "wb_receiver_get_sampling_period");
-  return d ? d->period : 0;
-}
+SAMPLING(receiver, receiver_device)
 
 int wb_receiver_get_queue_length(WbDeviceTag tag) {
   const struct device* d = receiver_device(tag, "wb_receiver_get_queue_length");

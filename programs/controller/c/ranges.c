@@ -72,20 +72,10 @@ bool take_ranges(struct device* d, const double* values, size_t count) {
 }
 
 #define RANGES(kind, KIND)                                                                              \
-  static struct device* kind(WbDeviceTag tag, const char* function) {                                   \
-    return device_of(tag, KIND, function);                                                              \
-  }                                                                                                     \
+  SENSOR(kind, KIND)                                                                                    \
   static struct ranges* kind##_ranges(WbDeviceTag tag, const char* function) {                          \
     struct device* d = kind(tag, function);                                                             \
     return d ? state_of(d) : 0;                                                                         \
-  }                                                                                                     \
-  void wb_##kind##_enable(WbDeviceTag tag, int sampling_period) {                                       \
-    device_enable(kind(tag, "wb_" #kind "_enable"), sampling_period);                                   \
-  }                                                                                                     \
-  void wb_##kind##_disable(WbDeviceTag tag) { device_enable(kind(tag, "wb_" #kind "_disable"), 0); }    \
-  int wb_##kind##_get_sampling_period(WbDeviceTag tag) {                                                \
-    const struct device* d = kind(tag, "wb_" #kind "_get_sampling_period");                             \
-    return d ? d->period : 0;                                                                           \
   }                                                                                                     \
   const float* wb_##kind##_get_range_image(WbDeviceTag tag) {                                           \
     struct device* d = kind(tag, "wb_" #kind "_get_range_image");                                       \

@@ -3,7 +3,6 @@
  */
 #define _GNU_SOURCE
 #include <limits.h>
-#include <math.h>
 #include <pthread.h>
 #include <stdarg.h>
 #include <stdio.h>

@@ -5,18 +5,6 @@
 
 #include "programs/controller/c/library.h"
 
-/* enable, disable and period of a kind */
-#define SENSOR(name, KIND)                                                                                       \
-  static struct device* name(WbDeviceTag tag, const char* function) { return device_of(tag, KIND, function); }   \
-  void wb_##name##_enable(WbDeviceTag tag, int sampling_period) {                                                \
-    device_enable(name(tag, "wb_" #name "_enable"), sampling_period);                                            \
-  }                                                                                                              \
-  void wb_##name##_disable(WbDeviceTag tag) { device_enable(name(tag, "wb_" #name "_disable"), 0); }             \
-  int wb_##name##_get_sampling_period(WbDeviceTag tag) {                                                         \
-    const struct device* d = name(tag, "wb_" #name "_get_sampling_period");                                      \
-    return d ? d->period : 0;                                                                                    \
-  }
-
 #define ONE_VALUE(name)                                                                                          \
   double wb_##name##_get_value(WbDeviceTag tag) {                                                                \
     return device_value(name(tag, "wb_" #name "_get_value"), "wb_" #name "_get_value");                          \

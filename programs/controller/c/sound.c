@@ -15,9 +15,7 @@ struct recording {
   void* bytes;
 };
 
-static struct device* microphone(WbDeviceTag tag, const char* function) {
-  return device_of(tag, WB_NODE_MICROPHONE, function);
-}
+SENSOR(microphone, WB_NODE_MICROPHONE)
 
 void take_sound(const struct link_record* record) {
   struct device* d = any_device(record->ints[0]);
@@ -30,14 +28,6 @@ void take_sound(const struct link_record* record) {
   memcpy(r->bytes, record->texts[0].bytes, r->size);
 }
 
-void wb_microphone_enable(WbDeviceTag tag, int sampling_period) {
-  device_enable(microphone(tag, "wb_microphone_enable"), sampling_period);
-}
-void wb_microphone_disable(WbDeviceTag tag) { device_enable(microphone(tag, "wb_microphone_disable"), 0); }
-int wb_microphone_get_sampling_period(WbDeviceTag tag) {
-  const struct device* d = microphone(tag, "wb_microphone_get_sampling_period");
-  return d ? d->period : 0;
-}
 const void* wb_microphone_get_sample_data(WbDeviceTag tag) {
   const struct device* d = microphone(tag, "wb_microphone_get_sample_data");
   return d && d->own ? ((const struct recording*)d->own)->bytes : 0;

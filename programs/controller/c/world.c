@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * What a supervisor does to the simulation as a whole: its end, resets, labels, pictures; and what there is none of.
  */
-#include <string.h>
 
 #include "programs/controller/c/world.h"
 

@@ -8,7 +8,7 @@ import { keyOf } from "../src/store/buffer";
 import { Client } from "../src/store/client";
 import { Debugging } from "../src/store/debugging";
 import { Store } from "../src/store/store";
-import { robot, world } from "./worlds";
+import { drive, robot, world } from "./worlds";
 
 const kMain = keyOf("drive", "main.c");
 
@@ -57,7 +57,7 @@ function start() {
     return { body: bodies[message.command]?.() ?? {} };
   };
   store.takeWorld(world({ robots: [robot(1)] }), 1);
-  store.takePrograms([{ name: "drive", robots: ["puck"], folder: "/w/drive", files: ["main.c"] }]);
+  store.takePrograms([drive("main.c")]);
   const commands = (name: string) => link.of("dap").filter((m) => m.message.command === name);
   return { store, link, debug, commands };
 }

@@ -10,7 +10,7 @@ import { Client } from "../src/store/client";
 import { Pieces } from "../src/store/pieces";
 import { findingOf, placeIn, wrongsOf } from "../src/store/problems";
 import { Store } from "../src/store/store";
-import { robot, thing, world } from "./worlds";
+import { drive, element, robot, thing, world } from "./worlds";
 
 function start() {
   freshDocument();
@@ -78,7 +78,7 @@ test("what a compiler says has its place, and so have traps", () => {
     text: "unused",
   });
   assert.equal(findingOf("nothing to build", "error", []).line, 0);
-  const programs = [{ name: "drive", robots: ["puck"], folder: "/w/drive", files: ["main.c", "sub/a.c"] }];
+  const programs = [drive("main.c", "sub/a.c")];
   assert.deepEqual(placeIn(programs, "puck", "turn() (sub/a.c:7)"), { program: "drive", file: "sub/a.c", line: 7 });
   assert.equal(placeIn(programs, "other", "main() (main.c:7)"), undefined);
   const { store } = start();
@@ -112,7 +112,7 @@ test("the inspector adds a section that the file does not have", async () => {
   input.value = "4";
   input.dispatchEvent(new Event("change"));
   assert.deepEqual(link.of("edit"), [{ op: "add", path: "proximity", values: { rays: 4 } }]);
-  store.takeWorld(world({ elements: [{ id: 7, path: "proximity", line: 3, values: { rays: "4" } }] }), 2);
+  store.takeWorld(world({ elements: [element(7, "proximity", 3, { rays: "4" })] }), 2);
   const written = document.querySelector<HTMLInputElement>("[data-section=proximity][data-key=rays]")!;
   assert.equal(written.value, "4");
   written.value = "";
@@ -184,10 +184,7 @@ test("a run is lost only when somebody says so", async () => {
 test("the list of pieces follows the world and keeps its rows", () => {
   const { store, pieces } = start();
   new Tree(store, pieces);
-  const elements = [
-    { id: 1, path: "box", line: 4, values: {} },
-    { id: 2, path: "robot", line: 9, values: {} },
-  ];
+  const elements = [element(1, "box", 4), element(2, "robot", 9)];
   store.takeWorld(world({ things: [thing(1, { name: "wall" })], robots: [robot(2)], elements }), 1);
   const rows = () => [...document.querySelectorAll<HTMLElement>("#pieces li")];
   assert.deepEqual(

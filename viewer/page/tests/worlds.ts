@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
-import type { Robot, Thing, World } from "../src/link/protocol";
+import type { Element, Program, Robot, Thing, World } from "../src/link/protocol";
 
 export const world = (more: Partial<World> = {}): World => ({
   title: "",
   file: "/w/world.toml",
   text: "",
+  base: "",
   step_s: 0.032,
   tick_s: 1 / 512,
   floor: { colour: [1, 1, 1], image: "" },
@@ -39,4 +40,22 @@ export const robot = (id: number, more: Partial<Robot> = {}): Robot => ({
   sensors: [],
   parts: [],
   ...more,
+});
+export const element = (id: number, path: string, line: number, values: Record<string, string> = {}): Element => ({
+  id,
+  path,
+  name: "",
+  line,
+  last_line: line,
+  values,
+});
+/** Built, without findings. */
+export const drive = (...files: string[]): Program => ({
+  name: "drive",
+  robots: ["puck"],
+  folder: "/w/drive",
+  files,
+  built: true,
+  ok: true,
+  findings: [],
 });

@@ -85,3 +85,9 @@ export function askText(text: string, value: string): Promise<string | undefined
 export function dismiss() {
   no?.();
 }
+/** Shall the run, which would be lost, begin anew? */
+export const beginAnew = (message: string) =>
+  question(message, [
+    { id: "anew", text: "Begin anew", value: true, strong: true },
+    { id: "leave", text: "Leave it", value: false },
+  ]);

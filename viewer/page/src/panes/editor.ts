@@ -99,6 +99,15 @@ export class TextEditor {
   get markedLine() {
     return this.marked;
   }
+  /** What a banner offers for that; `done`: it is shown, or no more. */
+  comparison(id: string, other: string, done: () => void): Choice {
+    const act = () => {
+      this.compare(this.comparesNow ? undefined : other);
+      done();
+    };
+    const text = this.comparesNow ? "No comparison" : "Compare";
+    return { id, text, title: "Differing lines below each other", act };
+  }
   get comparesNow() {
     return this.compared;
   }

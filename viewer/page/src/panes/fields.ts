@@ -19,6 +19,12 @@ export const hex = (c: number[]) =>
     .join("");
 const fromHex = (s: string) => [1, 3, 5].map((i) => Math.round((parseInt(s.slice(i, i + 2), 16) / 255) * 1000) / 1000);
 
+/** What a sheet begins with: whose it is, and what is wrong with it. */
+export const headOf = (colour: number[], name: string, small: string, wrong?: { text: string }) => [
+  h("h2", {}, h("i", { style: `background:${hex(colour)}` }), name, h("small", {}, small)),
+  ...(wrong ? [h("p", { className: "bad" }, `⚠ ${wrong.text}`)] : []),
+];
+
 let fields = 0;
 /** A label, what it is of, a unit. */
 export function field(text: string, input: HTMLElement, unit = "", title = ""): HTMLElement {

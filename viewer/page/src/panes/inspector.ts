@@ -6,7 +6,7 @@ import type { Thing } from "../link/protocol";
 import type { Client } from "../store/client";
 import type { Pieces } from "../store/pieces";
 import type { Store } from "../store/store";
-import { Fields, hex } from "./fields";
+import { Fields, headOf, hex } from "./fields";
 import { RobotSheet } from "./robot_sheet";
 
 const kSwatches: [string, number[]][] = [
@@ -128,14 +128,7 @@ export class Inspector {
     const element = this.store.world.elements.find((e) => e.id === thing.id);
     const wrong = this.store.world.problems.find((p) => p.id === thing.id);
     return [
-      h(
-        "h2",
-        {},
-        h("i", { style: `background:${hex(thing.colour)}` }),
-        thing.name || thing.kind,
-        h("small", {}, `${thing.kind}, line ${element?.line}`),
-      ),
-      ...(wrong ? [h("p", { className: "bad" }, `⚠ ${wrong.text}`)] : []),
+      ...headOf(thing.colour, thing.name || thing.kind, `${thing.kind}, line ${element?.line}`, wrong),
       this.buttons(),
       ...this.paint(),
       ...this.fields.of(element?.path ?? thing.kind, thing.id),

@@ -182,15 +182,7 @@ export class ProgramPane {
           act: () => this.buffers.reload(b.key),
         },
         overwrite,
-        {
-          id: "source-compare",
-          text: this.editor.comparesNow ? "No comparison" : "Compare",
-          title: "Differing lines below each other",
-          act: () => {
-            this.editor.compare(this.editor.comparesNow ? undefined : c.text!);
-            this.about(b);
-          },
-        },
+        this.editor.comparison("source-compare", c.text!, () => this.about(b)),
       ]),
     );
   }

@@ -7,7 +7,7 @@ import { RobotState } from "../link/protocol";
 import type { Client } from "../store/client";
 import type { Pieces } from "../store/pieces";
 import type { Store } from "../store/store";
-import { field, hex } from "./fields";
+import { field, headOf } from "./fields";
 import type { Fields } from "./fields";
 import { drawEars, drawFan, drawPicture } from "./senses";
 import { format, unitOf, withUnit } from "./units";
@@ -122,14 +122,7 @@ export class RobotSheet {
     const program = store.programOf(robot);
     const wrong = store.world.problems.find((p) => p.id === robot.id);
     return [
-      h(
-        "h2",
-        {},
-        h("i", { style: `background:${hex(robot.colour)}` }),
-        robot.name,
-        h("small", {}, program || "no program"),
-      ),
-      ...(wrong ? [h("p", { className: "bad" }, `⚠ ${wrong.text}`)] : []),
+      ...headOf(robot.colour, robot.name, program || "no program", wrong),
       this.place,
       this.stands,
       h(

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of what a robot senses: proximity sensors as a fan, microphones and loudspeaker, the camera's picture.
 import type { Robot } from "../link/protocol";
+import type { Picture } from "../link/protocol_types";
 import { css } from "../dom";
 
 const kFarCounts = 4095;
@@ -140,13 +141,6 @@ export function drawEars(c: CanvasRenderingContext2D, value: Value) {
   bar(3, "speaker", Math.min(1, speaker / 50), `${speaker.toFixed(0)} %`, k.accent);
 }
 
-export interface Picture {
-  number: number;
-  columns: number;
-  rows: number;
-  bytes_per_pixel: number;
-  rgb: string;
-}
 export function drawPicture(canvas: HTMLCanvasElement, picture: Picture) {
   canvas.width = picture.columns;
   canvas.height = picture.rows;

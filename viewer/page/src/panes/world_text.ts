@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The world file's text.
 import { h } from "../dom";
-import { notice, question } from "../frame/notices";
+import { beginAnew, notice } from "../frame/notices";
 import { isDirty, kWorldKey } from "../store/buffer";
 import type { Buffer } from "../store/buffer";
 import type { Buffers, Saved } from "../store/buffers";
@@ -73,15 +73,7 @@ export class WorldTextPane {
           title: "The world becomes what is written here, also in those lines",
           act: () => void this.apply(true),
         },
-        {
-          id: "world-compare",
-          text: this.editor.comparesNow ? "No comparison" : "Compare",
-          title: "Differing lines below each other",
-          act: () => {
-            this.editor.compare(this.editor.comparesNow ? undefined : c.text!);
-            this.changed(b);
-          },
-        },
+        this.editor.comparison("world-compare", c.text!, () => this.changed(b)),
       ]),
     );
   }
@@ -110,13 +102,7 @@ export class WorldTextPane {
     } catch (e) {
       const { message, anew: wantsAnew } = e as Error & { anew?: boolean };
       if (!wantsAnew) notice(message, true);
-      else if (
-        await question(message, [
-          { id: "anew", text: "Begin anew", value: true, strong: true },
-          { id: "leave", text: "Leave it", value: false },
-        ])
-      )
-        return this.apply(overwrite, true);
+      else if (await beginAnew(message)) return this.apply(overwrite, true);
       return false;
     }
     if (result === "conflict") {

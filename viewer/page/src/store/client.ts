@@ -2,7 +2,7 @@
 // Between the server and the store: it hears events and frames, and asks for what panes want.
 import type { Answer, Link } from "../link/connection";
 import type { Finding, Frame, Program } from "../link/protocol";
-import { notice, question } from "../frame/notices";
+import { beginAnew, notice } from "../frame/notices";
 import { changedWorld } from "./changes";
 import { findingOf, textOfDiagnosis, textOfTrap } from "./problems";
 import type { Diagnosis, Store } from "./store";
@@ -152,13 +152,7 @@ export class Client {
     } catch (e) {
       const { message, anew } = e as Error & { anew?: boolean };
       if (!anew) notice(message, true);
-      else if (
-        await question(message, [
-          { id: "anew", text: "Begin anew", value: true, strong: true },
-          { id: "leave", text: "Leave it", value: false },
-        ])
-      )
-        return this.do(what, { ...more, anew: true });
+      else if (await beginAnew(message)) return this.do(what, { ...more, anew: true });
       return undefined;
     }
   }

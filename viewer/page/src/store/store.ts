@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one place of what the page knows: world, state, programs, selection, values, what was seen. Panes look at it
 // and are told of changes by topic; none of them knows another. All state that counts is the server's.
-import type { Trap } from "../link/protocol_types";
+import type { Diagnosis, Trap } from "../link/protocol_types";
 import { readFrame } from "../link/protocol";
 import type { Frame, Look, Program, Robot, Schema, State, Thing, World } from "../link/protocol";
 import type { Buffer } from "./buffer";
@@ -9,15 +9,7 @@ import { coloursOf } from "./colours";
 import { Cursor } from "./cursor";
 import { Past } from "./past";
 
-export interface Diagnosis {
-  robot: string;
-  time_s: number;
-  cause: string;
-  place: string;
-  text: string;
-  hint: string;
-}
-export type { Trap };
+export type { Diagnosis, Trap };
 /** A line of a controller's source. */
 export interface SourceLine {
   program: string;
@@ -78,6 +70,7 @@ const kNoWorld: World = {
   title: "",
   file: "",
   text: "",
+  base: "",
   step_s: 0.032,
   tick_s: 1 / 512,
   floor: { colour: [1, 1, 1], image: "" },
@@ -96,6 +89,7 @@ const kNoState: State = {
   undo: false,
   redo: false,
   steering: 0,
+  debugging: "",
   runs: false,
 };
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/base64.h"
+#include "sim_core/base/base64.h"
 
 #include <algorithm>
 #include <cstdint>
 
-namespace viewer {
+namespace sim {
 
 std::string base64(const std::string& bytes) {
   constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -20,4 +20,4 @@ std::string base64(const std::string& bytes) {
   return out;
 }
 
-}  // namespace viewer
+}  // namespace sim

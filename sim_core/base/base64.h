@@ -3,8 +3,8 @@
 #pragma once
 #include <string>
 
-namespace viewer {
+namespace sim {
 
 std::string base64(const std::string& bytes);
 
-}  // namespace viewer
+}  // namespace sim
