@@ -87,6 +87,12 @@ const Case kCases[] = {
      "int main(void) { c = malloc(4); free((void *)c);\n c[1] = 1; /* HERE */\n while (1); }"},
     {"freed_twice", "free() of heap memory that is freed already",
      "int main(void) { c = malloc(4); free((void *)c);\n free((void *)c); /* HERE */\n while (1); }"},
+    {"moved_away", "use of freed heap memory: read",
+     "int main(void) { char *q; c = malloc(4); c[0] = 1; q = malloc(4); q[0] = 1; p = realloc((void *)c, "
+     "40);\n"
+     " out = c[0]; /* HERE */\n while (1); }"},
+    {"grown_too_little", "read out of the bounds of a heap block: got byte 12, expected 0 to 11",
+     "int main(void) { c = realloc(malloc(4), 12);\n out = c[12]; /* HERE */\n while (1); }"},
     {"freed_what_is_not_of_the_heap", "free() of what malloc() did not give",
      "int a[4]; int main(void) { c = malloc(4); p = a + 2;\n free((void *)p); /* HERE */\n while (1); }"},
     {"returned_read", "read beyond the top of the stack",

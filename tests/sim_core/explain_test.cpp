@@ -149,6 +149,22 @@ radius = 0.02
   EXPECT_EQ(name(2), "nothing");
 }
 
+// whichever way the robot looks: between -180 and 180 degrees
+TEST(Explain, rays_have_their_bearing_from_the_robot) {
+  for (const double yaw_deg : {-11.0, 0.0, 100.0, 179.0, -179.0})
+    for (const double heading_deg : {0.0, 170.0, -170.0}) {
+      auto eye = one_eyed();
+      eye.proximity[0].yaw_rad = sim::radians(yaw_deg);
+      auto s = cruising(world_of("twinpuck = 1\n[[robot]]\nmodel = \"one-eyed\"\nheading = " +
+                                     std::to_string(heading_deg) + "\n",
+                                 {eye}),
+                        0, 0);
+      const auto e = sim::explain_proximity(s->scene(), 0, 0, 0);
+      EXPECT_NEAR(sim::degrees(e.bearing_rad), yaw_deg, 1e-6);
+      EXPECT_NEAR(sim::degrees(e.rays[0].bearing_rad), yaw_deg, 1e-6) << heading_deg;
+    }
+}
+
 TEST(Explain, a_ray_down_meets_the_floor_and_a_ramp) {
   auto down = one_eyed();
   down.proximity[0].pitch_rad = sim::radians(-30);
