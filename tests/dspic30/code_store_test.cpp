@@ -262,12 +262,18 @@ TEST(ProgramMemory, has_its_parts_where_the_chip_has_them) {
   const struct Place {
     unsigned address;
     std::uint32_t erased, after_write;  // 0xABCDEF
-  } places[] = {{0x17FFE, 0xFFFFFF, 0xABCDEF},  {0x18000, 0, 0},
-                {0x8005BE, 0, 0},               {0x8005C0, 0xFFFFFF, 0xABCDEF},
-                {0x8005FE, 0xFFFFFF, 0xABCDEF}, {0x800600, 0, 0},
-                {0xF7FFFE, 0, 0},               {0xF80004, 0, 0xCDEF},
-                {0xFF0000, 0x0343, 0x0343},     {0xFF0001, 0x0343, 0x0343},
-                {0xFF0002, 0x1000, 0x1000},     {0xFF0004, 0, 0}};
+  } places[] = {{0x17FFE, 0xFFFFFF, 0xABCDEF},
+                {0x18000, 0, 0},
+                {0x8005BE, 0, 0},
+                {0x8005C0, 0xFFFFFF, 0xABCDEF},
+                {0x8005FE, 0xFFFFFF, 0xABCDEF},
+                {0x800600, 0, 0},
+                {0xF7FFFE, 0, 0},
+                {0xF80004, 0, 0xCDEF},
+                {0xFF0000, 0x0343, 0x0343},
+                {0xFF0001, 0x0343, 0x0343},
+                {0xFF0002, 0x1000, 0x1000},
+                {0xFF0004, 0, 0}};
   for (const Place& p : places) {
     dspic::ProgramMemory memory;
     if (p.address != 0xF80004) {
