@@ -85,11 +85,10 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
   }
   if (!problems.empty()) return false;
   for (faults::Fault& fault : all) {
-    const std::string where = fault.where;
     try {
       injector.add(std::move(fault));
     } catch (const std::runtime_error& e) {
-      problems.push_back(where + ": " + e.what());
+      problems.push_back(e.what());
     }
   }
   return problems.empty();

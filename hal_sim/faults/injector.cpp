@@ -88,9 +88,8 @@ class Injector::Work {
     if (!is_all && one < 0) {
       std::vector<std::string> names;
       for (const auto& robot : twin_.world().robots) names.push_back(robot.name);
-      const std::string meant = sim::did_you_mean(f.robot, names);
       throw std::runtime_error(fmt::format("robot: got '{}', expected a robot of the world{}; {}", f.robot,
-                                           meant.empty() ? "" : "; did you mean '" + meant + "'?",
+                                           sim::did_you_mean_tail(f.robot, names),
                                            signals::robots_text(twin_)));
     }
     // One case for each robot that is meant, each with a condition of its own.
@@ -270,7 +269,14 @@ class Injector::Work {
 Injector::Injector(twin::Twin& twin) : work_(std::make_unique<Work>(twin)) {}
 Injector::~Injector() = default;
 
-int Injector::add(Fault fault) { return work_->add(std::move(fault), false); }
+int Injector::add(Fault fault) {
+  const std::string where = fault.where;
+  try {
+    return work_->add(std::move(fault), false);
+  } catch (const std::runtime_error& e) {
+    throw std::runtime_error((where.empty() ? "" : where + ": ") + e.what());
+  }
+}
 
 int Injector::begin(Fault fault) {
   const int id = work_->add(std::move(fault), true);

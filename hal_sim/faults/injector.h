@@ -45,7 +45,7 @@ class Injector {
   Injector& operator=(const Injector&) = delete;
 
   /// Adds a fault for later, or for now: `at_s` may have passed. Returns its id, from 0 on. Throws
-  /// std::runtime_error, "sensor: got 9, expected 0 to 7", when it is none; nothing was done then.
+  /// std::runtime_error, "sensor: got 9, expected 0 to 7", behind its `where`, when it is none; nothing was done then.
   int add(Fault fault);
   /// The same, and it begins at once, whatever it says of its time.
   int begin(Fault fault);
