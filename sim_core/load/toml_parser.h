@@ -9,6 +9,7 @@
 #define TOML_MAX_NESTED_VALUES 32  // lists in lists; ours are three deep
 // off for GCC by default, whose <charconv> could not do it once; it takes a third of the time
 #define TOML_FLOAT_CHARCONV 1
+#include <cstdint>  // for toml++'s pieces below, which do not include it
 // What the parser assumes it then checks: let it check. Its table of white space takes most characters beyond
 // ASCII for "unreachable", even those in strings; they are no white space.
 #include <toml++/impl/preprocessor.h>
