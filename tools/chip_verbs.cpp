@@ -42,7 +42,7 @@ int disassemble(const std::string& name) {
     for (auto label = first; label != last; ++label) std::cout << label->second << ":\n";
     const bool is_flash = address < dspic::kFlashEnd;
     if (const auto* line = file.code.line_at(address); line && line->address == address)
-      std::cout << fmt::format("; {}:{}\n", file.code.files[line->file], line->line);
+      std::cout << fmt::format("; {}:{}\n", file.code.lines().files[line->file], line->line);
     const bool has_second = is_flash && at != file.words.end() && at->first == address + 2;
     const std::uint32_t second = has_second ? at->second : 0;
     const std::string text =

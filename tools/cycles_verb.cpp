@@ -90,11 +90,11 @@ struct FunctionRow {
 
 std::string place_text(const dspic::FirmwareFile& file, std::uint32_t address) {
   const auto* const row = file.code.line_at(address);
-  return row ? fmt::format("{}:{}", file.code.files[row->file], row->line) : "";
+  return row ? fmt::format("{}:{}", file.code.lines().files[row->file], row->line) : "";
 }
 std::string place_text(const dspic::FirmwareFile& file, const dspic::DebugInfo::Function& f) {
   const int source = dspic::source_of(file, f);
-  return source < 0 ? "" : fmt::format("{}:{}", file.code.files[static_cast<std::size_t>(source)], f.line);
+  return source < 0 ? "" : fmt::format("{}:{}", file.code.lines().files[static_cast<std::size_t>(source)], f.line);
 }
 
 /// The functions that ran by their own time, then the others, then those that stand in others alone.

@@ -50,7 +50,7 @@ struct Options {
   /// Object to source, archive to its name for people. Line tables may have been written
   /// for a copy elsewhere.
   std::map<std::string, std::string> sources;
-  std::string moved_from, moved_to;  ///< as in CodeMap: sources of the library
+  std::string moved_from, moved_to;  ///< as in LineTable: sources of the library
   std::string host_library;          ///< of `libraries` the archive with the drivers below
   std::vector<HostDriver> host;  ///< their variables come first in RAM, whether the host fills them or not
   bool is_filled_by_host = false;
@@ -147,7 +147,7 @@ class Whereabouts {
  private:
   const Program& program_;
   std::map<const Section*, std::uint32_t> begins_;  // in octets; nothing begins at 0
-  CodeMap lines_;
+  LineTable lines_;
 };
 
 /// "T1Interrupt", "MathError": what a handler is called, without underscores.

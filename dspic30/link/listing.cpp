@@ -72,28 +72,28 @@ std::string listing(const Program& program, const Options& options) {
   std::map<std::uint32_t, const Section*> code;
   for (const Section& s : program.sections)
     if (s.used && s.kind == Kind::Code) code[s.address] = &s;
-  CodeMap lines;
+  LineTable lines;
   lines.moved_from = options.moved_from;
   lines.moved_to = options.moved_to;
   for (const Section& s : program.sections)
-    if (s.name == ".debug_line") lines.add_lines(s.bytes.data(), s.bytes.size());
+    if (s.name == ".debug_line") lines.add(s.bytes.data(), s.bytes.size());
   lines.sort();
 
   Sources sources(options);
   std::string out = "; address, word, instruction; before them the lines of the source; symbols at the end\n";
   char text[160];
-  auto row = lines.lines.begin();
+  auto row = lines.rows.begin();
   // Word by word: label, line where it is another one, instruction.
   for (const auto& [begin, s] : code) {
     int line = 0, file = -1;
-    while (row != lines.lines.end() && row->address < begin) ++row;
+    while (row != lines.rows.end() && row->address < begin) ++row;
     for (std::uint32_t at = begin; at < begin + s->size / 2; at += 2) {
       if (const auto found = labels.find(at); found != labels.end())
         for (const std::string& label : found->second)
           out += "\n" + label + ":" + (file < 0 ? "  ; " + s->from : "") + "\n";
       // of several rows for one address the last one's code stands here
-      const CodeMap::Line* here = nullptr;
-      for (; row != lines.lines.end() && row->address <= at; ++row)
+      const LineTable::Row* here = nullptr;
+      for (; row != lines.rows.end() && row->address <= at; ++row)
         if (!row->is_end && row->line > 0) here = &*row;
       if (here && (here->line != line || here->file != file)) {
         if (here->file != file) out += "; " + source_named(lines.files[here->file], options.sources) + "\n";

@@ -25,14 +25,14 @@ Whereabouts::Whereabouts(const Program& program) : program_(program) {
           begin == begins_.end() ? 0 : begin->second + r.symbol->value + std::uint32_t(r.addend);
       for (unsigned i = 0; i < 4; ++i) bytes[r.offset + i] = std::uint8_t(at >> 8 * i);
     }
-    lines_.add_lines(bytes.data(), bytes.size());
+    lines_.add(bytes.data(), bytes.size());
   }
   lines_.sort();
 }
 
 std::string Whereabouts::line(const Section& section, std::uint32_t offset) const {
   const auto begin = begins_.find(&section);
-  const CodeMap::Line* line = begin == begins_.end() ? nullptr : lines_.line_at(begin->second + offset);
+  const LineTable::Row* line = begin == begins_.end() ? nullptr : lines_.line_at(begin->second + offset);
   return line ? source_named(lines_.files[line->file], program_.sources) + ":" + std::to_string(line->line)
               : section.from;
 }

@@ -463,25 +463,25 @@ std::map<std::uint32_t, std::string> DebugInfo::folders_in(Elf* elf) {
 }
 
 struct LateDebugInfo::Kept {
-  std::string bytes;
+  std::shared_ptr<std::string> elf;
   std::once_flag read;
   DebugInfo info;
 };
 
-void LateDebugInfo::keep(std::string elf) {
+void LateDebugInfo::keep(std::shared_ptr<std::string> elf) {
   kept_ = std::make_shared<Kept>();
-  kept_->bytes = std::move(elf);
+  kept_->elf = std::move(elf);
 }
 
 const DebugInfo& LateDebugInfo::info() const {
   static const DebugInfo none;
   if (!kept_) return none;
   std::call_once(kept_->read, [this] {
-    if (Elf* const elf = elf_memory(kept_->bytes.data(), kept_->bytes.size())) {
+    if (Elf* const elf = elf_memory(kept_->elf->data(), kept_->elf->size())) {
       kept_->info.add(elf);
       elf_end(elf);
     }
-    kept_->bytes = {};
+    kept_->elf.reset();
   });
   return kept_->info;
 }

@@ -48,7 +48,7 @@ struct DebugInfo {
   /// A function with code, or one that stands in others.
   struct Function {
     std::string name;
-    std::uint32_t unit = 0;                 ///< CodeMap::unit_files has its files,
+    std::uint32_t unit = 0;                 ///< LineTable::unit_files has its files,
     unsigned file = 0;                      ///< of which this one, from 1 on, holds its name; 0: not known
     int line = 0;                           ///< ... in this line
     std::uint32_t begin = 0, end = 0;       ///< 0: it has no code of its own
@@ -90,8 +90,8 @@ struct DebugInfo {
 /// Is read when somebody asks first: most runs never do. Copies share it; several threads may ask.
 class LateDebugInfo {
  public:
-  /// Keeps the file's bytes.
-  void keep(std::string elf);
+  /// Of the file's bytes, which stay as they are.
+  void keep(std::shared_ptr<std::string> elf);
   const DebugInfo& info() const;
 
  private:

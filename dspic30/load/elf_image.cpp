@@ -31,13 +31,12 @@ class ElfReader {
     if (error_.empty()) check_header(bytes.size());
     for (Elf_Scn* s = nullptr; error_.empty() && (s = elf_nextscn(elf_.get(), s));) read_section(s);
     if (error_.empty() && file_.words.empty()) fail("there is no program in it");
-    if (lines_ && error_.empty())
-      file_.code.add_lines(static_cast<const unsigned char*>(lines_->d_buf), lines_->d_size,
-                           DebugInfo::folders_in(elf_.get()));
     file_.code.sort();
     error = error_;
     elf_.reset();
-    file_.debug.keep(std::move(bytes));
+    const auto kept = std::make_shared<std::string>(std::move(bytes));
+    file_.code.late_lines.keep(kept, file_.code.moved_from, file_.code.moved_to);
+    file_.debug.keep(kept);
     return error_.empty();
   }
 
@@ -70,9 +69,6 @@ class ElfReader {
     GElf_Shdr head;
     if (!gelf_getshdr(section, &head)) return fail("a section's header cannot be read: " + why());
     if (head.sh_type == SHT_SYMTAB) return read_symbols(section, head);
-    const std::string name = section_name(head);
-    if (name == ".debug_line")
-      if (const Elf_Data* data = elf_getdata(section, nullptr); data && data->d_buf) lines_ = data;
     const bool is_program = (head.sh_flags & (SHF_EXECINSTR | kPsv | kEeprom)) != 0;
     if (head.sh_type != SHT_PROGBITS || !(head.sh_flags & SHF_ALLOC) || !is_program ||
         (head.sh_flags & kNoLoad) || head.sh_size == 0)
@@ -109,13 +105,6 @@ class ElfReader {
     }
   }
 
-  std::string section_name(const GElf_Shdr& section) {
-    std::size_t names = 0;
-    elf_getshdrstrndx(elf_.get(), &names);
-    const char* name = elf_strptr(elf_.get(), names, section.sh_name);
-    return name ? name : "";
-  }
-
   void read_symbols(Elf_Scn* section, const GElf_Shdr& head) {
     Elf_Data* data = elf_getdata(section, nullptr);
     if (!data || head.sh_entsize == 0) return;
@@ -148,7 +137,6 @@ class ElfReader {
 
   const std::string& name_;
   FirmwareFile& file_;
-  const Elf_Data* lines_ = nullptr;
   std::unique_ptr<Elf, Closer> elf_;
   std::string error_;
 };
@@ -156,9 +144,9 @@ class ElfReader {
 }  // namespace
 
 int source_of(const FirmwareFile& file, const DebugInfo::Function& function) {
-  const auto unit = file.code.unit_files.find(function.unit);
-  const bool is_known =
-      unit != file.code.unit_files.end() && function.file > 0 && function.file <= unit->second.size();
+  const auto& units = file.code.lines().unit_files;
+  const auto unit = units.find(function.unit);
+  const bool is_known = unit != units.end() && function.file > 0 && function.file <= unit->second.size();
   return is_known ? unit->second[function.file - 1] : -1;
 }
 

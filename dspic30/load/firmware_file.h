@@ -43,7 +43,7 @@ std::uint32_t place_of_host_call(const FirmwareFile& file);
 inline constexpr std::size_t kLongestFirmwareFile = 64u
                                                     << 20;  // bytes [assumed: a hundred times the largest]
 
-/// The number, of CodeMap::files, of the source that a function stands in; -1: not known.
+/// The number, of LineTable::files, of the source that a function stands in; -1: not known.
 int source_of(const FirmwareFile& file, const DebugInfo::Function& function);
 
 enum class FileKind { Hex, Elf, Other };

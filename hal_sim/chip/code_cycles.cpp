@@ -116,7 +116,7 @@ PathCycles CodeCycles::without_bound(const std::string& why, std::uint32_t addre
   PathCycles none;
   none.why_not = why;
   if (const auto* line = file_.code.line_at(address)) {
-    const std::string& file = file_.code.files[line->file];
+    const std::string& file = file_.code.lines().files[line->file];
     none.why_not += " (" + file.substr(file.rfind('/') + 1) + ":" + std::to_string(line->line) + ")";
   }
   return none;
@@ -232,7 +232,7 @@ std::vector<CodeCycles::Line> CodeCycles::lines(std::uint32_t begin, std::uint32
     Instruction i = at(address);
     if (!i.row) break;
     const auto* const row = file_.code.line_at(address);
-    const std::string file = row ? file_.code.files[row->file] : "";
+    const std::string file = row ? file_.code.lines().files[row->file] : "";
     Line& line = all[{file, row ? row->line : 0}];
     line.file = file;
     line.line = row ? row->line : 0;

@@ -30,9 +30,9 @@ class Collector {
  public:
   Collector(const dspic::FirmwareFile& file, const StepCounts* counts,
             const std::function<bool(const std::string&)>& is_own)
-      : file_(file), counts_(counts), sources_(file.code.files.size()) {
+      : file_(file), counts_(counts), sources_(file.code.lines().files.size()) {
     for (std::size_t i = 0; i < sources_.size(); ++i)
-      if (is_own(file.code.files[i])) sources_[i] = &lcov_.sources[file.code.files[i]];
+      if (is_own(file.code.lines().files[i])) sources_[i] = &lcov_.sources[file.code.lines().files[i]];
   }
 
   Lcov collect() {
@@ -55,7 +55,7 @@ class Collector {
   // within a function the busiest piece counts, several functions hold copies of it
   void lines() {
     std::map<std::tuple<std::uint16_t, int, std::uint32_t>, std::uint64_t> pieces;
-    const auto& rows = file_.code.lines;
+    const auto& rows = file_.code.lines().rows;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const bool has_code = i + 1 < rows.size() && rows[i + 1].address > rows[i].address;
       if (!source_of(rows[i]) || !has_code || !file_.words.count(rows[i].address)) continue;
@@ -109,7 +109,7 @@ class Collector {
 
   // a function of its own each: the one that was declared last before it
   void left_out() {
-    const auto& rows = file_.code.left_out;
+    const auto& rows = file_.code.lines().left_out;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       Lcov::Source* const source = source_of(rows[i]);
       if (!source) continue;

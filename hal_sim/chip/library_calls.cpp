@@ -67,14 +67,11 @@ LibraryCalls::LibraryCalls(const Functions& functions, const dspic::Processor& p
                            const ProgramPlaces& places, SolderedChip& chip, const board::Board& board)
     : functions_(functions), processor_(processor), places_(places), chip_(chip), board_(board) {}
 
-LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) {
-  // a program's own function of such a name is its own affair, where lines tell; but it starts what it says
+LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) : file_(file) {
   for (const Known& known : kKnown)
     for (const char* form : kForms) {
       const auto found = file.functions.find(std::string(form) + known.name);
       if (found == file.functions.end()) continue;
-      if (!starts(known.function) && !file.code.lines.empty() && ProgramPlaces::is_own(file, found->second))
-        continue;
       const unsigned to = goto_target(file, found->second);
       sites_[dspic::is_host_place(to) ? to : found->second] = {&known, form};
     }
@@ -101,17 +98,23 @@ void LibraryCalls::forget_starts() {
 
 void LibraryCalls::called(api::HostFunction function) { entered(api::host_place(function)); }
 
-// by far the most calls are readings of one of eight sensors while the scan runs
-bool LibraryCalls::is_right_reading(const Site& site) const {
-  return site.known->function == Function::Proximity && processor_.w(0) < kProximity &&
-         has_started(Function::StartScan);
+// by far the most calls are readings of one of eight sensors while the scan runs, and LEDs that there are
+bool LibraryCalls::is_right(const Site& site) const {
+  switch (site.known->function) {
+    case Function::Proximity:
+      return processor_.w(0) < kProximity && has_started(Function::StartScan);
+    case Function::Led:
+      return processor_.w(0) <= kAllLeds;
+    default:
+      return false;
+  }
 }
 
 void LibraryCalls::entered(unsigned address) {
   const Site* const found = functions_.at(address);
-  if (!found) return;
+  if (!found || is_right(*found)) return;
   const Site& site = *found;
-  if (is_right_reading(site)) return;
+  if (!starts(site.known->function) && functions_.is_own(address)) return;
   const auto signed_w = [this](int n) {
     return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
   };
@@ -155,12 +158,10 @@ void LibraryCalls::entered(unsigned address) {
       index("microphone", kMicrophones);
       return scanned();
     case Function::Led:
-      if (processor_.w(0) > kAllLeds)
-        note("LED out of range", "e_set_led()",
-             "got LED " + std::to_string(processor_.w(0)) +
-                 ", expected 0 to 7, or 8 for all; the library sets all eight",
-             "count from 0; body and front have functions of their own");
-      return;
+      return note("LED out of range", "e_set_led()",
+                  "got LED " + std::to_string(processor_.w(0)) +
+                      ", expected 0 to 7, or 8 for all; the library sets all eight",
+                  "count from 0; body and front have functions of their own");
     case Function::ActivateAgenda:
       return activate_agenda(site);
     case Function::SetAgendaCycle:
@@ -311,7 +312,18 @@ unsigned LibraryCalls::return_address() const {
 
 bool LibraryCalls::Functions::activates_agenda(unsigned address) const {
   const Site* const site = at(address);
-  return site && site->prefix.empty() && site->known->function == Function::ActivateAgenda;
+  return site && site->prefix.empty() && site->known->function == Function::ActivateAgenda &&
+         !is_own(address);
+}
+
+bool LibraryCalls::Functions::is_own(unsigned address) const {
+  if (dspic::is_host_place(address)) return false;
+  std::call_once(own_once_, [this] {
+    if (file_.code.lines().rows.empty()) return;
+    for (const auto& [begin, site] : sites_)
+      if (!starts(site.known->function) && ProgramPlaces::is_own(file_, begin)) own_.insert(begin);
+  });
+  return own_.count(address) > 0;
 }
 
 std::string LibraryCalls::where() const { return "; called at " + places_.text_of(places_.own(caller())); }

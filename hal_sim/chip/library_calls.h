@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <mutex>
 #include <set>
 #include <string>
 #include <vector>
@@ -68,7 +69,7 @@ class LibraryCalls final {
   void note_range(const Site& site, const std::string& what, int got, int least, int most,
                   const std::string& then);
   static bool starts(Function f);
-  bool is_right_reading(const Site& site) const;
+  bool is_right(const Site& site) const;
   void set_speed(const Site& site, int wheel, int speed);
   void activate_agenda(const Site& site);
   static unsigned bit(Function f) { return 1u << static_cast<unsigned>(f); }
@@ -112,7 +113,14 @@ class LibraryCalls::Functions {
     const std::size_t slot = slot_of(address);
     return slot < by_slot_.size() ? by_slot_[slot] : nullptr;
   }
+  /// Did the program bring it itself? Such a function is the program's own affair, where lines tell; but it
+  /// starts what it says. Several threads may ask.
+  bool is_own(unsigned address) const;
+
+  const dspic::FirmwareFile& file_;
   std::map<unsigned, Site> sites_;  // by address; of the host's functions the place beyond the flash
+  mutable std::once_flag own_once_;
+  mutable std::set<unsigned> own_;  // of sites_, found when one is entered: lines are read for it
   std::set<unsigned> motors_;       // the library's own agendas
   std::vector<std::uint32_t> addresses_;
   std::vector<const Site*> by_slot_;

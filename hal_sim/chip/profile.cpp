@@ -440,7 +440,7 @@ ProfileReport Profile::report() const {
     ProfileReport::Function out{function.name,  "", tally.cycles, tally.own, name_of(tally.max_caller),
                                 tally.is_agenda};
     if (const auto* line = file_.code.line_at(function.begin))
-      out.place = file_.code.files[line->file] + ":" + std::to_string(line->line);
+      out.place = file_.code.lines().files[line->file] + ":" + std::to_string(line->line);
     report.functions.push_back(out);
   }
   std::stable_sort(report.functions.begin(), report.functions.end(),

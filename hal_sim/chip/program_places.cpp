@@ -67,7 +67,7 @@ host::Place ProgramPlaces::place_of(unsigned address) const {
     place.function = api::kHostFunctions[i].name;
   if (const auto* function = file_.code.function_at(address)) place.function = function->name;
   if (const auto* line = file_.code.line_at(address)) {
-    place.file = file_.code.files[line->file];
+    place.file = file_.code.lines().files[line->file];
     place.line = line->line;
   }
   return place;
@@ -75,9 +75,9 @@ host::Place ProgramPlaces::place_of(unsigned address) const {
 
 bool ProgramPlaces::is_own(const dspic::FirmwareFile& file, unsigned address) {
   if (!file.words.count(address)) return false;
-  if (file.code.lines.empty()) return true;
+  if (file.code.lines().rows.empty()) return true;
   const auto* line = file.code.line_at(address);
-  return line && !is_of_library(file.code.files[line->file]);
+  return line && !is_of_library(file.code.lines().files[line->file]);
 }
 
 unsigned ProgramPlaces::stack_word(unsigned address) const {

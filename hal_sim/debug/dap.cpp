@@ -313,7 +313,7 @@ void DapServer::stack_trace(const Json& request) {
 
 nlohmann::json DapServer::told_source(std::size_t file) const {
   const auto known = paths_.find(file);
-  const std::string& path = known == paths_.end() ? session_->file().code.files[file] : known->second;
+  const std::string& path = known == paths_.end() ? session_->file().code.lines().files[file] : known->second;
   return {{"name", file_name(path)}, {"path", path}};
 }
 

@@ -269,7 +269,7 @@ std::string Monitor::where() {
   std::string text = fmt::format("{:.9f} s, cycle {}: {:#08x} {}\n", session_.seconds(), session_.now(),
                                  session_.pc(), session_.machine().code().describe(session_.pc()));
   if (const auto* line = session_.file().code.line_at(session_.pc()))
-    text += source_line(session_.file().code.files[line->file], line->line);
+    text += source_line(session_.file().code.lines().files[line->file], line->line);
   return text;
 }
 
@@ -298,7 +298,7 @@ std::string Monitor::list(const std::string& rest) {
   const int middle = rest.empty() ? here->line : std::atoi(rest.c_str());
   std::string text;
   for (int n = middle - 5; n <= middle + 5; ++n)
-    text += source_line(session_.file().code.files[here->file], n);
+    text += source_line(session_.file().code.lines().files[here->file], n);
   return text;
 }
 

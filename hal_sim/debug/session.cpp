@@ -439,14 +439,14 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   if (is_number && number.size() < 9) {
     const auto* line = map.line_at(pc());
     const std::string source = colon != std::string::npos ? where.substr(0, colon)
-                               : line                     ? map.files[line->file]
+                               : line                     ? map.lines().files[line->file]
                                                           : "";
     int found = 0;
     const std::vector<std::size_t> files = files_meant(source);
     b.addresses = map.addresses_of(files, std::stoi(number), found);
     if (b.addresses.empty())
       error = "got '" + where + "', expected a line with code in a file of the program" +
-              (map.lines.empty() ? "; this image has no lines"
+              (map.lines().rows.empty() ? "; this image has no lines"
                : files.empty()   ? "; it has no such file"
                                  : "");
     else
@@ -494,7 +494,7 @@ std::string Session::note_of(const Breakpoint& b) const {
 std::vector<std::size_t> Session::files_meant(const std::string& path) const {
   namespace fs = std::filesystem;
   std::error_code none;
-  const auto& files = file().code.files;
+  const auto& files = file().code.lines().files;
   std::vector<std::size_t> found;
   if (path.empty()) return found;
   // The very file; else those whose paths end in what was named.

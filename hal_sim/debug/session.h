@@ -111,7 +111,7 @@ class Session final : private chip::StepWatch {
   std::string note_of(const Breakpoint& b) const;
   /// `what`: a variable, a register or *address.
   const Breakpoint* add_watchpoint(const std::string& what, const std::string& condition, std::string& error);
-  /// The program's source files (of file().code.files) that a path means: the very file, or, of a path that
+  /// The program's source files (of file().code.lines().files) that a path means: the very file, or, of a path that
   /// does not begin at the root, those that end so. Of a program that was built somewhere else, or from a
   /// copy: the file of that name whose path agrees furthest.
   std::vector<std::size_t> files_meant(const std::string& path) const;

@@ -238,20 +238,20 @@ TEST(ElfImage, lines_are_read) {
   EXPECT_EQ(file.code.describe(0x106), "0x000106");   // beyond the end
   EXPECT_EQ(file.code.describe(0x0FE), "0x0000fe");
   ASSERT_NE(file.code.line_at(0x100), nullptr);
-  EXPECT_EQ(file.code.files[file.code.line_at(0x100)->file], "/p/main.c");
+  EXPECT_EQ(file.code.lines().files[file.code.line_at(0x100)->file], "/p/main.c");
   int found = 0;
   EXPECT_EQ(file.code.addresses_of("main.c", 8, found), std::vector<std::uint32_t>{0x102});
   EXPECT_EQ(found, 12);
   EXPECT_TRUE(file.code.addresses_of("ain.c", 7, found).empty());
   EXPECT_TRUE(file.code.addresses_of("main.c", 13, found).empty());
   for (std::size_t cut = 0; cut < lines.bytes.size(); ++cut) {  // hostile ones
-    dspic::CodeMap map;
-    map.add_lines(reinterpret_cast<const unsigned char*>(lines.bytes.data()), cut);
+    dspic::LineTable table;
+    table.add(reinterpret_cast<const unsigned char*>(lines.bytes.data()), cut);
     std::string wrong = lines.bytes;
     wrong[cut] = static_cast<char>(wrong[cut] ^ 0xFF);
-    map.add_lines(reinterpret_cast<const unsigned char*>(wrong.data()), wrong.size());
-    map.sort();
-    map.describe(0x102);
+    table.add(reinterpret_cast<const unsigned char*>(wrong.data()), wrong.size());
+    table.sort();
+    table.line_at(0x102);
   }
 }
 
