@@ -90,49 +90,49 @@ bool CoreState::is_of(const Cpu& c) const {
 // --- words of RAM
 
 bool RoundMemory::Words::holds(unsigned at) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (words[i].place == at) return true;
+  for (const Word& word : words)
+    if (word.place == at) return true;
   return false;
 }
 
 bool RoundMemory::Words::holds_any(unsigned first, unsigned end) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (words[i].place + 2u > first && words[i].place < end) return true;
+  for (const Word& word : words)
+    if (word.place + 2u > first && word.place < end) return true;
   return false;
 }
 
 bool RoundMemory::Words::add(const std::uint8_t* ram, unsigned at) {
-  if (count == kMost) return false;
-  Word& word = words[count++];
+  if (words.size() == kMost) return false;
+  Word& word = words.emplace_back();
   word.place = static_cast<std::uint16_t>(at);
   std::memcpy(&word.value, &ram[at], 2);
   return true;
 }
 
 bool RoundMemory::Words::are_in(const std::uint8_t* ram) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (std::memcmp(&ram[words[i].place], &words[i].value, 2) != 0) return false;
+  for (const Word& word : words)
+    if (std::memcmp(&ram[word.place], &word.value, 2) != 0) return false;
   return true;
 }
 
 bool RoundMemory::Words::are_in(const std::uint8_t* ram, unsigned but_for) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (words[i].place != but_for && std::memcmp(&ram[words[i].place], &words[i].value, 2) != 0) return false;
+  for (const Word& word : words)
+    if (word.place != but_for && std::memcmp(&ram[word.place], &word.value, 2) != 0) return false;
   return true;
 }
 
 std::uint16_t RoundMemory::Words::value_at(unsigned at) const {
-  for (std::size_t i = 0; i < count; ++i)
-    if (words[i].place == at) return words[i].value;
+  for (const Word& word : words)
+    if (word.place == at) return word.value;
   return 0;
 }
 
 void RoundMemory::Words::take(const std::uint8_t* ram) {
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(&words[i].value, &ram[words[i].place], 2);
+  for (Word& word : words) std::memcpy(&word.value, &ram[word.place], 2);
 }
 
 void RoundMemory::Words::put(std::uint8_t* ram) const {
-  for (std::size_t i = 0; i < count; ++i) std::memcpy(&ram[words[i].place], &words[i].value, 2);
+  for (const Word& word : words) std::memcpy(&ram[word.place], &word.value, 2);
 }
 
 // --- waits

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "dspic30/memory/cycle.h"
 
@@ -49,7 +50,8 @@ class RoundMemory {
   };
 
   void clear() {
-    reads_.count = writes_.count = 0;
+    reads_.words.clear();
+    writes_.words.clear();
     is_whole_ = true;
   }
   /// An instruction begins.
@@ -66,7 +68,7 @@ class RoundMemory {
     if (!writes_.holds(place & ~1u)) is_whole_ &= writes_.add(ram, place & ~1u);
   }
   /// Does a round read anything of RAM?
-  bool reads() const { return reads_.count > 0; }
+  bool reads() const { return !reads_.words.empty(); }
   /// False: there were too many.
   bool is_whole() const { return is_whole_; }
   /// Are words that it reads as they were when it read them? `but_for`: a place that does not matter.
@@ -91,8 +93,7 @@ class RoundMemory {
     struct Word {
       std::uint16_t place, value;
     };
-    std::uint32_t count = 0;
-    std::array<Word, kMost> words;
+    std::vector<Word> words;  // mostly one or two
     bool holds(unsigned at) const;
     bool holds_any(unsigned first, unsigned end) const;
     bool add(const std::uint8_t* ram, unsigned at);

@@ -1,16 +1,33 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/core/wait_heads.h"
 
+#include <utility>
+
 namespace dspic {
 
 void WaitHeads::add(const Decoded* d) {
   if (find(d)) return;
   const std::ptrdiff_t place = d - code_;
-  Head* free = &slot(place);
-  for (std::ptrdiff_t i = kTried; i-- > 0;)
-    if (slot(place + i).place < 0) free = &slot(place + i);
-  *free = {0, static_cast<std::int32_t>(place), kFirstPause, 0};
-  has_any_ = true;
+  if (heads_.empty()) heads_.resize(kFewest);
+  Head* free = free_slot(place);
+  while (!free && heads_.size() < kMost) {
+    widen();
+    free = free_slot(place);
+  }
+  *(free ? free : &slot(place)) = {0, static_cast<std::int32_t>(place), kFirstPause, 0};
+}
+
+/// The first that is free of those where the head at a place may be; null: none.
+WaitHeads::Head* WaitHeads::free_slot(std::ptrdiff_t place) {
+  for (std::ptrdiff_t i = 0; i < kTried; ++i)
+    if (slot(place + i).place < 0) return &slot(place + i);
+  return nullptr;
+}
+
+void WaitHeads::widen() {
+  const std::vector<Head> before = std::exchange(heads_, std::vector<Head>(2 * heads_.size()));
+  for (const Head& head : before)
+    if (head.place >= 0) *(free_slot(head.place) ? free_slot(head.place) : &slot(head.place)) = head;
 }
 
 void WaitHeads::pause(const Decoded* d, bool is_wait, Cycle now) {

@@ -3,9 +3,9 @@
 // the next one rarer, for this head alone.
 #pragma once
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "dspic30/core/decoded.h"
 #include "dspic30/memory/cycle.h"
@@ -14,14 +14,13 @@ namespace dspic {
 
 class WaitHeads {
  public:
-  bool has_any() const { return has_any_; }
+  bool has_any() const { return !heads_.empty(); }
   bool has(const Decoded* d) const { return find(d) != nullptr; }
   /// From now on one is here.
   void add(const Decoded* d);
   /// ... of words that begin there; none is known.
   void reset(const Decoded* code) {
-    heads_ = {};
-    has_any_ = false;
+    heads_.clear();
     code_ = code;
   }
   /// Does the program stop at this head, at that true time?
@@ -61,21 +60,26 @@ class WaitHeads {
     std::int32_t pause = kFirstPause;  // cycles
     unsigned ends = 0;                 // of its wait
   };
-  static constexpr std::ptrdiff_t kMost = 32, kTried = 4;
+  // most programs have fewer than the fewest; behind the most one takes another's place
+  static constexpr std::size_t kFewest = 8, kMost = 32;
+  static constexpr std::ptrdiff_t kTried = 4;
   /// One is at its place, or at one of the next.
-  Head& slot(std::ptrdiff_t place) { return heads_[static_cast<std::size_t>(place) % kMost]; }
+  Head& slot(std::ptrdiff_t place) { return heads_[static_cast<std::size_t>(place) & (heads_.size() - 1)]; }
+  Head* free_slot(std::ptrdiff_t place);
+  void widen();
   Head* find(const Decoded* d) { return const_cast<Head*>(static_cast<const WaitHeads*>(this)->find(d)); }
   const Head* find(const Decoded* d) const {
+    if (heads_.empty()) return nullptr;
     const std::ptrdiff_t place = d - code_;
     for (std::ptrdiff_t i = 0; i < kTried; ++i)
-      if (const Head& head = heads_[static_cast<std::size_t>(place + i) % kMost]; head.place == place)
+      if (const Head& head = heads_[static_cast<std::size_t>(place + i) & (heads_.size() - 1)];
+          head.place == place)
         return &head;
     return nullptr;
   }
 
-  bool has_any_ = false;
   const Decoded* code_ = nullptr;
-  std::array<Head, kMost> heads_;
+  std::vector<Head> heads_;  // a power of two, or none
 };
 
 }  // namespace dspic

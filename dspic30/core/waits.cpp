@@ -139,16 +139,18 @@ void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle l
 }
 
 void Waits::begin_round(Cpu& cpu) {
-  round_.first = cpu.next;
-  round_.state = CoreState(cpu);
-  round_.registers = 0;
-  round_.memory.clear();
+  if (!probe_) probe_ = std::make_unique<Probe>();
+  KnownWaits::Wait& round = probe_->round;
+  round.first = cpu.next;
+  round.state = CoreState(cpu);
+  round.registers = 0;
+  round.memory.clear();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   round_began_at_ = cpu.true_now();
   round_delayed_ = cpu.delayed;
   cpu.dc |= kNotSet;
   steps_ = 0;
-  trace_.clear();
+  probe_->trace.clear();
   behind_ = {};
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
@@ -182,19 +184,21 @@ void Waits::look(Cpu& cpu) {
   }
   const Cycle end = cpu.deadline;
   // Step by step, while what the round reads and writes is noted.
-  cpu.watch_round(&round_.memory);
+  KnownWaits::Wait& round = probe_->round;
+  std::vector<CountStep>& trace = probe_->trace;
+  cpu.watch_round(&round.memory);
   while (cpu.now < end && state_ == State::Looking) {
     const Decoded* const d = cpu.next;
     if (!cpu.repeating) {
-      round_.memory.begin_step();
+      round.memory.begin_step();
       ++steps_;
     }
     const bool goes_on = cpu.repeating;
     step(cpu);
-    round_.registers |= cpu.table().touched_by(d);
+    round.registers |= cpu.table().touched_by(d);
     if (chances_ == 1 && !goes_on) {
-      if (trace_.empty()) trace_.reserve(kUsualRound);
-      trace_.push_back({d, cpu.n, round_.memory.touched()});
+      if (trace.empty()) trace.reserve(kUsualRound);
+      trace.push_back({d, cpu.n, round.memory.touched()});
     }
     // something else is due
     if (cpu.deadline != end) {
@@ -206,7 +210,7 @@ void Waits::look(Cpu& cpu) {
       if (goes_elsewhere(cpu)) begin_round(cpu);
     } else if (cpu.watched_until <= cpu.true_now()) {
       fail(cpu);
-    } else if (cpu.next == round_.first) {
+    } else if (cpu.next == round.first) {
       end_round(cpu);
     } else if (!is_turned_ && cpu.heads.has_any() && cpu.heads.has(cpu.next)) {
       is_turned_ = true;  // so that a wait has one head, wherever in it the look began
@@ -225,31 +229,33 @@ bool Waits::goes_elsewhere(Cpu& cpu) {
 }
 
 void Waits::end_round(Cpu& cpu) {
-  round_.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
-  round_.sets_dc = !(cpu.dc & kNotSet);
-  round_.sets_flags = cpu.table().sets_flags(round_.first);
-  const bool is_whole = round_.memory.is_whole(),
+  KnownWaits::Wait& round = probe_->round;
+  Count& proven = probe_->proven;
+  round.took = cpu.clocks.own_cycles(cpu.now) - round_began_;
+  round.sets_dc = !(cpu.dc & kNotSet);
+  round.sets_flags = cpu.table().sets_flags(round.first);
+  const bool is_whole = round.memory.is_whole(),
              is_fixed = cpu.watched_until == kNever && !cpu.looks_outside && !cpu.reads_core;
-  if (is_whole && round_.state.is_of(cpu) && round_.memory.are_as_read(cpu.ram.data())) {
-    round_.memory.take_written(cpu.ram.data());
-    if (is_fixed) cpu.known_waits.add(cpu, round_);
-    cpu.mark_head(round_.first);
-    return enter(cpu, &round_);
+  if (is_whole && round.state.is_of(cpu) && round.memory.are_as_read(cpu.ram.data())) {
+    round.memory.take_written(cpu.ram.data());
+    if (is_fixed) cpu.known_waits.add(cpu, round);
+    cpu.mark_head(round.first);
+    return enter(cpu, &round);
   }
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
   if (!is_whole) return fail(cpu);
   if (--chances_ > 0) return begin_round(cpu);
-  if (cpu.reads_core || !proven_.prove(cpu, round_, trace_)) return fail(cpu);
-  const Cycle rounds = proven_.rounds_from(cpu);
+  if (cpu.reads_core || !proven.prove(cpu, round, probe_->trace)) return fail(cpu);
+  const Cycle rounds = proven.rounds_from(cpu);
   if (rounds >= kFewestRounds) {
-    cpu.mark_head(round_.first);
-    return enter_count(cpu, is_fixed && proven_.is_plain(cpu) ? &cpu.known_counts.add(proven_) : &proven_,
+    cpu.mark_head(round.first);
+    return enter_count(cpu, is_fixed && proven.is_plain(cpu) ? &cpu.known_counts.add(proven) : &proven,
                        rounds);
   }
   // soon over: a longer round that it is a part of may be one
   if (again_++ == kMostAgain) return fail(cpu);
-  behind_ = {trace_.front().at, trace_.front().at};
-  for (const CountStep& step : trace_) {
+  behind_ = {probe_->trace.front().at, probe_->trace.front().at};
+  for (const CountStep& step : probe_->trace) {
     behind_.first = std::min(behind_.first, step.at);
     behind_.last = std::max(behind_.last, step.at);
   }
@@ -260,7 +266,7 @@ void Waits::fail(Cpu& cpu) {
   constexpr unsigned kRarestHints = 64;
   if (std::exchange(is_hinted_, false)) hint_gap_ = std::min(2 * hint_gap_, kRarestHints);
   state_ = State::Away;
-  forget_trace();
+  forget_probe();
   cpu.still_since = kNever;
   const Cycle now = stands_in_host(cpu) ? std::max(cpu.true_now(), cpu.stands_until) : cpu.true_now();
   if (at_head_) cpu.heads.pause(look_head_, false, cpu.true_now());
@@ -274,7 +280,7 @@ void Waits::fail(Cpu& cpu) {
 
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
-  forget_trace();
+  forget_probe(wait);
   if (std::exchange(is_hinted_, false)) hint_gap_ = 1;
   is_by_head_ = at_head_ || cpu.heads.has(wait->first);
   wait_ = wait;

@@ -17,6 +17,7 @@
 // how Processor::run() is called; so the time counted as waited does not either.
 #pragma once
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "dspic30/core/counting.h"
@@ -135,9 +136,12 @@ class Waits {
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
   void begin_handler(const Cpu& cpu, Cycle at);
-  /// Looks are rare, and each robot has one of these.
-  void forget_trace() {
-    if (trace_.capacity() > 0) std::vector<CountStep>().swap(trace_);
+  /// Looks are rare, and each robot has one of these. `wait` goes on.
+  void forget_probe(const KnownWaits::Wait* wait = nullptr) {
+    if (probe_ && (wait == &probe_->round || wait == &probe_->proven.round()))
+      std::vector<CountStep>().swap(probe_->trace);
+    else
+      probe_.reset();
   }
   void leave(Cpu& cpu);
   static void step(Cpu& cpu);
@@ -148,7 +152,7 @@ class Waits {
   bool at_head_ = false;                    // the look began at a known wait's first instruction
   bool is_hinted_ = false;                  // the look that is due, or goes on, is one
   std::array<Schedule, 2> schedules_;       // of the program, of its handlers
-  const KnownWaits::Wait* wait_ = nullptr;  // the wait: round_, or a known one
+  const KnownWaits::Wait* wait_ = nullptr;  // the wait: the probe's round, or a known one
   const Count* counts_ = nullptr;           // it is a loop that counts
   Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
   Cycle entered_at_ = 0;                    // entered_, in true time
@@ -179,10 +183,13 @@ class Waits {
   int passes_ = 0;                                          // in a row
   Cycle passed_at_ = 0;                                     // cycles of the program
   Cycle look_by_ = kRarestLooks, look_gap_ = kRarestLooks;  // true time
-  // the round that is looked at
-  KnownWaits::Wait round_;
-  std::vector<CountStep> trace_;  // of the last chance
-  Count proven_;
+  /// The round that is looked at.
+  struct Probe {
+    KnownWaits::Wait round;
+    std::vector<CountStep> trace;  // of the last chance
+    Count proven;
+  };
+  std::unique_ptr<Probe> probe_;  // null: nothing is, and no wait is one that a look has found just now
 };
 
 }  // namespace dspic

@@ -44,11 +44,9 @@ bool ChipInterrupts::wakes(Cycle now) {
 
 std::int64_t ChipInterrupts::missed(int vector) const {
   if (vector < kFirstIrqVector) return 0;
-  return parts_.interrupts.tally().missed[static_cast<std::size_t>(vector - kFirstIrqVector)];
+  return parts_.interrupts.tally().missed.of(vector - kFirstIrqVector);
 }
 
-std::int64_t ChipInterrupts::served(int vector) const {
-  return parts_.interrupts.tally().served[static_cast<std::size_t>(vector)];
-}
+std::int64_t ChipInterrupts::served(int vector) const { return parts_.interrupts.tally().served.of(vector); }
 
 }  // namespace dspic

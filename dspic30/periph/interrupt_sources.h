@@ -6,6 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
+#include <utility>
+#include <vector>
 
 #include "dspic30/memory/cycle.h"
 #include "dspic30/periph/vectors.h"
@@ -111,10 +113,34 @@ class FlagListeners {
   std::array<FlagListener*, kMost + 1> listeners_{};
 };
 
-/// Events that found their enabled flag still set, and handlers that began, since power-up.
+/// How often something happened to each of a few numbers of many, which begin to count when it does.
+class Tally {
+ public:
+  std::int64_t of(int number) const {
+    for (const Row& row : rows_)
+      if (row.number == number) return row.count;
+    return 0;
+  }
+  /// Returns how often before.
+  std::int64_t add(int number, std::int64_t times = 1) {
+    for (Row& row : rows_)
+      if (row.number == number) return std::exchange(row.count, row.count + times);
+    rows_.push_back({number, times});
+    return 0;
+  }
+
+ private:
+  struct Row {
+    int number = 0;
+    std::int64_t count = 0;
+  };
+  std::vector<Row> rows_;
+};
+
+/// Events that found their enabled flag still set, by source, and handlers that began, by vector, since
+/// power-up.
 struct InterruptTally {
-  std::array<std::int64_t, kIrqs> missed{};
-  std::array<std::int64_t, kVectors> served{};
+  Tally missed, served;
 };
 
 }  // namespace dspic

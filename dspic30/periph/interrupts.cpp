@@ -39,8 +39,7 @@ void Interrupts::reset(Cycle now) {
 
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
   if (events <= 0 || !sources_.enabled(irq)) return;
-  auto& missed = tally_.missed[static_cast<std::size_t>(irq)];
-  if (missed == 0) {
+  if (tally_.missed.add(irq, events) == 0) {
     const std::string name = vector_name(kFirstIrqVector + irq);
     diagnostics_.report(Cause::MissedInterrupt, name,
                         name +
@@ -48,7 +47,6 @@ void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
                             "once for several (too slow, or held off too long)",
                         at);
   }
-  missed += events;
 }
 
 void Interrupts::set_by_program(std::uint64_t flags, Cycle now) {

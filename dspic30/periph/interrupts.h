@@ -208,7 +208,7 @@ __attribute__((always_inline)) inline InterruptEntry Interrupts::enter(int vecto
   if (vector >= kFirstIrqVector) cleared_ &= ~(std::uint64_t{1} << (vector - kFirstIrqVector));
   last_vector_ = static_cast<std::uint16_t>(vector);
   last_level_ = static_cast<std::uint16_t>(entry.level);
-  ++tally_.served[static_cast<std::size_t>(vector)];
+  tally_.served.add(vector);
   return entry;
 }
 

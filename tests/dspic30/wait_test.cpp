@@ -280,4 +280,39 @@ TEST(Wait, a_round_that_changes_something_is_none) {
   EXPECT_EQ(fifo.cpu->cpu().waits->jumped(), 0);
 }
 
+// --- where waits begin: as many places as a program needs, and up to 32 of one kind
+
+TEST(WaitHeads, of_equal_places_are_all_kept_until_there_is_no_more_room) {
+  constexpr int kApart = 8, kMost = 32, kTried = 4;
+  std::vector<dspic::Decoded> code(2 * kApart * kMost);
+  dspic::WaitHeads heads;
+  EXPECT_FALSE(heads.has_any());
+  EXPECT_FALSE(heads.has(&code[0]));
+  heads.reset(code.data());
+  // eight apart, so that they collide as long as there is room for eight, then for 16
+  for (int n = 0; n < 2 * kTried; ++n) {
+    heads.add(&code[static_cast<std::size_t>(n * kApart)]);
+    for (int known = 0; known <= n; ++known)
+      EXPECT_TRUE(heads.has(&code[static_cast<std::size_t>(known * kApart)])) << n << ", " << known;
+    EXPECT_FALSE(heads.has(&code[static_cast<std::size_t>((n + 1) * kApart)]));
+  }
+  // what was known of one goes along: it pauses 50 cycles, and twice as long each time
+  heads.reset(code.data());
+  heads.add(&code[0]);
+  heads.pause(&code[0], false, 1000);
+  for (int n = 1; n <= kTried; ++n) heads.add(&code[static_cast<std::size_t>(n * kApart)]);
+  EXPECT_FALSE(heads.is_due(&code[0], 1049));
+  EXPECT_TRUE(heads.is_due(&code[0], 1050));
+  // 32 words apart only four have room: the fifth takes the place of one
+  heads.reset(code.data());
+  EXPECT_FALSE(heads.has_any());
+  std::vector<dspic::Decoded> far(kMost * (kTried + 1));
+  heads.reset(far.data());
+  for (int n = 0; n <= kTried; ++n) heads.add(&far[static_cast<std::size_t>(n * kMost)]);
+  int kept = 0;
+  for (int n = 0; n <= kTried; ++n) kept += heads.has(&far[static_cast<std::size_t>(n * kMost)]);
+  EXPECT_EQ(kept, kTried);
+  EXPECT_TRUE(heads.has(&far[kTried * kMost]));
+}
+
 }  // namespace
