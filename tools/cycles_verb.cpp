@@ -94,7 +94,8 @@ std::string place_text(const dspic::FirmwareFile& file, std::uint32_t address) {
 }
 std::string place_text(const dspic::FirmwareFile& file, const dspic::DebugInfo::Function& f) {
   const int source = dspic::source_of(file, f);
-  return source < 0 ? "" : fmt::format("{}:{}", file.code.lines().files[static_cast<std::size_t>(source)], f.line);
+  return source < 0 ? ""
+                    : fmt::format("{}:{}", file.code.lines().files[static_cast<std::size_t>(source)], f.line);
 }
 
 /// The functions that ran by their own time, then the others, then those that stand in others alone.

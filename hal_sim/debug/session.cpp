@@ -447,8 +447,8 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
     if (b.addresses.empty())
       error = "got '" + where + "', expected a line with code in a file of the program" +
               (map.lines().rows.empty() ? "; this image has no lines"
-               : files.empty()   ? "; it has no such file"
-                                 : "");
+               : files.empty()          ? "; it has no such file"
+                                        : "");
     else
       b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
