@@ -344,15 +344,65 @@ std::vector<Vec3> grid_points(const Node& g, const Affine& frame, bool z_up) {
   return out;
 }
 
+/// Axes of the plane that a cross-section lies in at each point of a spine: y along it, z as it bends.
+/// [ISO/IEC 14772-1, 6.18]
+std::vector<Eigen::Matrix3d> section_axes(const std::vector<Vec3>& spine) {
+  const std::size_t n = spine.size();
+  const bool is_closed = n > 2 && (spine.front() - spine.back()).norm() < 1e-9;
+  const auto point = [&](std::size_t i, int by) {  // the neighbour, over the end of a closed one
+    if (i == 0 && by < 0) return is_closed ? spine[n - 2] : spine[0];
+    if (i + 1 == n && by > 0) return is_closed ? spine[1] : spine[n - 1];
+    return by < 0 ? spine[i - 1] : spine[i + 1];
+  };
+  std::vector<Vec3> along(n), bend(n);
+  Vec3 first_bend = Vec3::Zero();
+  for (std::size_t i = 0; i < n; ++i) {
+    along[i] = (point(i, 1) - point(i, -1)).normalized();
+    if (i > 0 && along[i].isZero(1e-12)) along[i] = along[i - 1];  // a point twice
+    bend[i] = (point(i, 1) - spine[i]).cross(point(i, -1) - spine[i]);
+    if (first_bend.isZero(1e-12) && bend[i].norm() > 1e-12) first_bend = bend[i].normalized();
+  }
+  std::vector<Eigen::Matrix3d> axes(n);
+  Vec3 before = first_bend;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (first_bend.isZero(1e-12)) {  // straight: what stands upright is tilted into its direction
+      axes[i] = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitY(),
+                                                   along[i].isZero(1e-12) ? Vec3(Vec3::UnitY()) : along[i])
+                    .toRotationMatrix();
+      continue;
+    }
+    Vec3 z = bend[i].norm() > 1e-12 ? Vec3(bend[i].normalized()) : before;
+    if (z.dot(before) < 0) z = -z;
+    before = z;
+    axes[i] << along[i].cross(z), along[i], z;
+  }
+  return axes;
+}
+
 std::vector<Vec3> extrusion_points(const Node& g, const Affine& frame) {
-  const Field* section = g.field("crossSection");
-  const Field* spine = g.field("spine");
-  std::vector<Vec3> out;
-  if (!section || !spine || section->numbers.size() * spine->numbers.size() > 1e6) return out;
-  for (std::size_t s = 0; s + 2 < spine->numbers.size(); s += 3) {
-    for (std::size_t i = 0; i + 1 < section->numbers.size(); i += 2)
-      out.push_back(frame * Vec3(spine->numbers[s] + section->numbers[i], spine->numbers[s + 1],
-                                 spine->numbers[s + 2] + section->numbers[i + 1]));
+  const auto numbers = [&](const char* name, std::vector<double> usual) {
+    const Field* const field = g.field(name);
+    return field && !field->numbers.empty() ? field->numbers : std::move(usual);
+  };
+  const std::vector<double> section = numbers("crossSection", {1, 1, 1, -1, -1, -1, -1, 1, 1, 1}),
+                            scale = numbers("scale", {1, 1}), turn = numbers("orientation", {0, 0, 1, 0}),
+                            way = numbers("spine", {0, 0, 0, 0, 1, 0});
+  std::vector<Vec3> spine, out;
+  for (std::size_t i = 0; i + 2 < way.size(); i += 3) spine.emplace_back(way[i], way[i + 1], way[i + 2]);
+  if (spine.empty() || static_cast<double>(section.size()) * static_cast<double>(spine.size()) > 1e6)
+    return out;
+  const std::vector<Eigen::Matrix3d> axes = section_axes(spine);
+  for (std::size_t s = 0; s < spine.size(); ++s) {
+    // one scale and turn a point, or one for all
+    const std::size_t k = std::min(2 * s + 2, scale.size() / 2 * 2),
+                      r = std::min(4 * s + 4, turn.size() / 4 * 4);
+    const double wide = k >= 2 ? scale[k - 2] : 1, deep = k >= 2 ? scale[k - 1] : 1;
+    Eigen::Matrix3d turned_axes = axes[s];
+    if (const Vec3 axis = r >= 4 ? Vec3(turn[r - 4], turn[r - 3], turn[r - 2]) : Vec3(Vec3::Zero());
+        axis.norm() > 1e-12)
+      turned_axes = axes[s] * Eigen::AngleAxisd(turn[r - 1], axis.normalized()).toRotationMatrix();
+    for (std::size_t i = 0; i + 1 < section.size(); i += 2)
+      out.push_back(frame * (spine[s] + turned_axes * Vec3(section[i] * wide, 0, section[i + 1] * deep)));
   }
   return out;
 }

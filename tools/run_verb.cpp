@@ -84,12 +84,10 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
     all.push_back(std::move(fault));
   }
   if (!problems.empty()) return false;
-  for (faults::Fault& fault : all) {
-    try {
-      injector.add(std::move(fault));
-    } catch (const std::runtime_error& e) {
-      problems.push_back(e.what());
-    }
+  try {
+    injector.add(std::move(all));
+  } catch (const std::runtime_error& e) {
+    problems.push_back(e.what());
   }
   return problems.empty();
 }

@@ -23,9 +23,7 @@ Cycle CameraCapture::begin_frame(Cycle at) {
   for (int column = 0; column < request_.columns; ++column)
     for (int part = 0; part < request_.bytes_per_pixel; ++part) {
       const int turn = column * request_.bytes_per_pixel * (1 + request_.skipped_pixels) + part;
-      cut.bytes.push_back(request_.in_step ? turn
-                                           : static_cast<int>(2 * (kFirstByteCycles + kMaskCycles * turn) /
-                                                              byte_half_cycles));
+      cut.bytes.push_back(static_cast<int>(2 * (kFirstByteCycles + kMaskCycles * turn) / byte_half_cycles));
     }
   line_.resize(cut.bytes.size());
   row_ = 0;

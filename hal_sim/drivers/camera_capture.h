@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
-// The library's camera drivers: which lines and bytes of a frame they take.
+// The library's fast camera driver: which lines and bytes of a frame it takes.
 //
 //   launch() --VSYNC--> begin_frame() --HREF--> take_line() --HREF--> take_line() ...
 //
-// The fast driver (camera/fast_2_timer) reads the data pins every kMaskCycles from kFirstByteCycles
-// after HREF on and does not look at the pixel clock; the others (camera/slow_3_timer) take each
-// byte by its interrupt.
+// It (camera/fast_2_timer) reads the data pins every kMaskCycles from kFirstByteCycles after HREF on and does
+// not look at the pixel clock.
 #pragma once
 #include <cstdint>
 #include <vector>
@@ -31,7 +30,6 @@ class CameraCapture {
     int bytes_per_pixel = 1;
     int skipped_pixels = 0;  ///< between two that are taken
     int skipped_lines = 0;   ///< between two that are taken
-    bool in_step = false;    ///< each byte has its own interrupt; false: the fast driver
   };
   /// The driver waits for the next frame. Replaces a request before it. Returns the cycle of VSYNC.
   Cycle launch(const Request& request, Cycle at);

@@ -69,7 +69,8 @@ class Injector::Work {
     bool was_felt = false;  // before the world began again
   };
 
-  int add(Fault fault, bool by_hand) {
+  /// Throws what is wrong; nothing is kept yet.
+  std::unique_ptr<Entry> make(Fault fault, bool by_hand) const {
     auto entry = std::make_unique<Entry>();
     entry->kind = find_kind(fault.kind);
     if (!entry->kind) {
@@ -109,6 +110,10 @@ class Injector::Work {
       }
       entry->cases.push_back(c);
     }
+    return entry;
+  }
+
+  int keep(std::unique_ptr<Entry> entry) {
     entries_.push_back(std::move(entry));
     looked_at_ = -1;
     return static_cast<int>(entries_.size()) - 1;
@@ -269,17 +274,27 @@ class Injector::Work {
 Injector::Injector(twin::Twin& twin) : work_(std::make_unique<Work>(twin)) {}
 Injector::~Injector() = default;
 
-int Injector::add(Fault fault) {
-  const std::string where = fault.where;
-  try {
-    return work_->add(std::move(fault), false);
-  } catch (const std::runtime_error& e) {
-    throw std::runtime_error((where.empty() ? "" : where + ": ") + e.what());
+int Injector::add(Fault fault) { return add(std::vector<Fault>{std::move(fault)}).front(); }
+
+std::vector<int> Injector::add(std::vector<Fault> faults) {
+  std::vector<std::unique_ptr<Work::Entry>> entries;
+  std::string problems;
+  for (Fault& fault : faults) {
+    const std::string where = fault.where;
+    try {
+      entries.push_back(work_->make(std::move(fault), false));
+    } catch (const std::runtime_error& e) {
+      problems += (problems.empty() ? "" : "\n") + (where.empty() ? "" : where + ": ") + e.what();
+    }
   }
+  if (!problems.empty()) throw std::runtime_error(problems);
+  std::vector<int> ids;
+  for (auto& entry : entries) ids.push_back(work_->keep(std::move(entry)));
+  return ids;
 }
 
 int Injector::begin(Fault fault) {
-  const int id = work_->add(std::move(fault), true);
+  const int id = work_->keep(work_->make(std::move(fault), true));
   work_->begin_now(id);
   return id;
 }

@@ -47,6 +47,8 @@ class Injector {
   /// Adds a fault for later, or for now: `at_s` may have passed. Returns its id, from 0 on. Throws
   /// std::runtime_error, "sensor: got 9, expected 0 to 7", behind its `where`, when it is none; nothing was done then.
   int add(Fault fault);
+  /// All of them, in order, or none: a line then for each that is none.
+  std::vector<int> add(std::vector<Fault> faults);
   /// The same, and it begins at once, whatever it says of its time.
   int begin(Fault fault);
   /// It ends now, if it lasts and goes on. One that has not begun never will.

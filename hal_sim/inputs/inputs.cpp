@@ -177,7 +177,7 @@ void Inputs::add_faults(const Json& input) {
   const auto of = input.value("of", std::string("faults"));
   const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), of);
   if (!loaded.problems.empty()) refuse_input(loaded.report(of));
-  for (const faults::Fault& fault : loaded.faults) faults_.add(fault);
+  faults_.add(loaded.faults);
 }
 
 void Inputs::end_fault(const Json& input) {

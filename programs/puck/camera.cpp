@@ -30,9 +30,7 @@ Registers setup_of(board::CameraKind kind) {
 }
 
 /// The sensor gives each fourth pixel, of which the driver takes each second.
-drivers::CameraCapture::Request request() {
-  return {kCameraRows, kCameraColumns, kBytesPerPixel, 1, 1, false};
-}
+drivers::CameraCapture::Request request() { return {kCameraRows, kCameraColumns, kBytesPerPixel, 1, 1}; }
 
 }  // namespace
 

@@ -295,6 +295,15 @@ Affine Bodies::pose(int id) const {
   return now * piece.body.inverse(Eigen::Isometry) * piece.start;
 }
 
+Vec3 Bodies::centre_of_mass(int id) const {
+  const Affine frame = pose(id);
+  const TreeNode& n = tree_.node(id);
+  if (n.is != Is::Robot) return frame.translation();
+  const sim::WorldDesc& world = twin_.world();
+  const sim::Vec3 c = world.model_of(world.robots[static_cast<std::size_t>(n.number)])->centre_of_mass_m;
+  return frame * (is_nue() ? Vec3(-c.y, c.z, -c.x) : Vec3(c.x, c.y, c.z));
+}
+
 std::vector<double> Bodies::place(int id, const std::string& field) const {
   const TreeNode& n = tree_.node(id);
   if (moving_body(id) < 0)

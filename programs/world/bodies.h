@@ -30,6 +30,8 @@ class Bodies {
 
   /// Without scale.
   wbt::Affine pose(int id) const;
+  /// A robot's is that of its model; of anything else the place that its pose says.
+  wbt::Vec3 centre_of_mass(int id) const;
   /// "translation" or "rotation", within its parent.
   std::vector<double> place(int id, const std::string& field) const;
   /// Writes one of them. What cannot be is said; empty: done.

@@ -154,11 +154,11 @@ struct Nodes::Inside {
     const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = at.matrix();
     std::vector<double> values;
     int count = -1;
-    // Questions: place and centre of mass, axes, velocity, points of contact, the whole pose, whether it
-    // stands firm, how many fields.
+    const wbt::Vec3 centre = bodies().centre_of_mass(id);
+    // Questions: place, axes, velocity, centre of mass, points of contact, the whole pose, whether it stands
+    // firm, how many fields.
     switch (r.ints[1]) {
       case 0:
-      case 3:
         values = {at.translation().begin(), at.translation().end()};
         break;
       case 1:
@@ -166,6 +166,9 @@ struct Nodes::Inside {
         break;
       case 2:
         values = bodies().velocity(id);
+        break;
+      case 3:
+        values = {centre.begin(), centre.end()};
         break;
       case 4:
         count = 0;

@@ -30,14 +30,14 @@ std::string range(const std::string& name, double value, double least, double mo
 
 const std::vector<RobotField>& robot_fields() {
   static const std::vector<RobotField> all{
-      {"collisions", kInt, false},          {"longestWallTouch", kFloat, false},
-      {"distance", kFloat, false},          {"selector", kInt, true},
-      {"batteryVoltage", kFloat, true},     {"leds", kInt, false},
-      {"proximity", kFloat + kList, false}, {"leftSteps", kFloat, false},
-      {"rightSteps", kFloat, false},        {"cpuLoad", kFloat, false},
-      {"traps", kText + kList, false},      {"proximityNoise", kFloat, true},
-      {"wheelNoise", kFloat, true},         {"sensor:", kFloat, true},
-      {"variable:", kFloat, true},
+      {"collisions", kInt},          {"longestWallTouch", kFloat},
+      {"distance", kFloat},          {"selector", kInt},
+      {"batteryVoltage", kFloat},    {"leds", kInt},
+      {"proximity", kFloat + kList}, {"leftSteps", kFloat},
+      {"rightSteps", kFloat},        {"cpuLoad", kFloat},
+      {"traps", kText + kList},      {"proximityNoise", kFloat},
+      {"wheelNoise", kFloat},        {"sensor:", kFloat},
+      {"variable:", kFloat},
   };
   return all;
 }

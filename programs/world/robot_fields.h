@@ -13,7 +13,6 @@ namespace programs {
 struct RobotField {
   const char* name;  ///< one that ends in ':' is followed by words of the program's
   int type;
-  bool settable;
 };
 
 /// Null: there is none of that name.

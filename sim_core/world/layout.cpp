@@ -36,12 +36,10 @@ class Builder {
  public:
   explicit Builder(Layout& out) : out_(out) {}
 
-  void fixed(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name, int object,
-             int line) {
+  void fixed(Solid solid, const Pose2& pose, double z_m, const Surface& surface, std::string name, int line) {
     out_.fixed.push_back({&keep(std::move(solid)), Frame2(pose), z_m});
     out_.fixed_surface.push_back(surface);
     out_.fixed_name.push_back(std::move(name));
-    out_.fixed_object.push_back(object);
     out_.fixed_line.push_back(line);
   }
 
@@ -67,10 +65,10 @@ void add_arena(const ArenaDesc& arena, Builder& build) {
   const Surface surface = surface_of(arena.material);
   const Vec2 c = arena.centre_m, s = arena.size_m;
   const double x = 0.5 * (s.x + t), y = 0.5 * (s.y + t);
-  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y + y, 0}, 0, surface, "north arena wall", -1, 0);
-  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y - y, 0}, 0, surface, "south arena wall", -1, 0);
-  build.fixed(Solid::box(t, s.y, 0, h), {c.x + x, c.y, 0}, 0, surface, "east arena wall", -1, 0);
-  build.fixed(Solid::box(t, s.y, 0, h), {c.x - x, c.y, 0}, 0, surface, "west arena wall", -1, 0);
+  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y + y, 0}, 0, surface, "north arena wall", 0);
+  build.fixed(Solid::box(s.x + 2 * t, t, 0, h), {c.x, c.y - y, 0}, 0, surface, "south arena wall", 0);
+  build.fixed(Solid::box(t, s.y, 0, h), {c.x + x, c.y, 0}, 0, surface, "east arena wall", 0);
+  build.fixed(Solid::box(t, s.y, 0, h), {c.x - x, c.y, 0}, 0, surface, "west arena wall", 0);
 }
 
 void add_wall(const WallDesc& wall, int number, Builder& build) {
@@ -90,7 +88,7 @@ void add_wall(const WallDesc& wall, int number, Builder& build) {
     const Pose2 pose{middle.x, middle.y, std::atan2(dir.y, dir.x)};
     build.fixed(Solid::box(len + extra_a + extra_b, wall.thickness_m, 0, wall.height_m), pose, wall.z_m,
                 surface_of(wall.material), "wall " + std::to_string(number) + " segment " + std::to_string(i),
-                -1, wall.line);
+                wall.line);
   }
 }
 
@@ -138,7 +136,7 @@ void add_kerbs(const RampDesc& ramp, std::size_t number, const Ground& ground, B
       const Pose2 pose{centre.x, centre.y, ramp.pose.heading_rad + std::atan2(dir.y, dir.x)};
       const std::string name = ramp.name.empty() ? std::to_string(number) : "'" + ramp.name + "'";
       build.fixed(Solid::box(length(to - from), kKerbThicknessM, 0, inside - outside + kKerbM), pose, outside,
-                  surface, "edge of ramp " + name, -1, ramp.line);
+                  surface, "edge of ramp " + name, ramp.line);
     }
   }
 }
@@ -210,8 +208,7 @@ Layout build_layout(const WorldDesc& world) {
       build.moving(build.keep(std::move(solid)), pose, z, surface_of(o.material), std::move(name));
       out.loose_object.push_back(static_cast<int>(i));
     } else {
-      build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), static_cast<int>(i),
-                  o.line);
+      build.fixed(std::move(solid), pose, o.z_m, surface_of(o.material), std::move(name), o.line);
     }
   }
 

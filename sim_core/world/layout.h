@@ -31,7 +31,6 @@ struct Layout {
   std::vector<Placed> fixed;
   std::vector<Surface> fixed_surface;
   std::vector<std::string> fixed_name;  ///< for messages: "arena wall 2", "box 'crate'"
-  std::vector<int> fixed_object;        ///< index into WorldDesc::objects; -1: arena or wall
   std::vector<int> fixed_line;          ///< line of the world file; 0 unknown
   std::vector<Placed> moving;           ///< robots, then movable objects, at their start
   std::vector<Pose2> moving_pose;

@@ -33,7 +33,6 @@ struct SupervisorDesc {
   std::string custom_data;          ///< a text that programs may read and change
   std::vector<DeviceDesc> devices;  ///< of its own
   int node = 0;                     ///< line of its node in WebotsDesc::world; 0: none
-  double period_s = 0;              ///< how often it runs when it does not say so itself; 0: every tick
   int line = 0;
 };
 

@@ -73,21 +73,6 @@ TEST(CameraCapture, the_fast_driver_takes_a_byte_every_eight_cycles_from_the_sev
   EXPECT_EQ(line[3], 4);
 }
 
-TEST(CameraCapture, the_other_drivers_follow_the_pixel_clock) {
-  Robot robot, other;
-  CameraCapture::Request request;
-  request.rows = 1;
-  request.columns = 2;
-  request.bytes_per_pixel = 2;
-  request.skipped_pixels = 1;
-  request.in_step = true;
-  const Cycle first = robot.capture.begin_frame(robot.capture.launch(request, 0));
-  std::uint8_t line[4] = {};
-  EXPECT_EQ(robot.capture.take_line(line, 4, first), 4);
-  Cycle at = 0;
-  EXPECT_EQ(std::vector<std::uint8_t>(line, line + 4), other.by_name({0, 1, 4, 5}, 0, 1, at));
-}
-
 TEST(CameraCapture, a_short_buffer_gets_what_it_holds_and_a_reset_ends_the_picture) {
   Robot robot;
   CameraCapture::Request request;

@@ -214,6 +214,25 @@ TEST(Injector, what_the_world_has_not_is_told_before_the_run) {
   fault.kind = "sensor_block";
   EXPECT_THROW(adds(), std::runtime_error);
   EXPECT_TRUE(b.faults().is_empty());
+  // all of several, or none
+  fault = {};
+  fault.kind = "wheel_stuck";
+  faults::Fault of_nobody = fault, of_nothing = fault;
+  of_nobody.robot = "puck1";
+  of_nobody.where = "f.toml:4";
+  of_nothing.kind = "wheel_stick";
+  try {
+    b.faults().add({fault, of_nobody, of_nothing});
+    ADD_FAILURE() << "two of them are none";
+  } catch (const std::runtime_error& e) {
+    EXPECT_STREQ(
+        e.what(),
+        "f.toml:4: robot: got 'puck1', expected a robot of the world; did you mean 'puck0'?; the robots "
+        "are puck0\nkind: got 'wheel_stick', expected one of twinpuck list faults; did you mean "
+        "'wheel_stuck'?");
+  }
+  EXPECT_TRUE(b.faults().is_empty());
+  EXPECT_EQ(b.faults().add({fault, fault}), (std::vector<int>{0, 1}));
 }
 
 // a reset of the world is a fresh start for its faults, too

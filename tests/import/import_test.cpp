@@ -313,6 +313,50 @@ Solid {
   EXPECT_EQ(walls, 2);
 }
 
+// a section 0.2 m wide and 0.1 m deep along spines of all kinds, as ISO/IEC 14772-1 lays its planes
+TEST(Import, extrusions_follow_their_spines) {
+  struct Case {
+    const char* fields;
+    double x_m, y_m, z_m, above_m;  // of the upright prism around it
+  };
+  for (const Case& c : {
+           Case{"spine [ 0 0 0, 0 0 0.3 ]", 0.2, 0.1, 0.3, 0},
+           Case{"spine [ 0 0 0.2, 1 0 0.2 ]", 1, 0.2, 0.1, 0.15},
+           // round a corner in plan: its depth stays upright, its width goes round
+           Case{"spine [ 0 0 0.1, 1 0 0.1, 1 1 0.1 ]", 1.1, 1.1, 0.1, 0.05},
+           Case{"spine [ 0 0 0, 0 0 0.3 ] scale [ 1 1, 2 0.5 ]", 0.4, 0.1, 0.3, 0},
+           Case{"spine [ 0 0 0, 0 0 0.3 ] scale [ 2 0.5 ]", 0.4, 0.05, 0.3, 0},
+           Case{"spine [ 0 0 0, 0 0 0.3 ] orientation [ 0 1 0 1.5707963 ]", 0.1, 0.2, 0.3, 0},
+           // a square ring: closed spines bend at their ends, too
+           Case{"spine [ 0 0 0.1, 1 0 0.1, 1 1 0.1, 0 1 0.1, 0 0 0.1 ]", 1 + 0.2 * 0.70711, 1 + 0.2 * 0.70711,
+                0.1, 0.05},
+       }) {
+    const Result r =
+        import(kNew +
+               "RectangleArena { floorSize 8 8 }\nSolid { boundingObject Extrusion { crossSection [ 0.1 "
+               "0.05, 0.1 -0.05, -0.1 -0.05, -0.1 0.05, 0.1 0.05 ] " +
+               c.fields + " } }\n");
+    ASSERT_EQ(r.world.objects.size(), 1u) << c.fields << r.all_reports();
+    const sim::ObjectDesc& o = r.world.objects[0];
+    std::vector<sim::Vec2> corners = o.corners_m;
+    if (o.kind == sim::ObjectKind::Box)
+      for (const double x : {-0.5, 0.5})
+        for (const double y : {-0.5, 0.5}) corners.push_back({x * o.size_m.x, y * o.size_m.y});
+    ASSERT_FALSE(corners.empty()) << c.fields;
+    const sim::SinCos turn = sim::sin_cos(o.pose.heading_rad);
+    double least_x = 9, most_x = -9, least_y = 9, most_y = -9;
+    for (const sim::Vec2 v : corners) {
+      const double x = turn.c * v.x - turn.s * v.y, y = turn.s * v.x + turn.c * v.y;
+      least_x = std::min(least_x, x), most_x = std::max(most_x, x);
+      least_y = std::min(least_y, y), most_y = std::max(most_y, y);
+    }
+    EXPECT_NEAR(most_x - least_x, c.x_m, 1e-4) << c.fields;
+    EXPECT_NEAR(most_y - least_y, c.y_m, 1e-4) << c.fields;
+    EXPECT_NEAR(o.size_m.z, c.z_m, 1e-4) << c.fields;
+    EXPECT_NEAR(o.z_m, c.above_m, 1e-4) << c.fields;
+  }
+}
+
 TEST(Import, use_repeats_what_def_named) {
   const Result r = import(kOld + R"(
 Solid { translation 0.5 0.05 0 children [ DEF W Shape { appearance Appearance { material Material { diffuseColor 1 0.5 0.25 } } geometry Box { size 0.02 0.1 1 } } ] boundingObject USE W }

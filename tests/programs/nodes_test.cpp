@@ -121,6 +121,9 @@ TEST_F(NodesTest, a_robot_is_put_where_its_translation_says) {
   EXPECT_NEAR(pose[3], -0.2, 1e-6);
   EXPECT_NEAR(pose[7], -0.3, 1e-6);
   EXPECT_EQ(pose[15], 1);
+  // 15 mm above the floor under it; a crate's is its middle
+  expect(ask(LINK_ASK_NODE, {{a, 3}, {}, ""}).numbers, {-0.2, -0.3, 0.015}, 1e-6);
+  expect(ask(LINK_ASK_NODE, {{def("C"), 3}, {}, ""}).numbers, {-0.4, 0.1, 0.03}, 1e-3);
 }
 
 TEST_F(NodesTest, objects_move_fixed_ones_too_and_get_speeds) {

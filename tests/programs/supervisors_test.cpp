@@ -258,6 +258,8 @@ TEST_F(Supervisors, axes_of_older_worlds) {
   add_judge(R"(
     const double *v = place("PUCK");
     EXPECT(fabs(v[0] - 0.1) < 1e-12 && fabs(v[1]) < 1e-12 && fabs(v[2] + 0.2) < 1e-12);
+    v = wb_supervisor_node_get_center_of_mass(wb_supervisor_node_get_from_def("PUCK"));
+    EXPECT(fabs(v[0] - 0.1) < 1e-12 && fabs(v[1] - 0.015) < 1e-12 && fabs(v[2] + 0.2) < 1e-12);
     /* it looks north, along -z: angle 0 */
     v = wb_supervisor_field_get_sf_rotation(field("PUCK", "rotation"));
     EXPECT(fabs(v[3]) < 1e-9);

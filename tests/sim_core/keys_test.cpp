@@ -143,8 +143,8 @@ class Told {
            r.link.pin, r.link.dropouts, r.variation, r.proximity, r.sensors, r.keys, r.devices);
   }
   void operator()(const std::string& name, const sim::SupervisorDesc& s) {
-    fields(name + ".", "name program args def custom_data devices node period_s", s.name, s.program, s.args,
-           s.def, s.custom_data, s.devices, s.node, s.period_s);
+    fields(name + ".", "name program args def custom_data devices node", s.name, s.program, s.args, s.def,
+           s.custom_data, s.devices, s.node);
   }
   void operator()(const sim::WorldDesc& w) {
     fields("",

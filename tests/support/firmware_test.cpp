@@ -201,17 +201,15 @@ Robot& FirmwareTest::add_robot_with_source(const std::string& c_source, const st
   return add_robot(folder_for(c_source), name);
 }
 
-void FirmwareTest::add_supervisor(const std::string& program, double period_s) {
+void FirmwareTest::add_supervisor(const std::string& program) {
   sim::SupervisorDesc desc;
   desc.program = program;
   desc.name = "supervisor" + std::to_string(world.supervisors.size());
-  desc.period_s = period_s;
   world.supervisors.push_back(desc);
 }
 
-void FirmwareTest::add_supervisor_with_source(const std::string& source, const std::string& language,
-                                              double period_s) {
-  add_supervisor(folder_for(source, language), period_s);
+void FirmwareTest::add_supervisor_with_source(const std::string& source, const std::string& language) {
+  add_supervisor(folder_for(source, language));
 }
 
 void FirmwareTest::start(const Caller& caller) {

@@ -153,10 +153,9 @@ class FirmwareTest : public ::testing::Test {
   Robot& add_robot_with_source(const std::string& c_source, const std::string& name = "");
   /// A supervisor: a name under programs/supervisors/, a file or a folder (docs/connecting.md). Runs stop when
   /// it ends them.
-  void add_supervisor(const std::string& program, double period_s = 0);
+  void add_supervisor(const std::string& program);
   /// A supervisor written in the test itself; "cpp" or "c".
-  void add_supervisor_with_source(const std::string& source, const std::string& language = "cpp",
-                                  double period_s = 0);
+  void add_supervisor_with_source(const std::string& source, const std::string& language = "cpp");
   Robot& robot(int index) { return *robots_[static_cast<std::size_t>(index)]; }
 
   // --- running
