@@ -22,7 +22,7 @@ std::size_t index_of(Wheel wheel) { return wheel == Wheel::Left ? 0 : 1; }
 
 /// What setting takes. The coils go off at once; the agenda's cycle is what the function sets last, or for
 /// speed 0 all but last.
-Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
+Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at) {
   const CallCycles& c = cycles_;
   const bool left = wheel == Wheel::Left;
   Cycle cost = speed == 0                    ? (left ? c.left_zero : c.right_zero)
@@ -32,23 +32,20 @@ Cycle HostLibrary::set_speed(Wheel wheel, int speed, Cycle at) {
                                              : (left ? c.left_backward : c.right_backward);
   cost += cost_of_set_cycle(key_of(run_of(wheel)));
   const Cycle then = at + cost - 2 * kReturnCycles;
-  agendas().set_speed(wheel, speed, then, at + kReturnCycles);
+  const bool is_new = agendas().set_speed(wheel, speed, then, at + kReturnCycles);
   board_.pins().follow_motor(wheel, then);
+  if (is_new) changed(call);
   return cost;
 }
 
 HostResult HostLibrary::e_set_speed_left(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(Wheel::Left, call.number(0), call.at);
-  changed(call);
-  return HostResult::done(cost);
+  return HostResult::done(set_speed(call, Wheel::Left, call.number(0), call.at));
 }
 
 HostResult HostLibrary::e_set_speed_right(const Call& call) {
   effect(call);
-  const Cycle cost = set_speed(Wheel::Right, call.number(0), call.at);
-  changed(call);
-  return HostResult::done(cost);
+  return HostResult::done(set_speed(call, Wheel::Right, call.number(0), call.at));
 }
 
 HostResult HostLibrary::e_set_speed(const Call& call) {
@@ -63,9 +60,8 @@ HostResult HostLibrary::e_set_speed(const Call& call) {
                                      : (right_turn ? c.both_refused_pn : c.both_refused_pp));
   effect(call);
   Cycle cost = backward ? (right_turn ? c.both_nn : c.both_np) : (right_turn ? c.both_pn : c.both_pp);
-  cost += set_speed(Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
-  cost += set_speed(Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
-  changed(call);
+  cost += set_speed(call, Wheel::Left, static_cast<std::int16_t>(linear - angular), call.at + cost / 2);
+  cost += set_speed(call, Wheel::Right, static_cast<std::int16_t>(linear + angular), call.at + cost);
   return HostResult::done(cost);
 }
 
@@ -83,7 +79,8 @@ HostResult HostLibrary::e_init_motors(const Call& call) {
 
 HostResult HostLibrary::get_steps(const Call& call, Wheel wheel, Cycle cost) {
   call.cpu.note_look(agendas().motors().steps_horizon(wheel, call.at));
-  call.give(static_cast<int>(agendas().motors().commanded_steps(wheel, call.at) - zero_steps_[index_of(wheel)]));
+  call.give(
+      static_cast<int>(agendas().motors().commanded_steps(wheel, call.at) - zero_steps_[index_of(wheel)]));
   return HostResult::done(cost);
 }
 

@@ -120,7 +120,7 @@ class HostLibrary final : public dspic::HostCalls {
   HostResult change_found(const Call& call, Cycle cost, Change change);
 
   // --- motors
-  Cycle set_speed(board::Wheel wheel, int speed, Cycle at);
+  Cycle set_speed(const Call& call, board::Wheel wheel, int speed, Cycle at);
   HostResult get_steps(const Call& call, board::Wheel wheel, Cycle cost);
   HostResult set_steps(const Call& call, board::Wheel wheel, Cycle cost);
   HostResult run_motor(const Call& call, board::Wheel wheel);

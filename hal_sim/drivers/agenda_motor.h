@@ -54,6 +54,11 @@ class AgendaMotor {
   bool phase_on = false;       ///< power save: the next firing switches the coils off
   std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
 
+  /// Would it step on as before with that speed? Its coils alone are off until the next step, to which the
+  /// rotor has come as far as it would.
+  bool keeps_rhythm(int speed) const {
+    return speed == speed_ && is_even() && !saves_power() && count.cycle == step_ticks_;
+  }
   /// steps/s, clamped
   int speed() const { return speed_; }
   void set_speed(int speed) {

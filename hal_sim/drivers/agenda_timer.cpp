@@ -156,22 +156,27 @@ int AgendaTimer::restart(Function function, Cycle at) {
 
 // --- motors
 
-void AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycle> coils_off_at) {
+bool AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycle> coils_off_at) {
+  const int clamped = std::clamp(speed, -kMaxSpeed, kMaxSpeed);
+  const auto keeps_rhythm = [&](const AgendaMotor& m) { return !ticks_.stands() && m.keeps_rhythm(clamped); };
   const bool is_off_before = coils_off_at && *coils_off_at < at;
   if (is_off_before) {
     // a tick between may switch them on again
-    motors_.bring(wheel, *coils_off_at).disturb();
+    AgendaMotor& before = motors_.bring(wheel, *coils_off_at);
+    if (!keeps_rhythm(before)) before.disturb();
     motors_.stepper(wheel).set_coils_only(0);
   }
   AgendaMotor& m = motors_.bring(wheel, at);
   const bool counted = m.count.counts(), was_handled = counted && m.speed() == 0;
   if (!is_off_before) motors_.stepper(wheel).set_coils_only(0);
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
-  m.set_speed(std::clamp(speed, -kMaxSpeed, kMaxSpeed));
+  if (keeps_rhythm(m)) return false;
+  m.set_speed(clamped);
   if (motors_.has_node(wheel)) m.set_cycle(m.step_ticks());
   shares_.change_motor(wheel, m.count.counts() != counted);
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !ticks_.is_walking()) find_next_fire();
+  return true;
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {

@@ -80,7 +80,8 @@ class AgendaTimer {
 
   // --- motors
   /// e_set_speed_left / right: coils off, clamp, new cycle; the coils may be off before the cycle is new.
-  void set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycle> coils_off_at = {});
+  /// False: the motor steps on as before, and all handlers come as before.
+  bool set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycle> coils_off_at = {});
   /// run_left_motor() called as a function, from wherever. False: division by zero.
   bool run_motor(Wheel wheel, Cycle at);
   /// The motor itself, brought to `at`; changing it is up to the caller (pins written

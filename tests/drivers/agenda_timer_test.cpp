@@ -118,6 +118,44 @@ TEST(AgendaMotors, setting_a_low_speed_again_and_again_halves_it) {
   EXPECT_NEAR(fast.timer.motors().commanded_steps(Wheel::Left, kSecond), 714, 1);
 }
 
+// what most controllers do at every step of theirs: the coils go off until the next step, and that is all
+TEST(AgendaMotors, a_speed_that_is_set_again_leaves_the_wheel_to_its_rhythm) {
+  for (const int speed : {601, 700, 1000, -1000, 5000, -700}) {
+    Driven once, again;
+    EXPECT_TRUE(once.timer.set_speed(Wheel::Left, speed, 0));
+    EXPECT_TRUE(again.timer.set_speed(Wheel::Left, speed, 0));
+    EXPECT_TRUE(again.timer.set_speed(Wheel::Left, speed, kTick / 2)) << "it has not found its rhythm yet";
+    for (Cycle at = 640 * kTick + 700; at < kSecond; at += 640 * kTick + 13) {
+      EXPECT_FALSE(again.timer.set_speed(Wheel::Left, speed, at, at - 60)) << speed;
+      EXPECT_EQ(again.timer.motors().stepper_at(Wheel::Left, at).coils(), 0u);
+      const board::RotorCourse one = once.timer.motors().course(Wheel::Left, at),
+                               other = again.timer.motors().course(Wheel::Left, at);
+      EXPECT_EQ(other.until, board::kNever) << speed;
+      EXPECT_EQ(other.rate, one.rate);
+      EXPECT_NEAR(other.steps, one.steps, 1e-9);
+      // the next step finds rotor and driver where it would, and switches on the same coils
+      const Cycle next = again.timer.motors().steps_horizon(Wheel::Left, at);
+      EXPECT_EQ(next, once.timer.motors().steps_horizon(Wheel::Left, at));
+      EXPECT_EQ(again.timer.motors().commanded_steps(Wheel::Left, next),
+                once.timer.motors().commanded_steps(Wheel::Left, next));
+      EXPECT_EQ(again.timer.motors().stepper_at(Wheel::Left, next).coils(),
+                once.timer.motors().stepper_at(Wheel::Left, next).coils());
+      EXPECT_EQ(again.timer.motors().stepper_at(Wheel::Left, next).steps(),
+                once.timer.motors().stepper_at(Wheel::Left, next).steps());
+    }
+    EXPECT_TRUE(again.timer.set_speed(Wheel::Left, speed > 0 ? 900 : -900, kSecond));
+  }
+  Driven slow, held, stopped;
+  EXPECT_TRUE(slow.timer.set_speed(Wheel::Left, 300, 0));
+  EXPECT_TRUE(slow.timer.set_speed(Wheel::Left, 300, kSecond)) << "both halves take a whole period now";
+  EXPECT_TRUE(held.timer.set_speed(Wheel::Left, 700, 0));
+  held.timer.hold(kSecond);
+  EXPECT_TRUE(held.timer.set_speed(Wheel::Left, 700, kSecond + 100));
+  EXPECT_TRUE(stopped.timer.set_speed(Wheel::Left, 700, 0));
+  stopped.timer.stop(kSecond);
+  EXPECT_TRUE(stopped.timer.set_speed(Wheel::Left, 700, kSecond + 100));
+}
+
 TEST(AgendaMotors, counter_survives_a_stop) {
   Driven d;
   d.timer.set_speed(Wheel::Left, 100, 0);
@@ -307,8 +345,11 @@ class Twin {
     Command c{pick_from(random, 0, 13), pick_from(random, 0, 2), 0};
     if (c.kind >= 6 && c.kind <= 7) c.value = pick_from(random, 0, 40);  // activate, set_cycle
     if (c.kind >= 8) {
-      const int range = pick_from(random, 0, 3);
-      c.value = range == 0 ? 0 : range == 1 ? pick_from(random, -1100, 1100) : pick_from(random, -300, 300);
+      const int range = pick_from(random, 0, 5);
+      c.value = range == 0   ? 0
+                : range == 1 ? pick_from(random, -1100, 1100)
+                : range == 2 ? 700  // again and again
+                             : pick_from(random, -300, 300);
     }
     // now and then the motors' own agendas are meddled with
     if (c.kind <= 5 && pick_from(random, 0, 7) == 0)

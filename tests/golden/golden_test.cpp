@@ -33,10 +33,10 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
     ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "4c67ed442df65e65"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "bfe72797beaf56dc"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "a2bc7f297c58a7f0"},
                                          Pinned{"push", "worlds/push.toml", 10, "638808b02bc6c3b5"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "c9f777cd33c849a7"}),
+                                                "1e81f2ac4958dde2"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
