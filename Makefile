@@ -132,11 +132,12 @@ deb: product
 	@cd $(BUILD) && cpack -G DEB >deb.log 2>&1 || { cat deb.log; exit 1; }
 	@rm -rf $(BUILD)/_CPack_Packages; mv $(BUILD)/*twinpuck*.deb $(BUILD)/package; ls $(BUILD)/package/*.deb
 
-## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings
+## check: rules of code and pages: includes, names, sources of numbers, formatting, contract, timings; clang-tidy on the last changes
 check: tool
 	@scripts/setup.sh check
 	@scripts/check_pages.py --test
 	@scripts/check_sizes.py --test
+	@scripts/each_file.py --test
 	@scripts/check.py
 	@scripts/check_contract.py
 	@scripts/gen_sfr_header.py --check
@@ -144,15 +145,16 @@ check: tool
 	@scripts/gen_configuration.py --check
 	@scripts/gen_instruction_table.py --check
 	@scripts/instruction_coverage.py --check
+	@scripts/each_file.py $(BUILD) tidy
 	@$(NINJA) twinpuck-dev bench_steps
 	@$(BUILD)/twinpuck-dev timings --check
 	@if test -d $(PAGE)/node_modules || command -v npm >/dev/null; then $(MAKE) --no-print-directory check-page; else echo "left out: the page's checks (npm is not here)"; fi
 
-## tidy: clang-tidy on what changed since main, for five minutes
+## tidy: clang-tidy on every source of the product: half an hour
 tidy: setup
 	@scripts/setup.sh check
-	$(call configure,$(BUILD)-dev,$(DEV))
-	@scripts/each_file.py $(BUILD)-dev tidy
+	$(call configure,$(BUILD),)
+	@scripts/each_file.py $(BUILD) tidy all
 
 ## chip-tables: times of the chip's models and tests of its instructions, as build/chip-timing.md and build/instructions.txt
 chip-tables: tool
@@ -163,8 +165,8 @@ chip-tables: tool
 
 ## alone: every source compiled by itself, without a result: each includes what it uses
 alone: setup
-	$(call configure,$(BUILD)-dev,$(DEV))
-	@scripts/each_file.py $(BUILD)-dev alone
+	$(call configure,$(BUILD),)
+	@scripts/each_file.py $(BUILD) alone
 
 ## format: format C++ sources in place
 format:

@@ -113,11 +113,11 @@ std::string version() { return TWINPUCK_VERSION; }
 
 // --- World
 
-World::World(const std::string& file, Settings settings) {
+World::World(const std::string& file, const Settings& settings) {
   const std::string found = world_file(file);
   opened_ = std::make_unique<Opened>(checked(twin::load_world(found), found, settings), settings);
 }
-World World::of_text(const std::string& text, Settings settings) {
+World World::of_text(const std::string& text, const Settings& settings) {
   return World(
       std::make_unique<Opened>(checked(twin::parse_world(text, "text"), "text", settings), settings));
 }

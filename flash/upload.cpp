@@ -159,7 +159,9 @@ class Uploader {
   Answer fill_up(char yes) {
     for (int lost = 0; lost <= 2 * kLostBytes + 1; ++lost) {
       if (const auto byte = line_.read(kAnswer))
-        return *byte == yes ? Answer::Yes : *byte == 'N' ? Answer::No : Answer::Garbled;
+        return *byte == static_cast<unsigned char>(yes) ? Answer::Yes
+               : *byte == 'N'                           ? Answer::No
+                                                        : Answer::Garbled;
       const bool all = lost == kLostBytes;
       if (!send(Bytes(all ? kFrameBytes - kLostBytes : 1, 1))) return Answer::Silent;
     }

@@ -83,7 +83,7 @@ std::optional<sim::Colour> average_colour_of(const std::string& bytes) {
     sim::FloorDesc floor;
     if (!sim::parse_floor_image(bytes, floor).empty()) return std::nullopt;
     for (std::size_t i = 0; i < floor.image_rgb.size(); ++i) sum[i % 3] += floor.image_rgb[i];
-    pixels = static_cast<double>(floor.image_rgb.size() / 3);
+    pixels = static_cast<double>(floor.image_rgb.size()) / 3;
   }
   if (!(pixels > 0)) return std::nullopt;
   return sim::Colour{sum[0] / pixels / 255, sum[1] / pixels / 255, sum[2] / pixels / 255};

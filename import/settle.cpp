@@ -408,7 +408,7 @@ class Settler {
       return {};
     }
     // A program of ours may have that name.
-    const std::string plain = clean(name);
+    std::string plain = clean(name);
     const bool for_robot = std::string(what) == "firmware";
     const auto& is_ours = for_robot ? options_.has_firmware : options_.has_program;
     const bool ours = is_ours && plain == name && is_ours(name);

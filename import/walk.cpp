@@ -64,11 +64,7 @@ bool is_epuck_name(const std::string& type) {
 }
 
 Walk::Walk(const WorldText& text, const Options& options, Report& report)
-    : text_(text),
-      options_(options),
-      report_(report),
-      surfaces_(options.folder, report),
-      protos_(text, options.folder) {
+    : text_(text), report_(report), surfaces_(options.folder, report), protos_(text, options.folder) {
   scene_.version = text.version;
   const Node* info = nullptr;
   for (const NodePtr& n : text.nodes) {

@@ -71,7 +71,6 @@ class Walk {
   bool is_plain_epuck(const Node& n);
 
   const WorldText& text_;
-  const Options& options_;
   Report& report_;
   Surfaces surfaces_;
   ProtoFiles protos_;

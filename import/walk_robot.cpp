@@ -513,7 +513,7 @@ void Walk::slot(const Node& n, const char* field, FoundRobot& out) {
 std::vector<sim::ResponseRow> Walk::rows_of(const Node& n) {
   const Field* table = n.field("lookupTable");
   if (!table) return {{0, 0, 0}, {0.1, 1000, 0}};  // [Webots: DistanceSensor, the field's default]
-  const std::vector<sim::ResponseRow> rows = sorted_rows(*table);
+  std::vector<sim::ResponseRow> rows = sorted_rows(*table);
   if (is_table(rows, kFarthestM, -1e9, 1e9)) return rows;
   report_.add(n, *table, "a table with fewer than two rows, or without order", "it measures nothing");
   return {};

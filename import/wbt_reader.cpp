@@ -23,7 +23,8 @@ double Node::number(std::string_view name, double otherwise, std::size_t i) cons
 
 std::string Node::text(std::string_view name, std::string otherwise) const {
   const Field* f = field(name);
-  return f && !f->strings.empty() ? f->strings.front() : otherwise;
+  if (f && !f->strings.empty()) return f->strings.front();
+  return otherwise;
 }
 
 bool Node::truth(std::string_view name, bool otherwise) const {
@@ -544,7 +545,7 @@ NodePtr unfold(const Proto& proto, const Node& instance, std::size_t& budget, bo
   budget -= copied;
   try {
     Reader reader(proto.body, budget);
-    const NodePtr out = reader.body(values, instance.line);
+    NodePtr out = reader.body(values, instance.line);
     // its text has to be read even when it makes few nodes
     const std::size_t cost = reader.used() + proto.body.size() / 64 + 1;
     budget = budget > cost ? budget - cost : 0;

@@ -43,7 +43,7 @@ bool can_write(const std::string& path, const char* option, std::vector<std::str
   return false;
 }
 
-void check_files_differ(std::vector<std::pair<std::string, std::string>> files,
+void check_files_differ(const std::vector<std::pair<std::string, std::string>>& files,
                         std::vector<std::string>& problems) {
   std::error_code none;
   std::map<std::string, std::string> taken;

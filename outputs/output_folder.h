@@ -20,7 +20,7 @@ bool make_output_folder(const std::string& folder, const char* option, std::vect
 bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems);
 
 /// Files and what names each ("--record", "the world"): no file twice, or a line in `problems`.
-void check_files_differ(std::vector<std::pair<std::string, std::string>> files,
+void check_files_differ(const std::vector<std::pair<std::string, std::string>>& files,
                         std::vector<std::string>& problems);
 
 /// FOLDER/NAME of a robot, without an ending: its name, '/' replaced by '_'; names that had one, or begin

@@ -50,7 +50,7 @@ bool RunOutputs::open(std::vector<std::string>& problems) {
                                                          {a.traces.timeline, "--trace"},
                                                          {a.report, "--report"}};
   for (const std::string& file : a.pictures.heatmaps) files.emplace_back(file, "--heatmap");
-  check_files_differ(std::move(files), problems);
+  check_files_differ(files, problems);
   if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
   // counts are added to those of earlier runs

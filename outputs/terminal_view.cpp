@@ -105,12 +105,14 @@ void TerminalView::solid(Pixels& pixels, const sim::Placed& placed, Pixel pixel)
   // thin walls, too: nine points of a pixel
   for (int y = 0; y < high(); ++y)
     for (int x = 0; x < size_.columns; ++x)
-      for (int k = 0; k < 9; ++k)
-        if (is_within(placed, {left_top_m_.x + (x + (k % 3 + 0.5) / 3) / px_per_m_,
-                               left_top_m_.y - (y + (k / 3 + 0.5) / 3) / px_per_m_})) {
+      for (int k = 0; k < 9; ++k) {
+        const int column = k % 3, row = k / 3;
+        if (is_within(placed, {left_top_m_.x + (x + (column + 0.5) / 3) / px_per_m_,
+                               left_top_m_.y - (y + (row + 0.5) / 3) / px_per_m_})) {
           at(pixels, x, y) = pixel;
           break;
         }
+      }
 }
 
 void TerminalView::disc(Pixels& pixels, sim::Vec2 at_m, double radius_m, Pixel pixel) const {

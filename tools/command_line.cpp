@@ -108,7 +108,7 @@ std::string given_for(const std::string& option, int argc, char** argv) {
 
 std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, const CLI::ParseError& e,
                                   int argc, char** argv) {
-  const std::string said = e.what();
+  std::string said = e.what();
   const auto is = [&](CLI::ExitCodes code) { return e.get_exit_code() == static_cast<int>(code); };
   const std::string option = option_in(said);
   if (is(CLI::ExitCodes::ExtrasError)) {

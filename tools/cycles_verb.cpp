@@ -38,7 +38,7 @@ std::string image_of(const std::string& name, const std::string& optimisation, d
   twin::Options options;
   options.hal = "dspic";  // with the code of all drivers
   options.optimisation = optimisation;
-  const std::string image = twin::provide_image(name, "", options, problems);
+  std::string image = twin::provide_image(name, "", options, problems);
   file = chip::firmware_file();
   std::string bytes, error;
   if (image.empty()) return "";

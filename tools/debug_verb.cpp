@@ -58,7 +58,7 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
 
 /// Robots' text goes to `say`.
 std::shared_ptr<outputs::SerialText> listen(debug::Session::Setup& setup,
-                                            std::function<void(const std::string&)> say) {
+                                            const std::function<void(const std::string&)>& say) {
   auto serial = std::make_shared<outputs::SerialText>(say);
   setup.opened = [=](twin::Twin& twin) {
     *serial = outputs::SerialText(say);

@@ -35,7 +35,7 @@ std::string description_of(const fs::path& world) {
   std::string comment, title;
   bool in_head = true;
   for (std::string line; std::getline(in, line);) {
-    in_head = in_head && line.rfind("#", 0) == 0;
+    in_head = in_head && line.rfind('#', 0) == 0;
     if (in_head && line.find("SPDX-") == std::string::npos)
       comment += (comment.empty() ? "" : " ") + line.substr(std::min<std::size_t>(2, line.size()));
     const auto a = line.find('"'), b = line.rfind('"');

@@ -16,7 +16,7 @@ std::unique_ptr<Debugging> Debugging::open(debug::Session::Setup setup, debug::C
   debugging->session_ = session.get();
   debugging->tell_ = std::move(tell);
   debugging->server_ = std::make_unique<debug::DapServer>(
-      [d = debugging.get()](Json message) { d->take(message); }, std::move(has_news),
+      [d = debugging.get()](const Json& message) { d->take(message); }, std::move(has_news),
       [&session](const Json&, const std::function<void(const std::string&)>&, std::vector<std::string>&) {
         return std::move(session);
       });

@@ -34,7 +34,7 @@ class Debugging {
   void halt() { session_->halt(); }
 
  private:
-  Debugging() = default;
+  Debugging() = default;  // NOLINT(bugprone-exception-escape): Json checks itself
   void take(const Json& message);
 
   std::string robot_;

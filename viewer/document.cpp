@@ -154,8 +154,8 @@ std::vector<int> Document::edit(const Json& request) {
 
 std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) const {
   const auto op = request.at("op").get<std::string>();
-  // The piece that is meant; keys are judged before anything is written.
-  const auto piece = [&]() -> const sim::WorldText::Element& {
+  // The piece that is meant, a copy: what is written moves it. Keys are judged before that.
+  const auto piece = [&]() -> sim::WorldText::Element {
     const int id = request.at("thing");
     const auto* element = next.find(id);
     if (!element) refuse("thing: got " + std::to_string(id) + ", expected the id of a thing of the world");

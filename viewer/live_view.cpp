@@ -37,7 +37,7 @@ std::unique_ptr<LiveView> LiveView::open(inputs::Opening opening, const std::str
 LiveView::~LiveView() { end(); }
 
 std::string LiveView::end() {
-  const std::string wrong = session_->stop();
+  std::string wrong = session_->stop();
   server_.reset();
   return wrong;
 }

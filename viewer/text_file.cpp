@@ -71,7 +71,7 @@ std::string utf8_to_latin(const std::string& text) {
     } else if (u == 0xC2 || u == 0xC3) {
       out += static_cast<char>((u & 3) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3F));
     } else {
-      const std::size_t end = text.find_first_of("\n", i);
+      const std::size_t end = text.find('\n', i);
       throw std::runtime_error("text: got '" +
                                text.substr(i, std::min<std::size_t>(end - i, u < 0xE0   ? 2
                                                                              : u < 0xF0 ? 3

@@ -153,7 +153,10 @@ struct WebServer::Calls {
       client->id = me.next_id_++;
       me.clients_[client->id] = client;
     }
-    mg_set_user_connection_data(c, reinterpret_cast<void*>(static_cast<std::intptr_t>(client->id)));
+    // a number, which nobody follows
+    void* const number = reinterpret_cast<void*>(  // NOLINT(performance-no-int-to-ptr)
+        static_cast<std::intptr_t>(client->id));
+    mg_set_user_connection_data(c, number);
     client->writer = std::thread([client] { client->write_all(); });
     me.listener_.on_open(client->id);
   }

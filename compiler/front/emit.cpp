@@ -52,10 +52,11 @@ void add_underscores(Module& m) {
   for (GlobalAlias& a : m.aliases()) rename(a);
 }
 
-/// Mistakes in assembler text of C: each with its place, so that all of them are told.
-class AssemblerMistakes : public DiagnosticHandler {
+/// Mistakes that show late, in assembler text of C or in what a function needs: each with its place, so that all of them
+/// are told.
+class LateMistakes : public DiagnosticHandler {
  public:
-  AssemblerMistakes(const Facts& facts, bool& has_failed) : facts_(facts), has_failed_(has_failed) {}
+  LateMistakes(const Facts& facts, bool& has_failed) : facts_(facts), has_failed_(has_failed) {}
 
   bool handleDiagnostics(const DiagnosticInfo& info) override {
     if (const auto* of_parser = dyn_cast<DiagnosticInfoSrcMgr>(&info)) {
@@ -73,6 +74,16 @@ class AssemblerMistakes : public DiagnosticHandler {
       errs() << place(of_operands->getLocCookie()) << ": "
              << (info.getSeverity() == DS_Error ? "error" : "warning")
              << ": asm: " << of_operands->getMsgStr() << "\n";
+      return true;
+    }
+    if (const auto* of_function = dyn_cast<DiagnosticInfoUnsupported>(&info)) {
+      const Function& f = of_function->getFunction();
+      StringRef name = f.getName(), file = f.getParent()->getSourceFileName();
+      unsigned line = 1, column = 0;
+      if (of_function->isLocationAvailable()) of_function->getLocation(file, line, column);
+      name.consume_front("\1_");
+      has_failed_ = true;
+      errs() << file << ":" << line << ": error: " << name << "() " << of_function->getMessage() << "\n";
       return true;
     }
     return false;
@@ -111,7 +122,7 @@ bool write(Module& m, const Unit& unit, TargetMachine& machine) {
     passes.add(new TargetLibraryInfoWrapperPass(library));
     const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
     if (machine.addPassesToEmitFile(passes, out.stream(), nullptr, kind)) return false;
-    m.getContext().setDiagnosticHandler(std::make_unique<AssemblerMistakes>(unit.facts, has_failed));
+    m.getContext().setDiagnosticHandler(std::make_unique<LateMistakes>(unit.facts, has_failed));
     passes.run(m);
   }
   return out.finish() && !has_failed;

@@ -257,7 +257,7 @@ class Makefile {
     const auto before = variables_.find(name);
     const std::optional<std::string> kept =
         before == variables_.end() ? std::nullopt : std::optional<std::string>(before->second);
-    const std::string out = each(expand(parts[1], depth), [&](const std::string& word) {
+    std::string out = each(expand(parts[1], depth), [&](const std::string& word) {
       variables_[name] = word;
       return expand(body, depth);
     });

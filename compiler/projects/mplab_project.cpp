@@ -41,7 +41,7 @@ std::vector<std::string> values_of(const std::string& text, const std::string& s
   bool is_inside = false;
   for (std::string line; std::getline(lines, line);) {
     while (!line.empty() && std::isspace(static_cast<unsigned char>(line.back()))) line.pop_back();
-    if (line.rfind("[", 0) == 0) is_inside = line == "[" + section + "]";
+    if (line.rfind('[', 0) == 0) is_inside = line == "[" + section + "]";
     const std::size_t sign = line.find('=');
     if (is_inside && sign != std::string::npos && line.rfind(key, 0) == 0)
       values.push_back(line.substr(sign + 1));

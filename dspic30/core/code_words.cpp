@@ -33,7 +33,7 @@ void CodeWords::tell_calls(std::vector<std::uint32_t> addresses) {
 void CodeWords::know(std::shared_ptr<const KnownCalls> calls) {
   if (!store_->know(calls)) {
     have_own_store(store_->told());
-    store_->know(calls);
+    store_->know(std::move(calls));
   }
   code_is_stale = true;
 }

@@ -111,7 +111,7 @@ class Look {
   std::string of_others() const {
     for (const Section& s : program_.sections) {
       if (!s.used || s.kind == Kind::Debug || is_drivers(s)) continue;
-      if (const std::string why = of_code(s); !why.empty()) return why;
+      if (std::string why = of_code(s); !why.empty()) return why;
       for (const Relocation& r : s.relocations) {
         const Symbol* to = r.symbol;
         const bool is_inner = to->section && is_drivers(*to->section) && !known_.count(to);

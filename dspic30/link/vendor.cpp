@@ -31,7 +31,7 @@ std::int32_t addend_at(const Section& s, std::uint32_t offset, unsigned type, bo
   std::int32_t addend = 0;
   switch (type) {
     case kByte:
-      addend = std::int8_t(word);
+      addend = static_cast<std::int32_t>((word & 0xFF) ^ 0x80) - 0x80;  // it has a sign
       break;
     case kWord:
       addend = std::int16_t(word);

@@ -111,7 +111,7 @@ bool DSPICDirectives::section(const std::string& operands, SMLoc at) {
   unsigned flags = (text.is_info ? 0u : ELF::SHF_ALLOC) | (space ? space->flags : 0u);
   if (text.kind == Kind::Code && !text.is_info) flags |= ELF::SHF_EXECINSTR;
   if (text.kind == Kind::Constants) flags |= dspic_elf::kPsv;
-  if (text.kind == Kind::Eeprom) flags |= dspic_elf::kEeprom | ELF::SHF_WRITE;
+  if (text.kind == Kind::Eeprom) flags |= unsigned{ELF::SHF_WRITE} | dspic_elf::kEeprom;
   if (text.kind == Kind::Ram) flags |= ELF::SHF_WRITE;
   if (text.is_near) flags |= dspic_elf::kNearSpace;
   if (text.is_x) flags |= dspic_elf::kXSpace;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "dspic30/llvm/frames.h"
 
+#include <algorithm>
+
 #include "dspic30/llvm/instructions.h"
 #include "dspic30/llvm/interrupts.h"
 #include "llvm/CodeGen/MachineFrameInfo.h"
@@ -128,7 +130,7 @@ void DSPICFrameLowering::emitPrologue(MachineFunction& mf, MachineBasicBlock& mb
         "needs " + std::to_string(size) + " bytes of stack, which the chip does not have";
     f.getContext().diagnose(DiagnosticInfoUnsupported(f, text, DiagnosticLocation(f.getSubprogram())));
   }
-  BuildMI(mbb, it, DebugLoc(), ii.get(DSPIC::LNK)).addImm(size);
+  BuildMI(mbb, it, DebugLoc(), ii.get(DSPIC::LNK)).addImm(std::min(size, kLargestFrame));
 }
 
 void DSPICFrameLowering::emitEpilogue(MachineFunction& mf, MachineBasicBlock& mbb) const {

@@ -56,7 +56,8 @@ class Sections : public TargetLoweringObjectFileELF {
   }
 
   MCSection* getSectionForConstant(const DataLayout&, SectionKind, const Constant*, Align&) const override {
-    return getContext().getELFSection(".const", ELF::SHT_PROGBITS, ELF::SHF_ALLOC | dspic_elf::kPsv);
+    return getContext().getELFSection(".const", ELF::SHT_PROGBITS,
+                                      unsigned{ELF::SHF_ALLOC} | dspic_elf::kPsv);
   }
 };
 

@@ -59,7 +59,7 @@ class LineProgram {
     shortest_ = head.byte();
     if (version == 4) head.byte();  // operations an instruction
     starts_statement_ = head.byte() != 0;
-    line_base_ = static_cast<std::int8_t>(head.byte());
+    line_base_ = (head.byte() ^ 0x80) - 0x80;  // it has a sign
     line_range_ = head.byte();
     opcode_base_ = head.byte();
     if (line_range_ == 0 || opcode_base_ == 0) return false;

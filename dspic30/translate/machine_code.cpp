@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <functional>
@@ -76,7 +77,7 @@ Run placed(const MachineCode& code, const std::vector<Item>& items) {
   void* const memory = mmap(nullptr, room, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED) return nullptr;
   auto* const bytes = static_cast<char*>(memory);
-  std::memcpy(bytes, code.bytes.data(), code.bytes.size());
+  std::copy(code.bytes.begin(), code.bytes.end(), bytes);
   bool is_whole = true;
   for (const MachineCode::Address& a : code.addresses) {
     void* const target = address_of(a.name, memory, items);

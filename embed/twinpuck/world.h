@@ -43,9 +43,9 @@ class TWINPUCK_PUBLIC World {
  public:
   /// A world file, or the name of one that Twinpuck brings along: "maze". Builds the robots' programs, which
   /// takes a moment the first time. Throws Error.
-  explicit World(const std::string& file, Settings settings = {});
+  explicit World(const std::string& file, const Settings& settings = {});
   /// The same of a world file's text; relative paths in it begin in the current folder.
-  static World of_text(const std::string& text, Settings settings = {});
+  static World of_text(const std::string& text, const Settings& settings = {});
   ~World();
   World(World&& other) noexcept;
   World& operator=(World&& other) noexcept;

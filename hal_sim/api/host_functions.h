@@ -15,7 +15,8 @@ inline constexpr board::Cycle kReturnCycles = 3;  // RETURN [DS70143 19.1]
 /// What an agenda is known by: its function's program address. The null pointer is one, too.
 inline constexpr unsigned kNullFunction = 1;  // no function is at an odd address
 inline drivers::AgendaTimer::Function key_of(unsigned address) {
-  return reinterpret_cast<drivers::AgendaTimer::Function>(
+  // a key: nobody follows it
+  return reinterpret_cast<drivers::AgendaTimer::Function>(  // NOLINT(performance-no-int-to-ptr)
       static_cast<std::uintptr_t>(address == 0 ? kNullFunction : address));
 }
 inline drivers::AgendaTimer::Function key_of(HostFunction function) { return key_of(host_place(function)); }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hal_sim/board/setup.h"
+
 namespace api {
 
 namespace {

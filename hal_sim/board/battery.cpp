@@ -111,7 +111,7 @@ Cycle Battery::below(double volts, Cycle at) const {
   if (voltage(at) < volts || amps_ <= 0) return kNever;
   const double left = charge(at) - charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
   const double cycles = std::floor(left * capacity_as_ / amps_ * static_cast<double>(kFcyHz));
-  if (cycles >= static_cast<double>(kNever / 2)) return kNever;
+  if (cycles >= static_cast<double>(kNever) / 2) return kNever;
   // rounding may leave it a cycle off either way
   Cycle when = at + std::max<Cycle>(1, static_cast<Cycle>(cycles));
   while (when > at + 1 && voltage(when - 1) < volts) --when;

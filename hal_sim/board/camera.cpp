@@ -259,7 +259,7 @@ std::array<std::uint8_t, 3> Camera::develop(const sim::Light& light, std::uint64
           std::sqrt(kReadNoise * kReadNoise + kShotNoise * kShotNoise * std::min(signal, 1.0));
       signal += noise_ * kSqrt6 * sigma * draw;
     }
-    out[c] = curve_[static_cast<std::size_t>(std::clamp(signal, 0.0, 1.0) * 1024 + 0.5)];
+    out[c] = curve_[static_cast<std::size_t>(std::floor(std::clamp(signal, 0.0, 1.0) * 1024 + 0.5))];
   }
   return out;
 }
@@ -298,7 +298,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
     const double luma_count = 0.299 * rgb[0] + 0.587 * rgb[1] + 0.114 * rgb[2];
     switch (taken_.format) {
       case SensorSetup::Format::Grey:
-        value = static_cast<std::uint8_t>(luma_count + 0.5);
+        value = static_cast<std::uint8_t>(std::floor(luma_count + 0.5));
         break;
       case SensorSetup::Format::Rgb565:
         value = b.part == 0 ? static_cast<std::uint8_t>((rgb[0] & 0xF8) | rgb[1] >> 5)
@@ -306,7 +306,7 @@ void Camera::put_line(int number, std::uint8_t* to, Cycle at) {
         break;
       case SensorSetup::Format::Yuv:
         if (b.part == 0) {
-          value = static_cast<std::uint8_t>(luma_count + 0.5);
+          value = static_cast<std::uint8_t>(std::floor(luma_count + 0.5));
         } else {
           const double chroma = b.odd ? 0.713 * (rgb[0] - luma_count) : 0.564 * (rgb[2] - luma_count);
           value = static_cast<std::uint8_t>(std::clamp(std::floor(128.5 + chroma), 0.0, 255.0));

@@ -45,7 +45,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
         "go through the patterns 1010, 0110, 0101, 1001 (D C B A) one after the other");
     add(all, faults.too_fast, "steps too fast", pins,
         text("the %s is stepped faster than %.0f steps/s: the rotor does not follow and steps are lost",
-             motor, static_cast<double>(kFcyHz / kPullOutCycles)),
+             motor, static_cast<double>(kFcyHz) / static_cast<double>(kPullOutCycles)),
         "e-pucks hold 1000 steps/s; check the timer's period and prescaler");
     add(all, faults.opposed, "opposed coil ends", pins,
         text("both ends of a coil of the %s are high: no current flows in it", motor),

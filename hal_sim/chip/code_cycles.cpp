@@ -134,7 +134,7 @@ PathCycles CodeCycles::from(std::uint32_t address, bool jumped, int depth) {
   }
   if (depth > kDeepest) return without_bound("has too many ways", address);
   open_.insert(key);
-  const PathCycles cycles = walk(address, jumped, depth);
+  PathCycles cycles = walk(address, jumped, depth);
   open_.erase(key);
   // what was met again on the way belongs to whoever went round, not to what lies in the round alone; without
   // a bound it is all the same
@@ -183,7 +183,7 @@ PathCycles CodeCycles::walk(std::uint32_t address, bool jumped, int depth) {
       return without_bound("repeats an instruction as often as a register says", address);
     // A jump: the rest is what it leads to.
     if (is_jump(id)) {
-      const PathCycles rest = from(i.target, true, depth + 1);
+      PathCycles rest = from(i.target, true, depth + 1);
       if (!rest.is_known()) return rest;
       add(rest.least, rest.most);
       return sum;

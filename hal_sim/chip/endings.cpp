@@ -104,7 +104,7 @@ Ending Endings::of_null_pointer(unsigned from) const {
 // --- RESET
 
 std::optional<Ending> Endings::of_instruction(unsigned at) const {
-  if (const auto given_up = of_giving_up(at)) return given_up;
+  if (auto given_up = of_giving_up(at)) return given_up;
   const int vector = places_.open_vector();
   if (vector != dspic::kNoVector && is_default_handler(vector, at))
     return vector < dspic::kFirstIrqVector

@@ -41,7 +41,7 @@ std::string hint_for(dspic::Cause cause) {
     case Cause::NvmBusy:
       return "call _wait_eedata(), or wait until NVMCON.WR is 0, before the next operation";
     case Cause::I2cMisuse:
-      return "wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
+      return "set I2CCON.I2CEN, then wait until SEN, RSEN, PEN, RCEN, ACKEN and I2CSTAT.TRSTAT are 0";
     case Cause::CodecRate:
       return "choose the divider N1 and multiplier M1 in the codec's registers 3 and 4 for the rate of the "
              "DCI's frames";

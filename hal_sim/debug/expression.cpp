@@ -280,7 +280,7 @@ class Expression {
     if (c == '\\') {
       ++at_;
       const char* const kinds = "ntr0abfv\\'\"";
-      const char values[] = {'\n', '\t', '\r', '\0', '\a', '\b', '\f', '\v', '\\', '\'', '"'};
+      const int values[] = {'\n', '\t', '\r', '\0', '\a', '\b', '\f', '\v', '\\', '\'', '"'};
       const char* const kind = *at_ ? std::strchr(kinds, *at_) : nullptr;
       if (*at_ == 'x') {
         char* rest = nullptr;
@@ -509,7 +509,7 @@ class Expression {
   }
 
   std::string member_name(const char* from) {
-    const std::string name = word_here();
+    std::string name = word_here();
     if (name.empty()) refuse(from, "expected a member's name behind it");
     at_ += name.size();
     return name;

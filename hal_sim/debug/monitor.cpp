@@ -48,7 +48,7 @@ std::string first_word(const std::string& line, std::string& rest) {
 std::string condition_of(std::string& text) {
   const std::size_t at = text.find(" if ");
   if (at == std::string::npos) return "";
-  const std::string condition = trimmed(text.substr(at + 4));
+  std::string condition = trimmed(text.substr(at + 4));
   text = trimmed(text.substr(0, at));
   return condition;
 }

@@ -205,7 +205,7 @@ Stop Session::repeat_to(const Moment& to, Cycle look_from, const std::function<b
   start(look_from);
   target_ = to;
   stop_ = {Stop::Why::Step, 0, ""};
-  const Stop stop = resume(idle);
+  Stop stop = resume(idle);
   is_repeating_ = false;
   if (setup_.repeated) setup_.repeated();
   return stop;

@@ -22,7 +22,7 @@ constexpr std::size_t kLongestFile = 1u << 20;
 using sim::KeySpec;
 using sim::ValueType;
 
-sim::Setter into_value(std::string name) {
+sim::Setter into_value(const std::string& name) {
   return [name](void* target, const sim::Value& value, const sim::WorldDesc&) {
     static_cast<Fault*>(target)->values[name] = value;
     return std::string();

@@ -83,7 +83,8 @@ std::string Recorder::keep(const std::string& image, std::string& hash) {
   if (const std::string wrong = sim::read_input_file(image, kLargestImage, bytes); !wrong.empty())
     file_.fail(image + ": " + wrong);
   hash = cc::content_hash(bytes);
-  const std::string name = folder + "/" + hash + ".elf", kept = beside(path_, name);
+  std::string name = folder + "/" + hash + ".elf";
+  const std::string kept = beside(path_, name);
   std::error_code error;
   if (fs::exists(kept, error)) return name;
   fs::create_directories(beside(path_, folder), error);

@@ -175,7 +175,7 @@ std::string add_variable(const std::string& name, const host::Runner& runner, st
         if (i > 0) return "";
         return "got '" + name + "', a struct, expected one of its members";
       }
-      const std::string wrong = add_variable(element, runner, out);
+      std::string wrong = add_variable(element, runner, out);
       if (!wrong.empty()) return wrong;
       if (out.size() >= kMostElements) return "";
     }

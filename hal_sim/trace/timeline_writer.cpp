@@ -25,8 +25,8 @@ std::string micros(std::int64_t ns) { return fmt::format("{}.{:03}", ns / 1000, 
 
 }  // namespace
 
-TimelineWriter::TimelineWriter(std::string path, std::int64_t most_bytes)
-    : file_(std::move(path), "--trace"), most_bytes_(most_bytes) {
+TimelineWriter::TimelineWriter(const std::string& path, std::int64_t most_bytes)
+    : file_(path, "--trace"), most_bytes_(most_bytes) {
   pending_ = "[\n";
 }
 

@@ -21,7 +21,7 @@ std::string span_name(const Span& span, const host::Runner* runner);
 class TimelineWriter {
  public:
   /// `most_bytes`: the file ends before it is larger.
-  TimelineWriter(std::string path, std::int64_t most_bytes);
+  TimelineWriter(const std::string& path, std::int64_t most_bytes);
 
   /// Names the tracks of a robot.
   void add_robot(int robot, const std::string& name);

@@ -43,8 +43,8 @@ std::int64_t to_ns(sim::Clicks at) {
   return static_cast<std::int64_t>(ns / sim::kClicksPerSecond);
 }
 
-VcdWriter::VcdWriter(std::string path, const std::vector<Scope>& scopes, Window window)
-    : file_(std::move(path), "--vcd"), window_(window) {
+VcdWriter::VcdWriter(const std::string& path, const std::vector<Scope>& scopes, Window window)
+    : file_(path, "--vcd"), window_(window) {
   pending_ = "$version twinpuck $end\n$timescale 1 ns $end\n";
   for (const Scope& scope : scopes) {
     pending_ += "$scope module " + plain(scope.name) + " $end\n";

@@ -34,7 +34,7 @@ class VcdWriter {
     std::string name;  ///< robot
     std::vector<Signal> signals;
   };
-  VcdWriter(std::string path, const std::vector<Scope>& scopes, Window window);
+  VcdWriter(const std::string& path, const std::vector<Scope>& scopes, Window window);
 
   /// A signal has another value from `at` on; times never fall.
   void change(sim::Clicks at, int signal, std::uint64_t value);

@@ -17,7 +17,7 @@ LargePages::~LargePages() {
   const std::uintptr_t first = reinterpret_cast<std::uintptr_t>(first_) & ~(kPage - 1),
                        last = reinterpret_cast<std::uintptr_t>(sbrk(0)) & ~(kPage - 1);
   if (last < first + kFew * kPage) return;
-  void* const at = reinterpret_cast<void*>(first);
+  void* const at = static_cast<char*>(first_) - (reinterpret_cast<std::uintptr_t>(first_) - first);
   madvise(at, last - first, MADV_HUGEPAGE);
   madvise(at, last - first, kNow);
 }

@@ -160,7 +160,7 @@ fs::path resolve(const fs::path& folder, const std::string& name) {
   std::string plain = name;
   std::replace(plain.begin(), plain.end(), '\\', '/');
   std::error_code none;
-  const fs::path direct = folder / plain;
+  fs::path direct = folder / plain;
   if (fs::is_regular_file(direct, none)) return direct;
   // part by part, in any case
   fs::path at = fs::path(plain).is_absolute() ? fs::path("/") : folder;

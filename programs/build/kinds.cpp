@@ -163,7 +163,7 @@ struct Contents {
 
 /// Of several Python files: the folder's, the usual ones, or the only one that is not there to be imported.
 fs::path main_python(const Contents& in, std::string& why) {
-  if (const fs::path named = in.named(".py"); !named.empty()) return named;
+  if (fs::path named = in.named(".py"); !named.empty()) return named;
   const auto files = in.of_kind(".py");
   if (files.size() == 1) return files[0];
   for (const char* usual : {"main.py", "__main__.py"})

@@ -172,7 +172,7 @@ class Starter {
   fs::path interpreter() {
     if (const auto wanted = ini_.commands.find("python"); wanted != ini_.commands.end()) {
       for (const std::string& name : {wanted->second, (found_.folder / wanted->second).string()})
-        if (const fs::path file = on_path(name); !file.empty() && !name.empty()) return file;
+        if (fs::path file = on_path(name); !file.empty() && !name.empty()) return file;
       if (tell_)
         tell_((found_.folder / "runtime.ini").string() + ": python.COMMAND: got " + wanted->second +
               ", which is not here; python3 is taken");
@@ -181,14 +181,13 @@ class Starter {
       for (const fs::path& folder : {found_.folder, found_.folder.parent_path().parent_path()}) {
         std::error_code none;
         if (!fs::exists(folder / name / "pyvenv.cfg", none)) continue;
-        if (const fs::path file = on_path((folder / name / "bin" / "python3").string()); !file.empty())
-          return file;
+        if (fs::path file = on_path((folder / name / "bin" / "python3").string()); !file.empty()) return file;
       }
     const std::string text = text_of(found_.main);
     if (text.rfind("#!", 0) == 0)
       for (const std::string& word : sim::words_of(text.substr(2, text.find('\n') - 2)))
         if (fs::path(word).filename().string().rfind("python3", 0) == 0)
-          if (const fs::path file = on_path(word); !file.empty()) return file;
+          if (fs::path file = on_path(word); !file.empty()) return file;
     return on_path("python3");
   }
 
@@ -247,7 +246,7 @@ class Starter {
       if (kind_of(file) == ".java") h = hash_of(hash_of(h, file.string()), text_of(file)), ++files;
     std::error_code none;
     const fs::path home = fs::absolute(cache_, none);
-    const fs::path kept = home / fmt::format("{}-{:016x}.classes", found_.main.stem().string(), h);
+    fs::path kept = home / fmt::format("{}-{:016x}.classes", found_.main.stem().string(), h);
     launch_.files = files;
     if (fs::is_directory(kept, none)) return kept;
     // They are made beside that place and moved there whole.

@@ -185,7 +185,7 @@ timespec in(int milliseconds) {
 /// Where the sockets of this user's waiting robots lie; empty with `why` when that is no safe place.
 std::string socket_folder(std::string& why) {
   const char* base = std::getenv("XDG_RUNTIME_DIR");
-  const std::string folder =
+  std::string folder =
       std::string(base && *base == '/' ? base : "/tmp") + "/twinpuck-" + std::to_string(getuid());
   mkdir(folder.c_str(), 0700);
   struct stat is;

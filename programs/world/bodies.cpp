@@ -289,7 +289,7 @@ Affine Bodies::pose(int id) const {
   const int body = moving_body(id);
   if (body < 0 || n.gone) return rigid(pose(n.parent) * tree_.local(id));
   const sim::BodyState state = twin_.simulation().state(body);
-  const Affine now = from_body(state.pose, state.z_m, n.is == Is::Robot);
+  Affine now = from_body(state.pose, state.z_m, n.is == Is::Robot);
   if (n.is == Is::Robot) return now;
   const Piece& piece = pieces_.at(id);
   return now * piece.body.inverse(Eigen::Isometry) * piece.start;

@@ -66,7 +66,8 @@ Value* TreeNode::find(const std::string& name) {
 
 std::vector<double> TreeNode::numbers(const std::string& name, std::vector<double> otherwise) const {
   const Value* v = find(name);
-  return v && v->numbers.size() >= otherwise.size() ? v->numbers : otherwise;
+  if (v && v->numbers.size() >= otherwise.size()) return v->numbers;
+  return otherwise;
 }
 
 std::string TreeNode::text(const std::string& name) const {

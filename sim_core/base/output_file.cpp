@@ -9,7 +9,7 @@
 
 namespace sim {
 
-OutputFile::OutputFile(std::string path, const std::string& option)
+OutputFile::OutputFile(const std::string& path, const std::string& option)
     : where_(option.empty() ? path : path + ": " + option) {
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (file_ < 0) fail(std::strerror(errno));

@@ -12,7 +12,7 @@ namespace sim {
 class OutputFile {
  public:
   /// `option`: what the file was asked for with, for messages: "--vcd"; empty: nothing is said about it.
-  explicit OutputFile(std::string path, const std::string& option = "");
+  explicit OutputFile(const std::string& path, const std::string& option = "");
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;

@@ -24,8 +24,8 @@ std::string field(const std::string& text) {
 
 }  // namespace
 
-CsvRecorder::CsvRecorder(std::string path, double every_s)
-    : file_(std::move(path)), every_(std::max<Clicks>(1, from_seconds(every_s))) {
+CsvRecorder::CsvRecorder(const std::string& path, double every_s)
+    : file_(path), every_(std::max<Clicks>(1, from_seconds(every_s))) {
   buffer_ = "time_s,robot,x_m,y_m,heading_rad,left_steps,right_steps,ir0,ir1,ir2,ir3,ir4,ir5,ir6,ir7,leds\n";
 }
 

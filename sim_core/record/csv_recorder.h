@@ -14,7 +14,7 @@ class CsvRecorder {
  public:
   /// every_s: time between rows of one robot, s, > 0; rows appear at the first tick at or
   /// after each multiple.
-  CsvRecorder(std::string path, double every_s = 0.01);
+  CsvRecorder(const std::string& path, double every_s = 0.01);
   ~CsvRecorder();
   CsvRecorder(const CsvRecorder&) = delete;
   CsvRecorder& operator=(const CsvRecorder&) = delete;

@@ -47,6 +47,38 @@ struct Closes {
   void operator()(SNDFILE* file) const { sf_close(file); }
 };
 
+std::string four_bytes(std::size_t value) {
+  std::string four;
+  for (int shift = 0; shift < 32; shift += 8) four += static_cast<char>(value >> shift & 0xFF);
+  return four;
+}
+
+/// The chunks that samples need, as a file of its own with sizes that are right. libsndfile goes on for minutes through a
+/// chunk of another kind that says it is longer than the file.
+std::string samples_alone(std::string_view bytes) {
+  constexpr std::size_t kHead = 8;
+  std::string chunks = "WAVE";
+  for (std::size_t at = 12; at + kHead <= bytes.size();) {
+    const std::string_view id = bytes.substr(at, 4);
+    std::size_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      size |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + 4 + i])) << 8 * i;
+    const std::size_t rest = bytes.size() - at - kHead;
+    const bool is_data = id == "data";
+    if (is_data && (size == 0 || size > rest)) size = rest;  // whoever wrote it did not come to the end
+    if (size > rest) break;
+    if (is_data || id == "fmt " || id == "fact") {
+      chunks += id;
+      chunks += four_bytes(size);
+      chunks += bytes.substr(at + kHead, size);
+      if (size % 2 == 1) chunks += '\0';
+    }
+    if (is_data) break;
+    at += kHead + size + size % 2;
+  }
+  return "RIFF" + four_bytes(chunks.size()) + chunks;
+}
+
 /// The system's reason, where it has one, says more than libsndfile's.
 std::string refused(const std::string& path, SNDFILE* file) {
   return fmt::format("{}: cannot be written: {}", path, errno ? std::strerror(errno) : sf_strerror(file));
@@ -58,12 +90,13 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
   // libsndfile reads other formats, too, by what it finds
   if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
     return "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"";
+  const std::string alone = samples_alone(bytes);
   // it would decode MPEG, too, by a library that writes to the terminal
-  if (const std::size_t format = bytes.find("fmt "); format < bytes.size() - 9 && bytes[format + 9] == 0)
-    if (const char number = bytes[format + 8]; number == 0x50 || number == 0x55)
+  if (const std::size_t format = alone.find("fmt "); format < alone.size() - 9 && alone[format + 9] == 0)
+    if (const char number = alone[format + 8]; number == 0x50 || number == 0x55)
       return "got samples in MPEG, expected a WAV file of another format";
   SF_VIRTUAL_IO access{Memory::length, Memory::seek, Memory::read, nullptr, Memory::tell};
-  Memory memory{bytes};
+  Memory memory{alone};
   SF_INFO info{};
   const std::unique_ptr<SNDFILE, Closes> file(sf_open_virtual(&access, SFM_READ, &info, &memory));
   if (!file)

@@ -88,7 +88,7 @@ TEST(lcov, other_sources_are_not_added) {
   mine.sources["a.c"].lines = {{3, 1}};
   theirs.sources["a.c"].lines = {{4, 1}};
   EXPECT_FALSE(mine.add(theirs, error));
-  EXPECT_NE(error.find("a.c"), std::string::npos);
+  EXPECT_EQ(error, "got counts of another text of a.c, expected those of the one that runs");
   EXPECT_EQ(mine.sources["a.c"].lines.size(), 1u);
   // what they say they are goes before their lines
   mine.sources["a.c"].version = theirs.sources["a.c"].version = "1";
@@ -97,12 +97,15 @@ TEST(lcov, other_sources_are_not_added) {
 }
 
 TEST(lcov, bad_records_are_named) {
-  for (const char* bad :
+  for (const std::string bad :
        {"DA:1,2", "SF:a\nDA:x,2", "SF:a\nDA:1", "SF:a\nBRDA:1,0,0", "SF:a\nFNDA:-1,f", "junk"}) {
     Lcov lcov;
     std::string error;
     EXPECT_FALSE(lcov.read(bad, error)) << bad;
-    EXPECT_NE(error.find("line "), std::string::npos);
+    // the last line is the bad one
+    const std::string line = bad.find('\n') == std::string::npos ? "line 1: got '" : "line 2: got '";
+    EXPECT_EQ(error,
+              line + bad.substr(bad.rfind('\n') + 1) + "', expected a record of lcov's, such as DA:12,3");
   }
 }
 

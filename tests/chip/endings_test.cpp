@@ -33,10 +33,16 @@ const std::string kTimer = R"(
 struct Case {
   const char* what;
   std::string text;
-  const char* vector;   // null: silence
-  const char* message;  // part of it
+  const char* vector;  // null: silence
+  std::string message;
   const char* function = nullptr;
 };
+
+const std::string kResets = ", so the processor resets";
+const std::string kNoT1 = "the interrupt of T1 is enabled, but the program has no _T1Interrupt()" + kResets;
+const std::string kNullCall =
+    "a call through a null pointer leads to address 0: the program begins anew, and nothing is reset";
+const std::string kMainReturned = "main() returned: there is nothing to return to" + kResets;
 
 class Endings : public chip_test::ChipTest {
  protected:
@@ -55,39 +61,45 @@ class Endings : public chip_test::ChipTest {
 
 TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
   const Case cases[] = {
-      {"an interrupt without a handler", kStart + "_main:" + kTimer + "1: bra 1b\n" + kDefault, "T1",
-       "the program has no _T1Interrupt()", "sub_"},
+      {"an interrupt without a handler", kStart + "_main:" + kTimer + "1: bra 1b\n" + kDefault, "T1", kNoT1,
+       "sub_"},
       {"a trap without a handler", kStart + "_main: mov #0x1235, w1\n mov [w1], w2\n1: bra 1b\n" + kDefault,
-       "AddressError", "the program has no _AddressError()", "sub_"},
+       "AddressError",
+       "an access to an address that is not there, or to a word at an odd one; the program has no "
+       "_AddressError()" +
+           kResets,
+       "sub_"},
       {"a division by zero",
        kStart + "_main: clr w2\n mov #5, w0\n repeat #17\n div.s w0, w2\n1: bra 1b\n" + kDefault, "MathError",
-       "division by zero", "sub_"},
-      {"main() returns", kStart + "_main: nop\n nop\n return\n" + kDefault, "Reset", "main() returned",
+       "division by zero, or an overflow of an accumulator; the program has no _MathError()" + kResets,
        "sub_"},
+      {"main() returns", kStart + "_main: nop\n nop\n return\n" + kDefault, "Reset", kMainReturned, "sub_"},
       {"a call through a null pointer", kStart + "_main: clr w1\n call w1\n1: bra 1b\n" + kDefault, "Reset",
-       "call through a null pointer", "sub_"},
-      {"a jump through a null pointer", kStart + "_main: clr w1\n goto w1\n" + kDefault, "Reset",
-       "call through a null pointer", "sub_"},
+       kNullCall, "sub_"},
+      {"a jump through a null pointer", kStart + "_main: clr w1\n goto w1\n" + kDefault, "Reset", kNullCall,
+       "sub_"},
       {"a stack that was overwritten",
        kStart +
            "_main: rcall f\n1: bra 1b\nf: clr [--w15]\n clr [--w15]\n inc2 w15, w15\n inc2 w15, w15\n "
            "return\n" +
            kDefault,
-       "Reset", "a return to address 0", "sub_"},
-      {"an illegal opcode", kStart + "_main: .pword 0x018001\n" + kDefault, "Reset", "illegal opcode",
+       "Reset",
+       "a return to address 0: something has overwritten the stack; the program begins anew, and nothing is "
+       "reset",
        "sub_"},
-      {"a register that nobody wrote", kStart + "_main: mov [w9], w1\n" + kDefault, "Reset", "never written",
-       "sub_"},
+      {"an illegal opcode", kStart + "_main: .pword 0x018001\n" + kDefault, "Reset",
+       "an illegal opcode resets the processor: the program ran into what is no code", "sub_"},
+      {"a register that nobody wrote", kStart + "_main: mov [w9], w1\n" + kDefault, "Reset",
+       "an address in a register that was never written resets the processor", "sub_"},
       {"a stack without end", kStart + "_main: push w0\n bra _main\n" + kDefault, "StackError",
-       "stack overflow", "sub_"},
-      {"an interrupt whose vector is empty", kStart + "_main:" + kTimer + "1: bra 1b\n", "T1",
-       "the program has no _T1Interrupt()"},
+       "stack overflow in sub_000114(); the program has no _StackError()" + kResets, "sub_"},
+      {"an interrupt whose vector is empty", kStart + "_main:" + kTimer + "1: bra 1b\n", "T1", kNoT1},
       {"a bootloader before it, as far as the stack says",
        "__reset: mov #0x900, w15\n goto start\n"
        "start: mov #__SP_init, w15\n mov #__SPLIM_init, w0\n mov w0, SPLIM\n nop\n call _main\n "
        "reset\n_main: return\n" +
            kDefault,
-       "Reset", "main() returned"},
+       "Reset", kMainReturned},
 
       {"RESET in main()", kStart + "_main: btss RCON, #SWR\n reset\n1: bra 1b\n" + kDefault, nullptr, ""},
       {"RESET behind a call in main()",
@@ -116,7 +128,7 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
     ASSERT_EQ(traps.size(), c.vector ? 1u : 0u) << (traps.empty() ? "" : traps[0].message);
     if (!c.vector) continue;
     EXPECT_EQ(traps[0].vector, c.vector) << traps[0].message;
-    EXPECT_NE(traps[0].message.find(c.message), std::string::npos) << traps[0].message;
+    EXPECT_EQ(traps[0].message, c.message);
     if (c.function) {
       EXPECT_NE(traps[0].place.function.find(c.function), std::string::npos) << traps[0].place.function;
     }

@@ -51,7 +51,11 @@ ChipProgram::ChipProgram(const std::string& name, const std::string& source, con
   options.cache_dir = workplace.path / "cache";
   options.optimisation = level;
   const auto built = cc::build_image(options);
-  for (const std::string& e : built.errors) error_ += e + "\n";
+  for (std::string e : built.errors) {
+    const std::string ours = folder.string() + "/";
+    for (std::size_t at; (at = e.find(ours)) != std::string::npos;) e.erase(at, ours.size());
+    error_ += e + "\n";
+  }
   warnings_ = built.warnings;
   if (built.ok) {
     std::ostringstream bytes;

@@ -135,48 +135,53 @@ long bench_run(void) { return product(); })";
 
 TEST(ChipDsp, mistakes_are_named) {
   struct Case {
-    const char *body, *message;
+    const char* body;
+    std::string message;  // behind "main.c:3:"
   };
+  const std::string like_a_number =
+      " is used like a number; only built-in functions of the DSP unit take it, __builtin_sac() and "
+      "__builtin_sacr() give its value";
   const Case cases[] = {
       {"register int s asm(\"A\"); s = __builtin_clr(); return s + 1;",
-       "accumulator A is used like a number; only built-in functions of the DSP unit take it, "
-       "__builtin_sac() "
-       "and __builtin_sacr() give its value"},
+       "77: error: accumulator A" + like_a_number},
       {"register int s asm(\"B\"); s = 5; return __builtin_sac(s, 0);",
-       "accumulator B is used like a number"},
+       "51: error: accumulator B" + like_a_number},
       {"register int s asm(\"A\"); s = __builtin_clr(); s = __builtin_sac(s, 0); return 0;",
-       "accumulator A is used like a number"},
+       "72: error: accumulator A" + like_a_number},
       {"int s = __builtin_clr(); return s;",
-       "__builtin_clr: the result is in an accumulator, so it belongs into one: register int x asm(\"A\")"},
+       "32: error: __builtin_clr: the result is in an accumulator, so it belongs into one: register int x "
+       "asm(\"A\")"},
       {"return __builtin_sac(4, 0);",
-       "__builtin_sac: argument 1: expected a variable in an accumulator: register int x asm(\"A\")"},
+       "31: error: __builtin_sac: argument 1: expected a variable in an accumulator: register int x "
+       "asm(\"A\")"},
       {"register int s asm(\"A\"); s = __builtin_lac(1, 9); return __builtin_sac(s, 0);",
-       "__builtin_lac: argument 2: got 9, expected -8 to 7"},
+       "53: error: __builtin_lac: argument 2: got 9, expected -8 to 7"},
       {"register int s asm(\"A\"); s = __builtin_lac(1, v); return __builtin_sac(s, 0);",
-       "__builtin_lac: argument 2: expected a constant"},
+       "53: error: __builtin_lac: argument 2: expected a constant"},
       {"register int s asm(\"A\"), t asm(\"B\"); t = __builtin_clr(); s = __builtin_add(t, 1, 0); return "
        "__builtin_sac(s, 0);",
-       "__builtin_add: reads accumulator B and writes A; the instruction has one"},
+       "86: error: __builtin_add: reads accumulator B and writes A; the instruction has one"},
       {"register int s asm(\"A\"); int x, *p = &v; s = __builtin_clr_prefetch(&p, &x, 3, 0, 0, 0, 0, 0); "
        "return __builtin_sac(s, 0);",
-       "__builtin_clr_prefetch: argument 3: got 3, expected -6 to 6, even"},
+       "69: error: __builtin_clr_prefetch: argument 3: got 3, expected -6 to 6, even"},
       {"register int s asm(\"A\"); int* p = &v; s = __builtin_clr_prefetch(&p, 0, 2, 0, 0, 0, 0, 0); return "
        "__builtin_sac(s, 0);",
-       "__builtin_clr_prefetch: a value that is fetched has no place: got a null pointer"},
+       "66: error: __builtin_clr_prefetch: a value that is fetched has no place: got a null pointer"},
       {"register int s asm(\"A\"); int x; s = __builtin_clr_prefetch(0, 0, 0, 0, 0, 0, &x, s); return "
        "__builtin_sac(s, 0);",
-       "__builtin_clr_prefetch: what is written back is the other accumulator"},
+       "60: error: __builtin_clr_prefetch: what is written back is the other accumulator"},
       {"register int s asm(\"A\"); s = __builtin_clr(); s = __builtin_addab(s, s); return __builtin_sac(s, "
        "0);",
-       "__builtin_addab: both arguments are accumulator A"},
+       "74: error: __builtin_addab: both arguments are accumulator A"},
       {"int r; asm(\"add %1, %2, %0\" : \"=d\"(r) : \"r\"(1), \"P\"(32)); return r;",
-       "value '32' out of range for constraint 'P'"},
-      {"int r; asm(\"mov #1, %0\" : \"=w\"(r)); return r;", "invalid output constraint '=w' in asm"},
+       "76: error: value '32' out of range for constraint 'P'"},
+      {"int r; asm(\"mov #1, %0\" : \"=w\"(r)); return r;",
+       "50: error: invalid output constraint '=w' in asm"},
   };
   for (const Case& c : cases) {
     const ChipProgram program("wrong", std::string("int v;\nlong bench_run(void) { ") + c.body + " }\n");
     EXPECT_FALSE(program.is_whole()) << c.body;
-    EXPECT_NE(program.error().find(c.message), std::string::npos) << c.body << "\n" << program.error();
+    EXPECT_EQ(program.error(), "main.c:3:" + c.message + "\n") << c.body;
   }
 }
 

@@ -10,35 +10,39 @@ TEST(Injector, a_fault_that_nobody_felt_is_told) {
   constexpr const char* kIdle =
       "#include <p30F6014A.h>\nvolatile int n = 5;\nint main(void) { n = 5; for (;;); }";
   // each of them on a robot that does nothing
-  for (const char* kind : {"sensor_blocked",
-                           "sensor_dead",
-                           "sensor_dirty",
-                           "hot_light",
-                           "wheel_stuck",
-                           "steps_lost",
-                           "wheel_slip",
-                           "bytes_lost",
-                           "bytes_garbled",
-                           "line_cut",
-                           "battery_sag drop_v=0.1",
-                           "bump impulse_n_s=0",
-                           "crystal_slow ppm=0",
-                           "microphone_silent",
-                           "accelerometer_stuck",
-                           "led_dead",
-                           "camera_covered",
-                           "bytes_sent bytes=hello",
-                           "selector_turned position=0",
-                           "robot_moved to=[0,0,0]",
-                           "pin_forced pin=G6 level=0",
-                           "variable_set variable=n value=5"}) {
+  const std::pair<const char*, const char*> kinds[] = {
+      {"sensor_blocked", "a sample differed from the one without the cover"},
+      {"sensor_dead", "a sample differed from the sound sensor's"},
+      {"sensor_dirty", "a sample differed from the clean sensor's"},
+      {"hot_light", "a sample differed from the one without the lamp"},
+      {"wheel_stuck", "a step was asked for and not made"},
+      {"steps_lost", "a step was asked for and not made"},
+      {"wheel_slip", "the wheel turned"},
+      {"bytes_lost", "a byte that was sent did not arrive"},
+      {"bytes_garbled", "a byte that was sent arrived as another"},
+      {"line_cut", "a byte that was sent did not arrive"},
+      {"battery_sag drop_v=0.1",
+       "the low-battery detector, or the count of the battery's voltage (revision 1.3), differed"},
+      {"bump impulse_n_s=0", "the body's speed changed"},
+      {"crystal_slow ppm=0", "a whole cycle was missing"},
+      {"microphone_silent", "a sample differed by a count or more from what was to be heard"},
+      {"accelerometer_stuck", "a sample differed, or (revision 1.3) a new one was due"},
+      {"led_dead", "the program had it switched on"},
+      {"camera_covered", "a line of a picture was exposed"},
+      {"bytes_sent bytes=\"hello\"", "the first of them began to come"},
+      {"selector_turned position=0", "the position changed"},
+      {"robot_moved to=[0, 0, 0]", "its place or heading changed"},
+      {"pin_forced level=0 pin=G6", "the level differed from the one without the wire"},
+      {"variable_set value=5 variable=n", "its bytes changed"},
+  };
+  for (const auto& [kind, noticed] : kinds) {
     Bench b(kIdle);
     b.add(std::string(kind) + " at=0.1s");  // tick 52 of 1/512 s
     b.run_for(0.5);
-    const auto told = b.faults().problems();
-    ASSERT_EQ(told.size(), 1u) << kind;
-    EXPECT_EQ(told[0].rfind(std::string(kind).substr(0, std::string(kind).find(' ')), 0), 0u) << told[0];
-    EXPECT_NE(told[0].find("never took effect: it began at 0.102 s"), std::string::npos) << told[0];
+    EXPECT_EQ(b.faults().problems(),
+              std::vector<std::string>{std::string(kind) +
+                                       ": never took effect: it began at 0.102 s, and it was never so that " +
+                                       noticed});
   }
 }
 

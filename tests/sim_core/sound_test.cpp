@@ -220,6 +220,16 @@ TEST(Wav, more_is_said_than_is_there) {
   }
 }
 
+// libsndfile looked for what is in such a chunk for a minute
+TEST(Wav, a_chunk_longer_than_the_file_ends_it) {
+  sim::WavSound out;
+  std::string endless = wav(16, 1, "abcd");
+  endless.replace(endless.find("LIST") + 4, 4, "\x04\xff\xff\xff", 4);
+  EXPECT_EQ(sim::parse_wav(endless, out),
+            "got a WAV file that cannot be read (Error in WAV file. No 'data' chunk marker.), expected a "
+            "whole one");
+}
+
 TEST(Wav, mistakes_are_named) {
   sim::WavSound out;
   EXPECT_EQ(sim::parse_wav("RIFX0000WAVE", out),

@@ -7,13 +7,15 @@
 
 int main(int argc, char** argv) {
   int exit_code = tools::kPass;
-  CLI::App app{"What makers of Twinpuck generate", "twinpuck-dev"};
-  app.require_subcommand(1);
-  for (const auto add : {dev::add_timings, dev::add_manual, dev::add_page}) add(app, exit_code);
   try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? tools::kPass : tools::kBadInput;
+    CLI::App app{"What makers of Twinpuck generate", "twinpuck-dev"};
+    app.require_subcommand(1);
+    for (const auto add : {dev::add_timings, dev::add_manual, dev::add_page}) add(app, exit_code);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+      return app.exit(e) == 0 ? tools::kPass : tools::kBadInput;
+    }
   } catch (const std::exception& e) {
     std::cerr << "twinpuck-dev: internal error: " << e.what() << '\n';
     return tools::kInternal;

@@ -122,7 +122,8 @@ class UltrasonicRanger final : public Part, public I2cRegisters {
                          sim::sense_irradiance_w_m2(*scene, board().setup().robot, 7, when)) /
                         2;
     const double share = std::clamp(w_m2 / kRangerBrightWM2, 0.0, 1.0);
-    return static_cast<int>(kRangerLightDark + (kRangerLightBright - kRangerLightDark) * share + 0.5);
+    return static_cast<int>(
+        std::floor(kRangerLightDark + (kRangerLightBright - kRangerLightDark) * share + 0.5));
   }
 
   bool has_light_;
