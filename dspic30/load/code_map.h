@@ -60,7 +60,7 @@ struct CodeMap {
   void sort();
 };
 
-/// "/robot/main.c" of "/robot/build" and "..\\main.c": slashes, no dots. A `path` that is
+/// "C:/robot/main.c" of "C:\\robot\\build" and "..\\main.c": slashes, no dots. A `path` that is
 /// whole by itself, "C:/robot/main.c" too, has no need of the folder.
 std::string whole_path(const std::string& folder, const std::string& path);
 /// Is `end` the end of a path, from a name's first letter on? "motors/speed.c", "speed.c".

@@ -183,6 +183,9 @@ position = [1, 0]
   EXPECT_EQ(c3.table.size(), 10u);
   EXPECT_EQ(c3.noise_scale, 0);
   EXPECT_EQ(c5.table.size(), 2u);
+  EXPECT_EQ(c0.profile, "webots-old");
+  EXPECT_EQ(c3.profile, "webots-new");
+  EXPECT_EQ(c5.profile, "") << "a table of one's own has no name";
   EXPECT_EQ(d0.rays, 1);
 }
 
