@@ -59,6 +59,9 @@ bool Film::is_film(const std::string& path) {
   return ends_with(path, ".webm") || ends_with(path, ".png") || ends_with(path, ".apng");
 }
 
+int Film::width_px() const { return canvas_ ? canvas_->width_px() : 0; }
+int Film::height_px() const { return canvas_ ? canvas_->height_px() : 0; }
+
 Clicks Film::time_of(std::int64_t frame) const {
   return from_seconds(static_cast<double>(frame) * options_.speed / options_.frames_per_s);
 }

@@ -43,6 +43,8 @@ class Film {
   static bool is_film(const std::string& path);
   /// First error, or empty.
   const std::string& error() const { return error_; }
+  int width_px() const;
+  int height_px() const;
 
  private:
   void draw(Clicks at, const Scene& scene, const Minds& minds, const std::vector<PictureLabel>& labels);
