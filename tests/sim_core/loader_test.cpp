@@ -381,6 +381,10 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[proximity]\ntable = [[0, 1, 0]]", "w.toml:3:9: proximity.table: got 1 row(s), expected at least 2"},
       {"[proximity]\ntable = [[0.1, 1, 0], [0, 1, 0]]",
        "w.toml:3:9: proximity.table: got distance 0 after 0.1, expected growing distances in m"},
+      {"[proximity]\ntable = [[0, 1, 0], [10.01, 0, 0]]",
+       "w.toml:3:9: proximity.table: got a distance of 10.01 m, expected at most 10 m"},
+      {"[proximity]\ntable = [[0, 1, 0], [0.1, 1, 0], [0.1, 0, 0]]",
+       "w.toml:3:9: proximity.table: got distance 0.1 after 0.1, expected growing distances in m"},
       {"[proximity]\ntable = [[0, 1], [1, 0]]",
        "w.toml:3:9: proximity.table: got [[0, 1], [1, 0]], expected list of rows [[distance, value, noise], "
        "...] from 0 to 1000000 m, counts, fraction"},
