@@ -16,7 +16,7 @@ NINJA  := python3 scripts/progress.py $(BUILD) $(JOBS)
 
 .DEFAULT_GOAL := help
 .PHONY: help setup tool build dev run test page check-page view test-view dspic check chip-tables tidy alone format bench asan tsan fuzz second routines levels \
-  turn students clean product install deb
+  turn mutants students clean product install deb
 
 ## help: this list
 help:
@@ -210,10 +210,15 @@ levels: tool
 turn: tool
 	@scripts/in_turn.sh
 
+## mutants: faults planted in the sources, and which of them no test notices: hours (ARGS="--sites 25 --seed 2 --rooms flash,import")
+mutants: setup
+	@scripts/setup.sh mutants
+	@for verb in plant reach run; do /usr/bin/python3 scripts/mutants.py $(BUILD)-mutants $$verb $(ARGS) || exit; done
+
 ## students: the students' edition, without the lab's solutions: build/twinpuck-students.tar.gz
 students:
 	@scripts/students.py $(BUILD)/twinpuck-students
 
 ## clean: remove everything that was built
 clean:
-	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0 $(BUILD)-dev
+	@rm -rf $(BUILD) $(BUILD)-asan $(BUILD)-tsan $(BUILD)-fuzz $(BUILD)-o0 $(BUILD)-dev $(BUILD)-mutants

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Installs what building and testing need on Debian 12, and says nothing when all is there.
 #
-#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, view (make view),
+#   scripts/setup.sh [GROUP]    GROUP: build (default), check, bench, second, fuzz, mutants, view (make view),
 #                               browser (make test-view), deb (make deb)
 #
 # Needs root or sudo only when something is missing.
@@ -18,6 +18,7 @@ check="clang-format clang-tidy"
 bench="libenki-dev libsimavr-dev"
 second="gcc-avr avr-libc simavr"
 fuzz="libclang-rt-14-dev"
+mutants="python3-clang-14"
 view="esbuild nodejs"
 command -v npm >/dev/null || view="$view npm"  # other nodejs packages than Debian's bring it along
 browser="chromium"
@@ -30,11 +31,12 @@ case $group in
   bench) packages=$bench ;;
   second) packages=$second ;;
   fuzz) packages=$fuzz ;;
+  mutants) packages=$mutants ;;
   view) packages=$view ;;
   browser) packages=$browser ;;
   deb) packages=$deb ;;
   *)
-    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, view, browser or deb" >&2
+    echo "setup.sh: group: got '$group', expected build, check, bench, second, fuzz, mutants, view, browser or deb" >&2
     exit 2
     ;;
 esac

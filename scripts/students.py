@@ -20,7 +20,7 @@ import tarfile
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SOLUTIONS = ["firmware/lab", "docs/lab-answers.md", "programs/supervisors/soccer_drop"]
 LEFT_OUT = SOLUTIONS + ["tests", ".ci"]
-TARGETS = "routines second test-view asan tsan fuzz levels check chip-tables bench students".split()  # of the makers of Twinpuck
+TARGETS = "routines second test-view asan tsan fuzz levels mutants check chip-tables bench students".split()  # of the makers of Twinpuck
 TEST = "\t@echo \"this edition has none of Twinpuck's own tests; 'twinpuck test' runs yours\" && false\n"
 
 

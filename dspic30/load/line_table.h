@@ -58,7 +58,7 @@ class LateLines {
   std::shared_ptr<Kept> kept_;
 };
 
-/// "/robot/main.c" of "/robot/build" and "..\\main.c": slashes, no dots. A `path` that is
+/// "C:/robot/main.c" of "C:\\robot\\build" and "..\\main.c": slashes, no dots. A `path` that is
 /// whole by itself, "C:/robot/main.c" too, has no need of the folder.
 std::string whole_path(const std::string& folder, const std::string& path);
 

@@ -127,10 +127,11 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
     for (std::size_t begin = 0; begin < text.size();) {
       const std::size_t end = text.find('\n', begin);
       if (end == std::string::npos) break;  // cut off: the last line is not whole
+      ++number;
       const Json line = Json::parse(text.substr(begin, end - begin));
       begin = end + 1;
       // The first line says of what run this is.
-      if (number++ == 0) {
+      if (number == 1) {
         if (const int version = line.at("twinpuck_inputs"); version != 1)
           throw std::runtime_error(fmt::format("version: got {}, expected 1", version));
         Opening& o = replay->opening;

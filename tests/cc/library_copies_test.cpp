@@ -2,6 +2,7 @@
 // Projects that carry the e-puck library along: whole, in parts, or as single files beside main.c.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
@@ -69,7 +70,10 @@ static std::string map_of(const Folder& folder) {
 
 // two variants of one function, of which the program includes a header; the chosen one counts
 TEST(library_members, the_variant_whose_header_the_program_includes_is_linked) {
-  for (const std::string chosen : {"a_d/e_accelerometer", "a_d/advance_ad_scan/e_acc"}) {
+  for (const std::string chosen : {"a_d/e_accelerometer", "a_d/advance_ad_scan/e_acc", "a_d\\e_accelerometer",
+                                   "a_d\\advance_ad_scan\\e_acc"}) {
+    std::string named = chosen;
+    std::replace(named.begin(), named.end(), '\\', '/');
     Folder folder;
     folder.file("prog/lib/a_d/e_accelerometer.c", "int which = 1; int e_get_acc(int axis) { return which; }");
     folder.file("prog/lib/a_d/e_accelerometer.h", "int e_get_acc(int axis);");
@@ -83,7 +87,7 @@ TEST(library_members, the_variant_whose_header_the_program_includes_is_linked) {
                        "-O1");
     ASSERT_TRUE(built.ok) << text_of(built);
     for (const char* which : {"a_d/e_accelerometer", "a_d/advance_ad_scan/e_acc"})
-      EXPECT_EQ(map_of(folder).find(std::string("lib/") + which + ".c") != std::string::npos, which == chosen)
+      EXPECT_EQ(map_of(folder).find(std::string("lib/") + which + ".c") != std::string::npos, which == named)
           << which << map_of(folder);
   }
 }

@@ -134,6 +134,33 @@ TEST_F(Rebuild, a_touched_file_of_the_same_content_is_no_change) {
   EXPECT_FALSE(is_made_anew());
 }
 
+// each that an assembler source reads, by itself or through another
+TEST_F(Rebuild, what_an_assembler_source_includes_is_a_change) {
+  main_c(
+      "#include <stdio.h>\nextern int one, two, three;\nint main(void) { printf(\"%d %d %d\", one, two, "
+      "three); return 0; }");
+  const auto source = [](int n) {
+    return ".equ N" + std::to_string(n % 10) + ", " + std::to_string(n) + "\n";
+  };
+  folder.file("prog/first file.inc", source(1));
+  folder.file("prog/second.inc", ".include \"third.inc\"\n" + source(2));
+  folder.file("prog/third.inc", source(3));
+  folder.file("prog/words.s",
+              ".include \"first file.inc\"\n.include \"second.inc\"\n.global _one, _two, _three\n"
+              ".section .data, data\n_one: .word N1\n_two: .word N2\n_three: .word N3\n.end\n");
+  build_and_settle();
+  EXPECT_EQ(console(), "1 2 3");
+  folder.file("prog/first file.inc", source(11));
+  EXPECT_TRUE(is_made_anew());
+  EXPECT_EQ(console(), "11 2 3");
+  folder.file("prog/second.inc", ".include \"third.inc\"\n" + source(12));
+  EXPECT_TRUE(is_made_anew());
+  EXPECT_EQ(console(), "11 12 3");
+  folder.file("prog/third.inc", source(13));
+  EXPECT_TRUE(is_made_anew());
+  EXPECT_EQ(console(), "11 12 13");
+}
+
 TEST_F(Rebuild, a_source_of_the_same_length_and_time_is_a_change) {
   main_c("#include <stdio.h>\nint main(void) { printf(\"1\"); return 0; }");
   build_and_settle();

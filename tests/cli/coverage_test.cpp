@@ -174,6 +174,21 @@ TEST_F(Coverage, of_an_image_is_what_its_lines_say) {
   expect(records(), {"DA:3,1", "DA:5,10", "FNDA:1,main"});
 }
 
+// what other tools wrote between the records is not kept, so the file becomes shorter
+TEST_F(Coverage, counts_are_added_in_the_place_of_what_the_file_holds) {
+  write("a/main.c", kProgram);
+  ASSERT_EQ(run("*=" + path("a")).exit_code, 0);
+  const std::string once = read(path("c.info"));
+  std::string longer = once;
+  for (int i = 0; i < 200; ++i) longer += "TN:a name of a test that is long\n";
+  write("c.info", longer);
+  ASSERT_EQ(run("*=" + path("a")).exit_code, 0);
+  expect(records(), {"DA:8,22", "DA:11,6", "FNDA:6,logic"});
+  const std::string twice = read(path("c.info"));
+  EXPECT_LT(twice.size(), once.size() + 50);
+  EXPECT_EQ(twice.substr(twice.size() - 14), "end_of_record\n");
+}
+
 TEST_F(Coverage, counts_of_another_text_are_not_added) {
   write("a/main.c", kProgram);
   ASSERT_EQ(run("*=" + path("a")).exit_code, 0);

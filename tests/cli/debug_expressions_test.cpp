@@ -171,15 +171,102 @@ TEST_P(DebugExpressions, set_converts_as_an_assignment_does) {
        "got 'k + 1', expected a variable of up to 8 bytes"});
 }
 
+// each command, and all that it says
 TEST_P(DebugExpressions, mistakes_are_named) {
   build(kVariables + std::string("int main(void) { while (1) LATA = k + nodes[0].value; }\n"));
-  expect_in_order(
-      debug(
-          "break main\nc\nprint k +\nprint (k\nprint k)\nprint 5 / 0\nprint 3 = 4\nprint nodes + n->x\n"
-          "print nodes[0] + 1\nprint k[0]\nprint k.x\nprint nodes[0].\nprint 'a\nprint 12abc\nprint 0b\n"
-          "print *k\nprint main(3)\nprint f % 2\nprint &3\nprint (struct none *)k\nprint m ? nodes[0] : 1\n"),
-      {"a value is missing", "')' is missing", "unexpected ')'", "division by zero", "unexpected '= 4'",
-       "unknown symbol 'm'"});
+  const std::vector<std::pair<std::string, std::string>> rows = {
+      {"print k +", "a value is missing"},
+      {"print (k", "')' is missing"},
+      {"print k)", "unexpected ')'"},
+      {"print 5 / 0", "division by zero"},
+      {"print 3 = 4", "unexpected '= 4'"},
+      {"print nodes + n->x", "got 'n->x', no member 'x' in 'node'"},
+      {"print nodes[0] + 1", "got 'nodes[0] + 1', expected numbers or pointers beside '+'"},
+      {"print k[0]", "got 'k[0]', expected a pointer to something of a known type"},
+      {"print k.x", "got 'k.x', no member 'x' in it"},
+      {"print nodes[0].", "got 'nodes[0].', expected a member's name behind it"},
+      {"print n->", "got 'n->', expected a member's name behind it"},
+      {"print 'a", "a ' is missing"},
+      {"print '", "a character is missing"},
+      {"print 12abc", "'12abc' is no number"},
+      {"print 0b", "'0b' is no number"},
+      {"print 0x", "'0x' is no number"},
+      {"print *k", "got '*k', expected a pointer to something of a known type"},
+      {"print main(3)", "unexpected '(3)'"},
+      {"print f % 2", "got 'f % 2', expected whole numbers beside '%'"},
+      {"print &3", "got '&3', expected something that has an address here"},
+      {"print &nodes[0].three", "got '&nodes[0].three', expected something that has an address here"},
+      {"print (struct none *)k",
+       "unknown symbol 'struct', expected a variable of the image that is known here"},
+      {"print (point)k", "got '(point)k', expected a number or a pointer, not a struct"},
+      {"print m ? nodes[0] : 1",
+       "unknown symbol 'm', expected a variable of the image that is known here; did you mean 'i'?"},
+      {"print zero ? nodes[0] : 1", "zero ? nodes[0] : 1 = 1 (0x1)"},
+      {"print k ? 1", "':' is missing"},
+      {"print nodes[1", "']' is missing"},
+      {"print nodes[f]", "got 'nodes[f]', expected a whole number in [ ]"},
+      {"print *raw", "got '*raw', expected a pointer to something of a known type"},
+      {"print raw[1]", "got 'raw[1]', expected a pointer to something of a known type"},
+      {"print raw + 1", "raw + 1 = 0x084b"},
+      {"print n + n", "got 'n + n', expected numbers beside '+'"},
+      {"print n * 2", "got 'n * 2', expected numbers beside '*'"},
+      {"print f << 1", "got 'f << 1', expected whole numbers beside '<<'"},
+      {"print f & 1", "got 'f & 1', expected whole numbers beside '&'"},
+      {"print ~f", "a number is missing behind the ~"},
+      {"print -n", "a number is missing behind the -"},
+      {"print !nodes[0]", "got '!nodes[0]', expected a number or a pointer, not a struct"},
+      {"print nodes[0] == nodes[1]", "got 'nodes[0] == nodes[1]', expected numbers or pointers beside '=='"},
+      {"print sizeof nodes[0].three", "got 'sizeof nodes[0].three', but a bit-field has no size"},
+      {"print sizeof raw[0]", "got 'raw[0]', expected a pointer to something of a known type"},
+      {"print nodes[0].nothing", "got 'nodes[0].nothing', no member 'nothing' in 'node'"},
+      {"print k->x", "got 'k->x', expected a pointer to something of a known type"},
+      {"print 1e", "'1e' is no number"},
+      {"print 08", "'08' is no number"},
+      {"print k 3", "unexpected '3'"},
+      {"print", "a value is missing"},
+      {"print $k",
+       "unknown symbol '$k', expected a variable of the image that is known here; did you mean 'k'?"},
+      {"print @", "unexpected '@'"},
+      {"goto", "goto: expected a time such as 1.5s, or a cycle"},
+      {"goto x", "got 'x', expected a time such as 1.5s, or a cycle"},
+      {"goto 5m", "got '5m', expected a time such as 1.5s, or a cycle"},
+      {"goto -1", "got '-1', expected a time such as 1.5s, or a cycle"},
+      {"goto 1e15", "got '1e15', expected a time such as 1.5s, or a cycle"},
+      {"trace", "got '', expected a file that can be written, and a number from 1 to 10000000"},
+      {"trace /nonexistent/x 3",
+       "got '/nonexistent/x 3', expected a file that can be written, and a number from 1 to 10000000"},
+      {"trace t.txt 0",
+       "got 't.txt 0', expected a file that can be written, and a number from 1 to 10000000"},
+      {"trace t.txt 10000001",
+       "got 't.txt 10000001', expected a file that can be written, and a number from 1 to 10000000"},
+      {"info", "got 'info ', expected info break, interrupts or world"},
+      {"info regs", "got 'info regs', expected info break, interrupts or world"},
+      {"set", "expected NAME = EXPRESSION"},
+      {"set k", "expected NAME = EXPRESSION"},
+      {"set 3 = 4", "got '3', expected a variable of up to 8 bytes or a register"},
+      {"set nosuch = 1", "got 'nosuch', expected a variable of up to 8 bytes or a register"},
+      {"delete 7", "there is no breakpoint 7"},
+      {"delete x", "there is no breakpoint x"},
+      {"watch nosuch", "got 'nosuch', expected a variable, a register or *address"},
+      {"watch k + 1", "got 'k + 1', expected a variable, a register or *address"},
+      {"watch k if m",
+       "unknown symbol 'm', expected a variable of the image that is known here; did you mean 'i'?"},
+      {"break nosuch",
+       "got 'nosuch', expected a function, file:line, or an address of code such as 0x1a0; as a function, it "
+       "is not in the program"},
+      {"break main.c:9999", "got 'main.c:9999', expected a line with code in a file of the program"},
+      {"break main if k +", "condition: a value is missing"},
+      {"frobnicate", "unknown command 'frobnicate'; help lists them"},
+      {"x nosuch", "unknown symbol 'nosuch', expected a variable of the image that is known here"},
+      {"up", "unknown command 'up'; help lists them"},
+      {"frame 9", "unknown command 'frame'; help lists them"}};
+  std::string commands = "break main\nc\n";
+  for (const auto& [command, answer] : rows) commands += command + "\n";
+  const std::string said = debug(commands + "info break\n") + "\n";
+  for (const auto& [command, answer] : rows)
+    EXPECT_NE(said.find("\n> " + command + "\n" + answer + "\n> "), std::string::npos)
+        << command << ": expected " << answer << ", got "
+        << said.substr(std::min(said.size(), said.find("\n> " + command + "\n")), 200);
 }
 
 TEST_P(DebugExpressions, a_step_by_lines_from_the_beginning_goes_to_main) {

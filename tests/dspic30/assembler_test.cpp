@@ -44,6 +44,38 @@ TEST(Assembler, text_is_bytes_and_knows_escapes) {
   EXPECT_EQ(bytes, std::string("a\n\r\t\0\\\"zb\0\0\0", 12));
 }
 
+// each operator, by where it binds: what is written as a number
+TEST(Assembler, expressions_are_computed_in_64_bits) {
+  const struct {
+    const char* text;
+    std::int64_t value;
+  } rows[] = {
+      {"2 + 3 * 4", 14}, {"(2 + 3) * 4", 20},   {"20 - 6 - 5", 9},     {"20 / 6", 3},  {"20 % 6", 2},
+      {"-20 / 6", -3},   {"1 << 4", 16},        {"1 << 63 >> 63", -1}, {"1 << 64", 0}, {"256 >> 4", 16},
+      {"256 >> 64", 0},  {"3 == 3", 1},         {"3 == 4", 0},         {"3 != 3", 0},  {"3 != 4", 1},
+      {"3 <= 2", 0},     {"3 <= 3", 1},         {"3 <= 4", 1},         {"3 >= 2", 1},  {"3 >= 3", 1},
+      {"3 >= 4", 0},     {"3 < 2", 0},          {"3 < 3", 0},          {"3 < 4", 1},   {"3 > 2", 1},
+      {"3 > 3", 0},      {"3 > 4", 0},          {"2 && 1", 1},         {"2 && 0", 0},  {"0 || 2", 1},
+      {"0 || 0", 0},     {"6 & 3", 2},          {"6 | 3", 7},          {"6 ^ 3", 5},   {"~5 & 0xF", 10},
+      {"-(3)", -3},      {"1 | 2 == 2", 1 | 1}, {"'A' + 1", 66}};
+  for (const auto& row : rows) {
+    const auto image =
+        dspic::assembly::assemble("__reset: mov #(" + std::string(row.text) + ") & 0xFFFF, w0\n", "x.s");
+    ASSERT_TRUE(image.messages.empty()) << row.text << ": " << image.messages[0].text;
+    const auto reset = image.program.at(0x100);
+    EXPECT_EQ(reset >> 4 & 0xFFFF, row.value & 0xFFFF) << row.text;
+  }
+  EXPECT_EQ(first_message("__reset: mov #1 / 0, w0\n"), "division by zero");
+  EXPECT_EQ(first_message("__reset: mov #1 % 0, w0\n"), "division by zero");
+}
+
+TEST(Assembler, registers_are_w0_to_w15_and_nothing_that_looks_like_them) {
+  for (const char* good : {"w0", "w9", "w10", "w15", "W3"})
+    EXPECT_EQ(first_message("__reset: mov " + std::string(good) + ", w1\n"), "") << good;
+  for (const char* bad : {"w16", "w99", "w100", "w00", "w05", "wa", "w1x", "w:", "w1:", "w/", "w", "v1"})
+    EXPECT_NE(first_message("__reset: mov " + std::string(bad) + ", w1\n"), "") << bad;
+}
+
 // least and most of each kind of operand, and one step beyond: what is told
 TEST(Assembler, operands_have_the_ranges_of_their_fields) {
   const struct Operand {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <functional>
 #include <thread>
 
 #include "tests/dspic30/core_bench.h"
@@ -255,6 +257,28 @@ TEST(ProgramMemory, copies_share_flash_until_one_is_written) {
   EXPECT_EQ(three.read(0x102), 0xFFFFFFu);
   EXPECT_EQ(one.read(0x100), 0x123456u);
   EXPECT_EQ(two.version(), three.version() + 1);
+}
+
+// what is decoded or translated is of a version: each change is a new one, and what changes nothing is none
+TEST(ProgramMemory, each_change_is_a_new_version) {
+  dspic::ProgramMemory program;
+  std::array<std::uint32_t, dspic::kFlashRowWords> latches;
+  latches.fill(0x00FFFF);
+  const struct Change {
+    const char* what;
+    std::function<void()> make;
+    bool is_one;
+  } changes[] = {{"write", [&] { program.write(0x100, 0x123456); }, true},
+                 {"erase", [&] { program.erase_row(0x100); }, true},
+                 {"program", [&] { program.program_row(0x100, latches); }, true},
+                 {"erase beyond", [&] { program.erase_row(0x18000); }, false},
+                 {"program beyond", [&] { program.program_row(0x18000, latches); }, false}};
+  for (const Change& change : changes) {
+    const auto before = program.version();
+    change.make();
+    EXPECT_EQ(program.version() != before, change.is_one) << change.what;
+  }
+  EXPECT_EQ(program.read(0x100), 0x00FFFFu);
 }
 
 // [datasheet DS70143, program space]: what lies beyond the flash, and what is there to be written

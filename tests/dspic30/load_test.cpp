@@ -225,6 +225,28 @@ std::string line_table() {
   return all + unit;
 }
 
+TEST(CodeMap, paths_of_debug_information_are_made_whole) {
+  const struct {
+    const char *folder, *path, *whole;
+  } rows[] = {{"/p", "main.c", "/p/main.c"},
+              {"/p/build", "../main.c", "/p/main.c"},
+              {"/p/build", "..\\main.c", "/p/build/..\\main.c"},
+              {"/p", "./a//b/./c.c", "/p/a/b/c.c"},
+              {"/p", "/q/main.c", "/q/main.c"},
+              {"", "main.c", "main.c"},
+              {"", "../../main.c", "../../main.c"},
+              {"C:\\p", "main.c", "C:/p/main.c"},
+              {"C:\\p\\build", "..\\main.c", "C:/p/main.c"},
+              {"/p", "C:/robot/main.c", "C:/robot/main.c"},
+              {"/p", "c:\\robot\\main.c", "c:/robot/main.c"},
+              {"", "a\\b.c", "a/b.c"},
+              {"/p", "\\q\\b.c", "/q/b.c"},
+              {"/p", "a:b.c", "/p/a:b.c"},
+              {"/p", "ab\\c.c", "/p/ab\\c.c"},
+              {"x", "y\\..\\z.c", "x/y\\..\\z.c"}};
+  for (const auto& row : rows) EXPECT_EQ(dspic::whole_path(row.folder, row.path), row.whole) << row.path;
+}
+
 TEST(ElfImage, lines_are_read) {
   Section code = kCode;
   code.bytes = std::string(16, '\0');

@@ -190,6 +190,51 @@ int main(void) {
   EXPECT_EQ(a.variable("pucks"), 0);
 }
 
+// filters 0 and 1 are answered and waited for, above nobody waits; the next command gets its own answer
+TEST_F(BluetoothFirmware, each_filter_s_answer_is_taken_by_who_asked) {
+  Robot& r = bt_robot(R"(
+char name[48];
+int set[2], got[2], status, done;
+int main(void) {
+  int i;
+  e_init_uart1();
+  for (i = 1; i >= 0; i--) {
+    set[i] = e_bt_set_event_filter(i);
+    got[i] = e_bt_get_event_filter();
+  }
+  set[1] |= e_bt_set_event_filter(1);
+  status = e_bt_read_local_name(name);
+  done = 1;
+  while (1);
+})");
+  r.settings().link.number = 1234;
+  ASSERT_TRUE(run_until([&] { return r.variable("done") == 1; }, 5));
+  EXPECT_EQ(r.variable("status"), 0);
+  EXPECT_EQ(r.variables("set", 2), (std::vector<std::int16_t>{0, 0}));
+  EXPECT_EQ(r.variables("got", 2), (std::vector<std::int16_t>{0, 1}));
+  EXPECT_EQ(text<48>(r, "name"), "e-puck_1234");
+}
+
+TEST_F(BluetoothFirmware, of_a_long_friendly_name_20_bytes_are_kept) {
+  Robot& a = bt_robot(R"(
+struct BtDevice found[3];
+int devices, done;
+int main(void) {
+  e_init_uart1();
+  memset(found, 0x55, sizeof found);
+  devices = e_bt_inquiry(found);
+  e_bt_get_friendly_name(&found[0]);
+  done = 1;
+  while (1);
+})");
+  add_robot("").bluetooth().at(0.5, 0.5).settings().link.name = "a name of thirty letters, all of it";
+  ASSERT_TRUE(run_until([&] { return a.variable("done") == 1; }, 20));
+  EXPECT_EQ(a.variable("devices"), 1);
+  const auto all = a.variables<char>("found", 87);  // 29 each: address, class, name
+  EXPECT_EQ(all[29], 0x55) << "the next one is not written over";
+  EXPECT_EQ(std::string(all.data() + 9, 20), "a name of thirty let");
+}
+
 TEST_F(BluetoothFirmware, nobody_in_range_is_99) {
   Robot& a =
       bt_robot("int status; int main(void) { e_init_uart1(); status = e_bt_connect_epuck(); while (1); }");

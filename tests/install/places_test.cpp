@@ -93,8 +93,13 @@ TEST_F(Places, in_the_temporary_folder_may_not_be_a_link_or_open_to_others) {
   EXPECT_FALSE(fs::exists(folder / "trap" / "a"));
   fs::remove(temporary());
   fs::create_directory(temporary());
-  ASSERT_EQ(chmod(temporary().c_str(), 0777), 0);
-  EXPECT_EQ(places::cache_folder("a"), "/dev/null/.cache/twinpuck/a");
+  // what others may do there: read, but not write
+  for (const mode_t mode : {0700, 0701, 0704, 0711, 0755, 0720, 0702, 0777, 0722}) {
+    ASSERT_EQ(chmod(temporary().c_str(), mode), 0);
+    EXPECT_EQ(places::cache_folder("a"),
+              (mode & (S_IWGRP | S_IWOTH)) == 0 ? temporary() / "a" : fs::path("/dev/null/.cache/twinpuck/a"))
+        << std::oct << mode;
+  }
 }
 
 TEST_F(Places, tell_why_nothing_can_be_written) {

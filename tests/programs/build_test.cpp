@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a folder is, and how it becomes a program: small projects as people have them.
 #include "programs/build/build.h"
+#include "programs/build/files.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -95,6 +96,49 @@ class BuildTest : public testing::Test {
   std::vector<std::string> problems_, told_;
   programs::Launch launch_;
 };
+
+// --- what a text says
+
+TEST(Text, c_without_comments_and_with_empty_strings) {
+  const struct {
+    const char *source, *bare;
+  } rows[] = {{"", ""},
+              {"a", "a"},
+              {"/", "/"},
+              {"// all of it", "\n"},
+              {"// one\nint a;", "\nint a;"},
+              {"/* one */int a;", " int a;"},
+              {"int a; // more", "int a; \n"},
+              {"int a; /* never ends", "int a;  "},
+              {"/*/ still one */b", " b"},
+              {"a /* x\n // y */ b // /* c\nd", "a   b \nd"},
+              {"a / b /", "a / b /"},
+              {"s = \"// no /* comment\";", "s = \"\";"},
+              {"s = \"a\\\"// b\"; c", "s = \"\"; c"},
+              {"c = '\"'; // d", "c = ''; \n"},
+              {"c = '\\''; d", "c = ''; d"},
+              {"s = \"open\nd", "s = \"\"d"}};
+  for (const auto& row : rows) EXPECT_EQ(programs::without_comments(row.source), row.bare) << row.source;
+}
+
+TEST(Text, what_defines_main) {
+  const std::pair<const char*, bool> rows[] = {{"int main() {}", true},
+                                               {"int main(void)\n{\n}", true},
+                                               {"main ( int argc, char **argv ) {", true},
+                                               {"int main(argc, argv) int argc; char **argv; {}", true},
+                                               {"int main(int (*f)(void)) {}", true},
+                                               {"int main(void);", false},
+                                               {"int main;", false},
+                                               {"x = main(1) + 2;", false},
+                                               {"int domain() {}", false},
+                                               {"int main_loop() {}", false},
+                                               {"void Robot::main() {}", false},
+                                               {"robot.main() {", false},
+                                               {"int main(void); int main(void) {}", true},
+                                               {"int main(", false},
+                                               {"", false}};
+  for (const auto& [bare, is_one] : rows) EXPECT_EQ(programs::defines_main(bare), is_one) << bare;
+}
 
 // --- what a folder or file is
 

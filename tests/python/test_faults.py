@@ -36,7 +36,10 @@ def test_a_fault_by_condition_and_one_that_is_ended_by_hand(opened):
     dead.end()
     world.run(0.1)
     assert robot.variable("near") > 100 and dead.ended_s is not None
-    assert "sensor_dead" in repr(dead) and "ended at" in repr(dead)
+    times = [f"{word} at {time_s:.3f} s" for word, time_s in
+             (("begun", dead.begun_s), ("took effect", dead.took_effect_s), ("ended", dead.ended_s))]
+    assert repr(dead) == f"<Fault sensor_dead sensor=0: {', '.join(times)}>"
+    assert repr(world.inject("sensor_dead", sensor=1, at_s=9)) == "<Fault sensor_dead sensor=1: not begun>"
 
 
 def test_faults_are_in_recordings(opened, command, tmp_path):

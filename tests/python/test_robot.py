@@ -61,6 +61,14 @@ int main(void)
 """
 
 
+@pytest.mark.parametrize("lit, shown", [("e_set_body_led(1)", (True, False)), ("e_set_front_led(1)", (False, True)), ("", (False, False))])
+def test_each_of_its_two_other_leds(opened, lit, shown):
+    world = opened(LEDS.replace("e_set_front_led(1)", "").replace("e_set_body_led(1)", lit))
+    world.run(0.1)
+    assert (world.robots[0].body_led, world.robots[0].front_led) == shown
+    assert tuple(world.leds[0, 8:]) == shown and not any(world.robots[0].leds[3:])
+
+
 def test_what_it_shows(opened):
     world = opened(LEDS)
     robot = world.robots[0]
@@ -152,6 +160,17 @@ def test_serial_lines_by_text_and_by_bytes(opened):
     with pytest.raises(AssertionError):
         robot.uart1.expect("never", at_most=0.25)
     assert world.time_s - began == pytest.approx(0.25, abs=0.002)
+
+
+def test_what_came_instead_is_shown_up_to_400_characters(opened):
+    world = opened(ECHO)
+    robot = world.robots[0]
+    robot.uart1.expect("ready")
+    robot.uart1.send("y" + "x" * 400)
+    world.run(0.1)
+    with pytest.raises(AssertionError) as wrong:
+        robot.uart1.expect("never", at_most=0.01)
+    assert f"got {'x' * 400!r} behind the last match" in str(wrong.value)
 
 
 def test_bytes_come_at_the_lines_rate(opened):

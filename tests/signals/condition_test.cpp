@@ -55,6 +55,12 @@ TEST_F(ConditionTest, names_are_the_robots_own_or_have_a_robot_before_them) {
   EXPECT_EQ(value("b.2.x_m - e-puck.x_m"), 0.25);
   EXPECT_EQ(value("\"b.2\".x_m", -1), 0.5);
   EXPECT_EQ(value("x_m", 1), 0.5);
+  // wherever in an expression, and not as an end of another name
+  EXPECT_EQ(value("1 + e-puck.x_m"), 1.25);
+  EXPECT_EQ(value("1+e-puck.x_m*b.2.x_m"), 1.125);
+  EXPECT_EQ(value("(e-puck.x_m)"), 0.25);
+  EXPECT_EQ(value("-e-puck.x_m < b.2.x_m && !e-puck.led0"), 1);
+  EXPECT_EQ(refused("xe-puck.x_m").substr(0, 8), "got 'xe'");
   EXPECT_EQ(value("x_m-y_m"), -0.25);
   EXPECT_EQ(value("selector==5&&!led0"), 1);
   run_for(0.1);

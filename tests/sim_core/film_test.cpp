@@ -128,6 +128,7 @@ TEST(Film, frames_are_taken_at_exact_times_whatever_the_tick) {
     ASSERT_EQ(films[i].error, "");
     EXPECT_EQ(films[i].rgb.size(), 26u);  // 0, 0.04 .. 1 s
     EXPECT_EQ(films[i].width_px, film.width_px());
+    EXPECT_EQ(films[i].height_px, film.height_px());
     EXPECT_EQ(std::max(films[i].width_px, films[i].height_px), 320);
     ++i;
   }

@@ -365,10 +365,26 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[proximity]\nprofile = \"webots\"",
        "w.toml:3:11: proximity.profile: got \"webots\", expected one of inverse-square, webots-old, "
        "webots-new, enki, argos"},
+      {"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"d\"\nkind = \"distance\"\ntable = [[0.1, 1, "
+       "0]]",
+       "w.toml:7:9: robot.device.table: got 1 row(s), expected at least 2"},
+      {"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"d\"\nkind = \"distance\"\ntable = [[-0.1, "
+       "1, 0], [1, 0, 0]]",
+       "w.toml:7:9: robot.device.table: got a distance of -0.1 m, expected growing ones from 0 m on"},
+      {"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"d\"\nkind = \"distance\"\ntable = [[0, 1, "
+       "0], [0.5, 1, 0], [0.5, 0, 0]]",
+       "w.toml:7:9: robot.device.table: got a distance of 0.5 m, expected growing ones from 0 m on"},
+      {"[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"d\"\nkind = \"distance\"\ntable = [[0, 1, "
+       "0], [0.5, 1, 0], [0.2, 0, 0]]",
+       "w.toml:7:9: robot.device.table: got a distance of 0.2 m, expected growing ones from 0 m on"},
       {"[proximity]\nrays = 0", "w.toml:3:8: proximity.rays: got 0, expected whole number from 1 to 100"},
       {"[proximity]\ntable = [[0, 1, 0]]", "w.toml:3:9: proximity.table: got 1 row(s), expected at least 2"},
       {"[proximity]\ntable = [[0.1, 1, 0], [0, 1, 0]]",
        "w.toml:3:9: proximity.table: got distance 0 after 0.1, expected growing distances in m"},
+      {"[proximity]\ntable = [[0, 1, 0], [10.01, 0, 0]]",
+       "w.toml:3:9: proximity.table: got a distance of 10.01 m, expected at most 10 m"},
+      {"[proximity]\ntable = [[0, 1, 0], [0.1, 1, 0], [0.1, 0, 0]]",
+       "w.toml:3:9: proximity.table: got distance 0.1 after 0.1, expected growing distances in m"},
       {"[proximity]\ntable = [[0, 1], [1, 0]]",
        "w.toml:3:9: proximity.table: got [[0, 1], [1, 0]], expected list of rows [[distance, value, noise], "
        "...] from 0 to 1000000 m, counts, fraction"},

@@ -107,6 +107,43 @@ TEST(Motion, a_lasting_touch_is_one_collision_at_every_rate) {
       }
 }
 
+// what it stands against already when the run begins, or comes to: only what cannot move counts as a wall
+TEST(Motion, only_a_touch_of_something_fixed_is_one_of_a_wall) {
+  const struct Case {
+    const char* things;
+    bool is_wall;
+  } cases[] = {{"[[box]]\nposition = [%, 0]\nsize = [0.074, 0.4, 0.1]\n", true},
+               {"[[robot]]\nposition = [%, 0]\nheading = 180\n", false}};
+  for (const char* engine : {"dynamic", "kinematic", "planar"})
+    for (const char* at : {"0.074", "0.0741", "0.1"})
+      for (const Case& c : cases) {
+        std::string things = c.things;
+        things.replace(things.find('%'), 1, at);
+        auto s = simulation_of(
+            world_of("twinpuck = 1\n[world]\nengine = \"" + std::string(engine) + "\"\n[[robot]]\n" + things),
+            [](int r) { return std::make_unique<Cruise>(r ? 0 : kHalfTurn, r ? 0 : kHalfTurn); });
+        run_for(*s, 2);
+        const std::string what = std::string(engine) + " " + things;
+        EXPECT_EQ(s->touches(0).collisions, 1) << what;
+        EXPECT_GT(s->touches(0).longest_touch_s, 1) << what;
+        EXPECT_EQ(s->touches(0).longest_wall_touch_s > 0, c.is_wall) << what;
+      }
+}
+
+// a robot that slides along what it touches, or stands there, is not stopped by it
+TEST(Motion, beside_a_wall_a_kinematic_robot_touches_it_without_being_stopped) {
+  for (const double speed : {0.0, kHalfTurn}) {
+    auto s =
+        cruising(world_of("twinpuck = 1\n[world]\nengine = \"kinematic\"\n[[robot]]\nheading = 90\n[[box]]\n"
+                          "position = [0.07405, 0]\nsize = [0.074, 2, 0.1]\n"),
+                 speed, speed);
+    run_for(*s, 1);
+    EXPECT_NEAR(s->distance_m(0), speed * 0.0205, 0.001);
+    EXPECT_EQ(s->touches(0).collisions, 1);
+    EXPECT_NEAR(s->touches(0).longest_wall_touch_s, 1, 0.01);
+  }
+}
+
 TEST(Motion, in_a_corner_the_wheels_still_turn_it) {
   for (int hz : {96, 512}) {
     auto s =

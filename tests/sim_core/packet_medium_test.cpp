@@ -117,6 +117,22 @@ TEST_F(PacketMediumTest, the_range_ends_at_its_distance_and_binds_places_only) {
   EXPECT_EQ(tower.got.size(), 2u);
 }
 
+// robot 1 stands on a ramp, 0.3 m higher than robot 0: what lies between them is longer than on the floor
+TEST_F(PacketMediumTest, heights_count_in_distance_and_direction) {
+  RampDesc ramp;
+  ramp.pose = {1, 0, 0};
+  ramp.size_m = {0.4, 0.4};
+  ramp.low_m = ramp.high_m = 0.3;
+  world.ramps.push_back(ramp);
+  a.say("short", 1, 1.0);
+  a.say("long", 1, 1.05);
+  exchange();
+  ASSERT_EQ(b.got.size(), 1u);
+  EXPECT_EQ(b.text(0), "long");
+  EXPECT_NEAR(b.got[0].strength, 1 / 1.09, 1e-6);  // 1 + 0.3 * 0.3
+  EXPECT_NEAR(b.got[0].direction.z, -0.3 / std::sqrt(1.09), 1e-6);
+}
+
 TEST_F(PacketMediumTest, walls_stop_infra_red_and_not_radio) {
   WallDesc wall;
   wall.points_m = {{0.5, -0.2}, {0.5, 0.2}};

@@ -130,6 +130,24 @@ TEST_F(Furnished, maps_show_all_that_there_is) {
   EXPECT_EQ(shapes(scratch("full.svg")), "d9b5100565b8db80");
 }
 
+TEST(Names, of_up_to_40_robots_are_drawn) {
+  for (const int count : {1, 40, 41}) {
+    std::string text = "twinpuck = 1\n";
+    for (int i = 0; i < count; ++i)
+      text += "[[robot]]\nposition = [" + std::to_string(0.1 * (i % 8)) + ", " +
+              std::to_string(0.1 * (i / 8)) + "]\n";
+    auto s = cruising(world_of(text), 0, 0);
+    std::string shown[2];
+    for (const bool names : {false, true}) {
+      sim::PictureOptions options;
+      options.names = names;
+      EXPECT_EQ(sim::write_picture(scratch("names.svg"), s->scene(), s->minds(), nullptr, options), "");
+      shown[names] = shapes(scratch("names.svg"));
+    }
+    EXPECT_EQ(shown[0] != shown[1], count <= 40) << count;
+  }
+}
+
 TEST_F(Furnished, heat_maps_have_the_scale_that_was_asked_for) {
   sim::HeatmapOptions options;
   EXPECT_EQ(sim::write_heatmap(scratch("orders.svg"), heat, s->scene(), options), "");

@@ -156,6 +156,11 @@ TEST(Proximity, other_robots_are_seen_and_the_own_body_is_not) {
   EXPECT_NEAR(sim::sense_proximity(s->scene(), 0, 0, 0).apparent_distance_m, 0.030, 1e-9);
 }
 
+TEST(Proximity, a_table_may_reach_as_far_as_10_m) {
+  const auto world = world_of("twinpuck = 1\n[proximity]\ntable = [[0, 1000, 0], [10, 0, 0]]\n[[robot]]\n");
+  EXPECT_EQ(sim::resolve_proximity(world, 0, 0).table.back().distance_m, 10);
+}
+
 TEST(Proximity, settings_are_inherited_and_overridden) {
   const auto world = world_of(R"(twinpuck = 1
 [proximity]
@@ -183,6 +188,9 @@ position = [1, 0]
   EXPECT_EQ(c3.table.size(), 10u);
   EXPECT_EQ(c3.noise_scale, 0);
   EXPECT_EQ(c5.table.size(), 2u);
+  EXPECT_EQ(c0.profile, "webots-old");
+  EXPECT_EQ(c3.profile, "webots-new");
+  EXPECT_EQ(c5.profile, "") << "a table of one's own has no name";
   EXPECT_EQ(d0.rays, 1);
 }
 

@@ -3,6 +3,7 @@
 // when a disk is full.
 #include <sys/stat.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "sim_core/record/csv_recorder.h"
@@ -44,6 +45,28 @@ TEST(CsvRecorder, rows_have_the_documented_form) {
   double t = 0, x = 0;
   ASSERT_EQ(std::sscanf(lines.back().c_str(), "%lf,b,%lf", &t, &x), 2);
   EXPECT_NEAR(x, s->pose(1).x_m, 1e-6);
+}
+
+TEST(CsvRecorder, at_most_64_kilobytes_wait_for_the_disk) {
+  const std::string path = scratch("long.csv");
+  auto s = cruising(world_of("twinpuck = 1\n[[robot]]\n"), 1, 1);
+  sim::CsvRecorder csv(path);
+  std::size_t rows = 0;
+  const auto wait = [&] {  // bytes that are not there yet, of rows of at least 60 bytes each
+    return static_cast<std::ptrdiff_t>(60 * rows) -
+           static_cast<std::ptrdiff_t>(std::filesystem::file_size(path));
+  };
+  while (s->now() < sim::from_seconds(30)) {
+    s->step();
+    csv.sample(s->scene(), s->minds());
+    rows = static_cast<std::size_t>(sim::to_seconds(s->now()) / 0.01);
+    ASSERT_LE(wait(), 65536);
+  }
+  EXPECT_GT(std::filesystem::file_size(path), 2 * 65536u);
+  const auto written = lines_of(path);
+  EXPECT_EQ(std::count(written.back().begin(), written.back().end(), ','), 15) << "whole lines alone";
+  EXPECT_TRUE(csv.flush());
+  EXPECT_EQ(lines_of(path).size(), 1 + 3001u);
 }
 
 TEST(CsvRecorder, a_full_disk_and_a_missing_folder_are_said_once) {

@@ -237,7 +237,11 @@ TEST(Wav, mistakes_are_named) {
   EXPECT_EQ(sim::parse_wav(wav(0, 1, "abcd", 0x55), out),
             "got samples in MPEG, expected a WAV file of another format");
   EXPECT_EQ(sim::parse_wav(wav(16, 6, "abcdefghijkl"), out), "got 6 channels, expected 1 or 2");
-  EXPECT_EQ(sim::parse_wav(wav(16, 1, "ab", 1, 10), out), "got 10 samples a second, expected 1000 to 192000");
+  for (const int rate : {10, 999, 1000, 192000, 192001})
+    EXPECT_EQ(sim::parse_wav(wav(16, 1, "ab", 1, rate), out),
+              rate >= 1000 && rate <= 192000
+                  ? ""
+                  : "got " + std::to_string(rate) + " samples a second, expected 1000 to 192000");
   EXPECT_EQ(sim::parse_wav(wav(16, 1, ""), out),
             "got no samples, expected a \"data\" chunk with at least one");
   EXPECT_EQ(sim::parse_wav("RIFF0000WAVE", out),

@@ -119,6 +119,23 @@ TEST_F(InputsTest, the_digest_knows_of_each) {
   }
 }
 
+// three robots, then the box: which body a movable object was before
+TEST_F(InputsTest, a_new_world_says_of_each_movable_object_which_body_it_was) {
+  run_for(0.1);
+  const auto with = [](const std::string& before) {
+    return R"({"do": "world", "text": "twinpuck = 1\n[[robot]]\nname = \"puck\"\n[[robot]]\nname = \"other\"\nposition = [0.5, -0.5]\n)"
+           R"([[robot]]\nname = \"off\"\nposition = [-0.5, -0.5]\n[[box]]\nposition = [0.7, 0.7]\nsize = [0.1, 0.1, 0.1]\nmovable = true\n)"
+           R"([[box]]\nposition = [-0.7, 0.7]\nsize = [0.1, 0.1, 0.1]\nmovable = true\n", "before": )" +
+           before + "}";
+  };
+  EXPECT_EQ(refused(with("[]")), "before: expected one number for each movable object");
+  EXPECT_EQ(refused(with("[3, -1, -1]")), "before: expected one number for each movable object");
+  for (const int wrong : {0, 1, 2, 4, 1000})
+    EXPECT_EQ(refused(with("[-1, " + std::to_string(wrong) + "]")),
+              "before: got " + std::to_string(wrong) + ", expected a movable object or -1");
+  EXPECT_EQ(refused(with("[-1, 3]")), "nothing");
+}
+
 TEST_F(InputsTest, what_lies_beyond_the_bounds_is_refused) {
   run_for(0.1);
   const std::pair<const char*, const char*> rows[] = {

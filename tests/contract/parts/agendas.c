@@ -13,8 +13,22 @@ static void stamp(void) {
   calls++;
 }
 
+/* what was enabled stays so, and nothing else, when the list changes */
+static void edits(int tick, int edge) {
+  IEC0bits.T2IE = (unsigned int)tick;
+  IEC0bits.INT0IE = (unsigned int)edge;
+  e_activate_agenda(count, 100);
+  e_destroy_agenda(count);
+  say("enabled", 10 * IEC0bits.T2IE + IEC0bits.INT0IE);
+  IEC0bits.T2IE = IEC0bits.INT0IE = 0;
+}
+
 int main(void) {
   begin();
+  edits(0, 0);
+  edits(0, 1);
+  edits(1, 0);
+  edits(1, 1);
   e_start_agendas_processing();
   say("new", e_activate_agenda(count, 100));
   e_activate_agenda(count_others, 0);

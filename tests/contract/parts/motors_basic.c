@@ -13,6 +13,15 @@ int main(void) {
   pause_ms(1000);
   say("left", e_get_steps_left());
   say("right", e_get_steps_right());
+  /* both ends of the speeds: -32768 has no magnitude */
+  e_set_speed_left(-32767);
+  e_set_speed_right(32767);
+  say("fast_left", PR5);
+  say("fast_right", PR4);
+  e_set_speed_left(-32767 - 1);
+  e_set_speed_right(-32767 - 1);
+  say("none_left", PR5 == 0xFFFF);
+  say("none_right", PR4 == 0xFFFF);
   e_set_speed_left(0);
   e_set_speed_right(0);
   end();

@@ -133,6 +133,60 @@ test("where it stands is shown, and what has changed since", async () => {
   assert.deepEqual(debug.output.slice(-2), ["> why", "it waits"]);
 });
 
+test("what belongs to a debugged robot goes with it, and what is kept stays", async () => {
+  const { store, debug, commands } = start();
+  debug.toggle(kMain, 30);
+  debug.toggle(kMain, 12);
+  await debug.start("puck");
+  await settle();
+  assert.deepEqual(
+    debug.of(kMain).map((b) => [b.line, b.verified]),
+    [
+      [12, true],
+      [30, true],
+    ],
+  );
+  // lines of another list, or the same ones: nothing has moved
+  const told: unknown[] = [];
+  store.on("breakpoints", (key) => told.push(key));
+  debug.moved(kMain, [13]);
+  debug.moved(kMain, [12, 30]);
+  debug.moved(kMain, [13, 31, 40]);
+  assert.deepEqual(told, []);
+  // two that have come to the same line are one
+  debug.moved(kMain, [13, 13]);
+  assert.deepEqual(
+    debug.of(kMain).map((b) => b.line),
+    [13],
+  );
+  await debug.watch("motors[1]");
+  await debug.watch("motors[1]");
+  await debug.watch("");
+  assert.equal(debug.watches.length, 1);
+  await debug.stopAt(debug.watches[0], true);
+  debug.unwatch(debug.watches[0]);
+  await settle();
+  assert.deepEqual(
+    commands("setDataBreakpoints").map((m) => m.message.arguments.breakpoints.length),
+    [1, 0],
+  );
+  await debug.end();
+  assert.deepEqual(
+    debug.of(kMain).map((b) => [b.line, b.verified]),
+    [[13, undefined]],
+  );
+  assert.deepEqual([debug.stands, debug.calls, debug.scopes, debug.reason], [false, [], [], ""]);
+});
+
+test("the debugger's output keeps its last 400 lines", async () => {
+  const { link, debug } = start();
+  for (let i = 0; i < 201; ++i) link.event("dap", { name: "output", body: { output: `${i} a\n${i} b\n` } });
+  assert.equal(debug.output.length, 400);
+  assert.deepEqual([debug.output[0], debug.output[399]], ["1 a", "200 b"]);
+  link.event("dap", { name: "terminated" });
+  assert.equal(debug.output[399], "The run has ended.");
+});
+
 test("the pane has a button for what can be done now", async () => {
   const { store, debug } = start();
   const made = new DebuggerPane(store, debug),

@@ -58,9 +58,25 @@ test("a line that stays low is a break, and one that is read at a wrong rate has
   assert.deepEqual(bytesOfLine([], 9600), []);
 });
 
-test("a byte that has not ended yet is none", () => {
-  const changes = line([0x41], 9600, 0.001);
-  assert.deepEqual(bytesOfLine(changes, 9600, 0.0015), []);
+test("a byte counts from the middle of its stop bit on, and a glitch is none", () => {
+  const bit = 1 / 9600,
+    changes = line([0x41], 9600, 0.001);
+  for (const [bits, expected] of [
+    [5, []],
+    [9.4, []],
+    [9.6, [0x41]],
+    [10, [0x41]],
+  ] as [number, number[]][])
+    assert.deepEqual(values(bytesOfLine(changes, 9600, 0.001 + bits * bit)), expected);
+  // low for a share of a bit, then a byte
+  for (const [share, first] of [
+    [0.4, []],
+    [0.6, [0xff]],
+  ] as [number, number[]][])
+    assert.deepEqual(
+      values(bytesOfLine([[0, 1], [0.0001, 0], [0.0001 + share * bit, 1], ...line([0x41], 9600, 0.01).slice(1)], 9600)),
+      [...first, 0x41],
+    );
 });
 
 test("a signal of bytes: two of the same without a pause are two", () => {
@@ -104,6 +120,19 @@ test("duty and period of a PWM", () => {
   );
   assert.ok(Math.abs(pulses[0].to - pulses[0].from - 0.01) < 1e-12);
   assert.deepEqual(pulsesOf([[0, 1]]), []);
+  // high from the beginning, and the same level told again
+  assert.deepEqual(
+    pulsesOf([
+      [0, 1],
+      [1, 0],
+      [2, 1],
+      [3, 1],
+      [4, 0],
+      [5, 0],
+      [6, 1],
+    ]),
+    [{ from: 2, to: 6, high: 2 }],
+  );
 });
 
 test("bytes in words", () => {

@@ -77,7 +77,17 @@ test("what a compiler says has its place, and so have traps", () => {
     column: 5,
     text: "unused",
   });
-  assert.equal(findingOf("nothing to build", "error", []).line, 0);
+  // [told, file, line, column, text]
+  for (const [told, ...expected] of [
+    ["nothing to build", "", 0, 0, "nothing to build"],
+    ["main.c:3: no column", "main.c", 3, 0, "no column"],
+    ["sub/a.c:3:5: fatal error: gone", "a.c", 3, 5, "gone"],
+    ["b.c:1:2: note: of another file", "b.c", 1, 2, "of another file"],
+    ["main.c:9:1: error: two\nlines", "main.c", 9, 1, "two\nlines"],
+  ] as [string, ...unknown[]][]) {
+    const f = findingOf(told, "error", ["main.c", "a.c"]);
+    assert.deepEqual([f.file, f.line, f.column, f.text], expected);
+  }
   const programs = [drive("main.c", "sub/a.c")];
   assert.deepEqual(placeIn(programs, "puck", "turn() (sub/a.c:7)"), { program: "drive", file: "sub/a.c", line: 7 });
   assert.equal(placeIn(programs, "other", "main() (main.c:7)"), undefined);
@@ -89,6 +99,60 @@ test("what a compiler says has its place, and so have traps", () => {
     wrongsOf(store).map((w) => w.of),
     ["world"],
   );
+});
+
+test("what Problems lists, each from where it is known", () => {
+  const built = drive("main.c");
+  const at = { robot: "puck", place: "main() (main.c:7)", time_s: 1.5 };
+  const rows: [string, (store: Store) => void, string[]][] = [
+    ["nobody has said anything yet", (s) => (s.revision = 0), []],
+    ["a world and no run", () => {}, ["run error: There is no run."]],
+    ["why there is none", (s) => (s.noRun = ["no robot"]), ["run error: No run: no robot"]],
+    ["a page that is a report has none", (s) => (s.recorded = true), []],
+    ["was not built", (s) => s.takePrograms([{ ...built, ok: false }]), ["compiler error: drive was not built"]],
+    [
+      "is not built yet",
+      (s) => s.takePrograms([{ ...built, built: false, ok: false }]),
+      ["run error: There is no run."],
+    ],
+    [
+      "a file and no line, and a line without a column",
+      (s) =>
+        s.takePrograms([
+          {
+            ...built,
+            findings: [
+              { kind: "error", file: "a.c", line: 0, column: 0, text: "gone" },
+              { kind: "warning", file: "main.c", line: 4, column: 0, text: "odd" },
+            ],
+          },
+        ]),
+      ["compiler error: drive: a.c: gone", "compiler warning: drive: main.c:4: odd"],
+    ],
+    [
+      "a trap, and what was found out",
+      (s) => {
+        s.traps = [{ ...at, kind: "math error", text: "divided", file: "", line: 0 }];
+        s.diagnoses = [{ ...at, cause: "stack", text: "deep", hint: "less" } as never];
+      },
+      [
+        "trap error: puck: math error: divided, at main() (main.c:7), 1.500 s",
+        "diagnosis warning: puck: stack at main() (main.c:7), 1.500 s: deep; less",
+      ],
+    ],
+  ];
+  for (const [what, make, expected] of rows) {
+    const { store } = start();
+    store.takeWorld(world(), 1);
+    make(store);
+    assert.deepEqual(
+      wrongsOf(store)
+        .filter((w) => expected.length !== 2 || w.of !== "run")
+        .map((w) => `${w.of} ${w.weight}: ${w.text}`),
+      expected,
+      what,
+    );
+  }
 });
 
 test("the console puts a character together and shows the rest of one that does not come", () => {
