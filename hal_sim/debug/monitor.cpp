@@ -140,9 +140,12 @@ std::string Monitor::trace(const std::string& rest) {
   constexpr int kMost = 10'000'000, kUsual = 10'000;
   std::string count;
   const std::string name = first_word(rest, count);
-  const int wanted = count.empty() ? kUsual : std::atoi(count.c_str());
-  std::ofstream out(name);
-  if (name.empty() || !out || wanted < 1 || wanted > kMost)
+  const bool is_number = count.size() < 10 && count.find_first_not_of("0123456789") == std::string::npos;
+  const int wanted = count.empty() ? kUsual : is_number ? std::stoi(count) : 0;
+  std::ofstream out;
+  // what is in the file goes only once all else is right
+  if (!name.empty() && wanted >= 1 && wanted <= kMost) out.open(name);
+  if (!out.is_open())
     return fmt::format("got '{}', expected a file that can be written, and a number from 1 to {}\n", rest,
                        kMost);
   int n = 0;

@@ -237,6 +237,10 @@ TEST_P(DebugExpressions, mistakes_are_named) {
        "got '/nonexistent/x 3', expected a file that can be written, and a number from 1 to 10000000"},
       {"trace t.txt 0",
        "got 't.txt 0', expected a file that can be written, and a number from 1 to 10000000"},
+      {"trace t.txt 3x",
+       "got 't.txt 3x', expected a file that can be written, and a number from 1 to 10000000"},
+      {"trace t.txt 99999999999",
+       "got 't.txt 99999999999', expected a file that can be written, and a number from 1 to 10000000"},
       {"trace t.txt 10000001",
        "got 't.txt 10000001', expected a file that can be written, and a number from 1 to 10000000"},
       {"info", "got 'info ', expected info break, interrupts or world"},
@@ -267,6 +271,7 @@ TEST_P(DebugExpressions, mistakes_are_named) {
     EXPECT_NE(said.find("\n> " + command + "\n" + answer + "\n> "), std::string::npos)
         << command << ": expected " << answer << ", got "
         << said.substr(std::min(said.size(), said.find("\n> " + command + "\n")), 200);
+  EXPECT_FALSE(cli_test::fs::exists("t.txt")) << "what was refused has emptied a file";
 }
 
 TEST_P(DebugExpressions, a_step_by_lines_from_the_beginning_goes_to_main) {
