@@ -9,12 +9,8 @@ void WaitHeads::add(const Decoded* d) {
   if (find(d)) return;
   const std::ptrdiff_t place = d - code_;
   if (heads_.empty()) heads_.resize(kFewest);
-  Head* free = free_slot(place);
-  while (!free && heads_.size() < kMost) {
-    widen();
-    free = free_slot(place);
-  }
-  *(free ? free : &slot(place)) = {0, static_cast<std::int32_t>(place), kFirstPause, 0};
+  while (!free_slot(place) && heads_.size() < kMost) widen();
+  put({0, static_cast<std::int32_t>(place), kFirstPause, 0});
 }
 
 /// The first that is free of those where the head at a place may be; null: none.
@@ -24,10 +20,15 @@ WaitHeads::Head* WaitHeads::free_slot(std::ptrdiff_t place) {
   return nullptr;
 }
 
+void WaitHeads::put(const Head& head) {
+  Head* const free = free_slot(head.place);
+  *(free ? free : &slot(head.place)) = head;
+}
+
 void WaitHeads::widen() {
   const std::vector<Head> before = std::exchange(heads_, std::vector<Head>(2 * heads_.size()));
   for (const Head& head : before)
-    if (head.place >= 0) *(free_slot(head.place) ? free_slot(head.place) : &slot(head.place)) = head;
+    if (head.place >= 0) put(head);
 }
 
 void WaitHeads::pause(const Decoded* d, bool is_wait, Cycle now) {

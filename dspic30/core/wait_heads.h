@@ -66,6 +66,7 @@ class WaitHeads {
   /// One is at its place, or at one of the next.
   Head& slot(std::ptrdiff_t place) { return heads_[static_cast<std::size_t>(place) & (heads_.size() - 1)]; }
   Head* free_slot(std::ptrdiff_t place);
+  void put(const Head& head);
   void widen();
   Head* find(const Decoded* d) { return const_cast<Head*>(static_cast<const WaitHeads*>(this)->find(d)); }
   const Head* find(const Decoded* d) const {
