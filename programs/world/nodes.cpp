@@ -154,7 +154,6 @@ struct Nodes::Inside {
     const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = at.matrix();
     std::vector<double> values;
     int count = -1;
-    const wbt::Vec3 centre = bodies().centre_of_mass(id);
     // Questions: place, axes, velocity, centre of mass, points of contact, the whole pose, whether it stands
     // firm, how many fields.
     switch (r.ints[1]) {
@@ -167,9 +166,11 @@ struct Nodes::Inside {
       case 2:
         values = bodies().velocity(id);
         break;
-      case 3:
+      case 3: {
+        const wbt::Vec3 centre = bodies().centre_of_mass(id);
         values = {centre.begin(), centre.end()};
         break;
+      }
       case 4:
         count = 0;
         break;
