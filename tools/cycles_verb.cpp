@@ -122,7 +122,7 @@ std::vector<FunctionRow> function_rows(const dspic::FirmwareFile& file, const ch
     row.code = cycles.of_function(f.begin);
     places.emplace(f.name, row.place);
   }
-  for (const auto& f : file.debug.info().functions) {
+  for (const auto& f : file.debug.value().functions) {
     if (f.inlined_at.empty()) continue;
     const bool has_code = f.end > 0 && places.count(f.name);
     FunctionRow& row = row_of(f.name, has_code ? places[f.name] : place_text(file, f));

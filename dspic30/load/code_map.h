@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "dspic30/load/late.h"
 #include "dspic30/load/line_table.h"
 
 namespace dspic {
@@ -23,11 +24,11 @@ struct CodeMap {
   };
   using Line = LineTable::Row;
   std::vector<Function> functions;  ///< by address
-  LateLines late_lines;
-  /// For whoever keeps the lines: files below the first folder lie below the second one here.
+  Late<LineTable> late_lines;
+  /// For whoever keeps the lines; as LineTable's.
   std::string moved_from, moved_to;
 
-  const LineTable& lines() const { return late_lines.table(); }
+  const LineTable& lines() const { return late_lines.value(); }
   /// Null where there is none.
   const Function* function_at(std::uint32_t address) const;
   const Function* function_named(const std::string& name) const;

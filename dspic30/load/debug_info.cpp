@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <mutex>
 #include <optional>
 
 namespace dspic {
@@ -462,28 +461,11 @@ std::map<std::uint32_t, std::string> DebugInfo::folders_in(Elf* elf) {
   return all;
 }
 
-struct LateDebugInfo::Kept {
-  std::shared_ptr<std::string> elf;
-  std::once_flag read;
-  DebugInfo info;
-};
-
-void LateDebugInfo::keep(std::shared_ptr<std::string> elf) {
-  kept_ = std::make_shared<Kept>();
-  kept_->elf = std::move(elf);
-}
-
-const DebugInfo& LateDebugInfo::info() const {
-  static const DebugInfo none;
-  if (!kept_) return none;
-  std::call_once(kept_->read, [this] {
-    if (Elf* const elf = elf_memory(kept_->elf->data(), kept_->elf->size())) {
-      kept_->info.add(elf);
-      elf_end(elf);
-    }
-    kept_->elf.reset();
-  });
-  return kept_->info;
+void read_elf(std::string& bytes, DebugInfo& into) {
+  if (Elf* const elf = elf_memory(bytes.data(), bytes.size())) {
+    into.add(elf);
+    elf_end(elf);
+  }
 }
 
 }  // namespace dspic

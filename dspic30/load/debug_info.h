@@ -8,7 +8,6 @@
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -87,16 +86,7 @@ struct DebugInfo {
   bool step_into(const std::string& name, Found& found, int depth = 0) const;
 };
 
-/// Is read when somebody asks first: most runs never do. Copies share it; several threads may ask.
-class LateDebugInfo {
- public:
-  /// Of the file's bytes, which stay as they are.
-  void keep(std::shared_ptr<std::string> elf);
-  const DebugInfo& info() const;
-
- private:
-  struct Kept;
-  std::shared_ptr<Kept> kept_;
-};
+/// For Late.
+void read_elf(std::string& elf, DebugInfo& into);
 
 }  // namespace dspic

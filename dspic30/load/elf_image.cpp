@@ -35,7 +35,10 @@ class ElfReader {
     error = error_;
     elf_.reset();
     const auto kept = std::make_shared<std::string>(std::move(bytes));
-    file_.code.late_lines.keep(kept, file_.code.moved_from, file_.code.moved_to);
+    LineTable lines;
+    lines.moved_from = file_.code.moved_from;
+    lines.moved_to = file_.code.moved_to;
+    file_.code.late_lines.keep(kept, std::move(lines));
     file_.debug.keep(kept);
     return error_.empty();
   }

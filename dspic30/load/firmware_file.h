@@ -16,6 +16,7 @@
 
 #include "dspic30/load/code_map.h"
 #include "dspic30/load/debug_info.h"
+#include "dspic30/load/late.h"
 
 namespace dspic {
 
@@ -28,7 +29,7 @@ struct FirmwareFile {
   /// Absolute symbols that begin with "_tp_": what the linker says of the image (memory/host_places.h).
   std::map<std::string, std::uint32_t> marks;
   CodeMap code;
-  LateDebugInfo debug;
+  Late<DebugInfo> debug;
 };
 
 /// "sim" or "dspic": which HAL it was linked with here; "own": elsewhere, or the file does not say.

@@ -5,7 +5,6 @@
 #include <libelf.h>
 
 #include <cstring>
-#include <mutex>
 
 #include "dspic30/load/cursor.h"
 #include "dspic30/load/debug_info.h"
@@ -229,44 +228,22 @@ const LineTable::Row* LineTable::line_at(std::uint32_t address) const {
   return found->line > 0 ? &*found : nullptr;
 }
 
-// --- late
-
-struct LateLines::Kept {
-  std::shared_ptr<std::string> elf;
-  std::once_flag read;
-  LineTable table;
-};
-
-void LateLines::keep(std::shared_ptr<std::string> elf, std::string moved_from, std::string moved_to) {
-  kept_ = std::make_shared<Kept>();
-  kept_->elf = std::move(elf);
-  kept_->table.moved_from = std::move(moved_from);
-  kept_->table.moved_to = std::move(moved_to);
-}
-
-const LineTable& LateLines::table() const {
-  static const LineTable none;
-  if (!kept_) return none;
-  std::call_once(kept_->read, [this] {
-    Elf* const elf = elf_memory(kept_->elf->data(), kept_->elf->size());
-    std::size_t names = 0;
-    if (elf && elf_getshdrstrndx(elf, &names) == 0) {
-      const Elf_Data* lines = nullptr;
-      for (Elf_Scn* s = nullptr; (s = elf_nextscn(elf, s));) {
-        GElf_Shdr head;
-        const char* const name = gelf_getshdr(s, &head) ? elf_strptr(elf, names, head.sh_name) : nullptr;
-        if (!name || std::strcmp(name, ".debug_line") != 0) continue;
-        if (const Elf_Data* data = elf_getdata(s, nullptr); data && data->d_buf) lines = data;
-      }
-      if (lines)
-        kept_->table.add(static_cast<const unsigned char*>(lines->d_buf), lines->d_size,
-                         DebugInfo::folders_in(elf));
-      kept_->table.sort();
+void read_elf(std::string& bytes, LineTable& into) {
+  Elf* const elf = elf_memory(bytes.data(), bytes.size());
+  std::size_t names = 0;
+  if (elf && elf_getshdrstrndx(elf, &names) == 0) {
+    const Elf_Data* lines = nullptr;
+    for (Elf_Scn* s = nullptr; (s = elf_nextscn(elf, s));) {
+      GElf_Shdr head;
+      const char* const name = gelf_getshdr(s, &head) ? elf_strptr(elf, names, head.sh_name) : nullptr;
+      if (!name || std::strcmp(name, ".debug_line") != 0) continue;
+      if (const Elf_Data* data = elf_getdata(s, nullptr); data && data->d_buf) lines = data;
     }
-    elf_end(elf);
-    kept_->elf.reset();
-  });
-  return kept_->table;
+    if (lines)
+      into.add(static_cast<const unsigned char*>(lines->d_buf), lines->d_size, DebugInfo::folders_in(elf));
+    into.sort();
+  }
+  elf_end(elf);
 }
 
 }  // namespace dspic

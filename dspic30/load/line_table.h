@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -45,18 +44,8 @@ struct LineTable {
   void sort();
 };
 
-/// Is read when somebody asks first: most runs never do. Copies share it; several threads may ask.
-class LateLines {
- public:
-  /// Of the file's bytes, which stay as they are. The folders as LineTable's.
-  void keep(std::shared_ptr<std::string> elf, std::string moved_from, std::string moved_to);
-  /// Empty where nothing was kept.
-  const LineTable& table() const;
-
- private:
-  struct Kept;
-  std::shared_ptr<Kept> kept_;
-};
+/// Its section of lines, with the folders that its units tell; for Late.
+void read_elf(std::string& elf, LineTable& into);
 
 /// "C:/robot/main.c" of "C:\\robot\\build" and "..\\main.c": slashes, no dots. A `path` that is
 /// whole by itself, "C:/robot/main.c" too, has no need of the folder.

@@ -49,7 +49,7 @@ const host::Variable* ChipData::find_variable(const std::string& expression, std
     return scope.empty() || p_.places.is_of(scope, v);
   };
   dspic::DebugInfo::Found found;
-  if (!p_.file.debug.info().find(plain_name, 0, found, error, is_in_scope)) {
+  if (!p_.file.debug.value().find(plain_name, 0, found, error, is_in_scope)) {
     if (!scope.empty()) {
       if (!found.variable) error += ", in '" + scope + "'";
       return nullptr;
@@ -61,7 +61,7 @@ const host::Variable* ChipData::find_variable(const std::string& expression, std
     const host::Variable plain{object->second, bytes->second, host::Variable::Kind::Unsigned};
     return &variables_.emplace(expression, plain).first->second;
   }
-  const auto& type = p_.file.debug.info().types[static_cast<std::size_t>(found.type)];
+  const auto& type = p_.file.debug.value().types[static_cast<std::size_t>(found.type)];
   host::Variable v;
   v.address = static_cast<std::uintptr_t>(found.variable->places[0].value) + found.offset;
   v.bytes = type.bytes;

@@ -102,7 +102,7 @@ class Collector {
 
   /// Where a function's name stands; 0: nobody says.
   int line_of(const std::string& name, std::uint32_t begin) const {
-    for (const auto& f : file_.debug.info().functions)
+    for (const auto& f : file_.debug.value().functions)
       if (f.begin == begin && f.name == name) return f.line;
     return 0;
   }
@@ -116,7 +116,7 @@ class Collector {
       source->lines[rows[i].line];
       if (i > 0 && !rows[i - 1].is_end) continue;
       const dspic::DebugInfo::Function* last = nullptr;
-      for (const auto& f : file_.debug.info().functions)
+      for (const auto& f : file_.debug.value().functions)
         if (f.is_left_out && f.line <= rows[i].line && (!last || f.line > last->line) &&
             dspic::source_of(file_, f) == rows[i].file)
           last = &f;

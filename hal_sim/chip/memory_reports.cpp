@@ -64,7 +64,7 @@ MemoryReports::MemoryReports(const dspic::FirmwareFile& file, const dspic::Proce
     if (address >= dspic::Processor::kRamStart && address < dspic::Processor::kRamEnd)
       globals_.push_back({address, bytes, name});
   };
-  const dspic::DebugInfo& info = file.debug.info();
+  const dspic::DebugInfo& info = file.debug.value();
   for (const auto& variable : info.variables)
     if (variable.is_static && !variable.places.empty() &&
         variable.places[0].in == dspic::DebugInfo::Place::In::Memory)
@@ -249,7 +249,7 @@ bool MemoryReports::is_told(const dspic::MemoryFinding& f, unsigned place) {
 /// A variable that the debugger knows by its place in the frame of the function that runs.
 std::string MemoryReports::local_by_frame(unsigned address, unsigned pc) const {
   using In = dspic::DebugInfo::Place::In;
-  const dspic::DebugInfo& info = file_.debug.info();
+  const dspic::DebugInfo& info = file_.debug.value();
   for (const auto& variable : info.variables) {
     if (variable.is_static || pc < variable.begin || pc >= variable.end) continue;
     const auto* place = dspic::DebugInfo::place_at(variable, pc);

@@ -14,7 +14,7 @@ const char* const kMeasureAlone =
 
 std::vector<std::uint32_t> copies_of(const dspic::FirmwareFile& file, const std::string& function) {
   std::vector<std::uint32_t> copies;
-  for (const auto& f : file.debug.info().functions)
+  for (const auto& f : file.debug.value().functions)
     if (f.name == function) copies.insert(copies.end(), f.inlined_at.begin(), f.inlined_at.end());
   std::sort(copies.begin(), copies.end());
   copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
@@ -53,7 +53,7 @@ std::string why_no_code(const dspic::FirmwareFile& file, const std::string& func
     return "is played by the simulator; with --hal dspic it is the robot's own code";
   std::vector<std::string> known;
   for (const auto& f : file.code.functions) known.push_back(f.name);
-  for (const auto& f : file.debug.info().functions) {
+  for (const auto& f : file.debug.value().functions) {
     if (!f.inlined_at.empty()) known.push_back(f.name);
     if (f.name == function) return "has no code: nothing calls it, so the linker left it out";
   }

@@ -337,7 +337,7 @@ void DapServer::variables(const Json& request) {
       add("cycle", std::to_string(session_->now()));
       break;
     case kVariables:
-      for (const auto& variable : session_->file().debug.info().variables)
+      for (const auto& variable : session_->file().debug.value().variables)
         if (session_->pc() >= variable.begin && session_->pc() < variable.end) {
           CValue value;
           value.part = Part{{&variable, variable.type}, {}, session_->pc()};

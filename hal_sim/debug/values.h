@@ -44,7 +44,7 @@ class Values final : public Names {
   std::string locals() const;
 
   // --- Names
-  const dspic::DebugInfo& debug_info() const override { return runner_.image()->file().debug.info(); }
+  const dspic::DebugInfo& debug_info() const override { return runner_.image()->file().debug.value(); }
   bool find_variable(const std::string& name, Part& part) const override;
   bool find_other(const std::string& name, CValue& value) const override;
   std::optional<Address> address_of(const Part& part) const override;

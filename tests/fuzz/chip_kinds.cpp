@@ -60,7 +60,7 @@ void firmware(std::string_view bytes) {
   const bool good = dspic::load_firmware(std::string(bytes), "x", file, error);
   require(good == error.empty(), "a file is refused without a reason, or accepted with one");
   if (!good) return;
-  file.debug.info();
+  file.debug.value();
   for (const auto& [address, word] : file.words) {
     require(dspic::is_program_memory(address) && address % 2 == 0 && word <= 0xFFFFFF,
             "a word where there is no memory");
