@@ -61,6 +61,7 @@ void firmware(std::string_view bytes) {
   require(good == error.empty(), "a file is refused without a reason, or accepted with one");
   if (!good) return;
   file.debug.value();
+  file.code.lines();
   for (const auto& [address, word] : file.words) {
     require(dspic::is_program_memory(address) && address % 2 == 0 && word <= 0xFFFFFF,
             "a word where there is no memory");
