@@ -13,9 +13,9 @@ template <typename Value>
 class Late {
  public:
   /// Of the file's bytes, which stay as they are; `begin` is what it is read into.
-  void keep(std::shared_ptr<std::string> elf, Value begin = {}) {
+  void keep(const std::shared_ptr<std::string>& elf, Value begin = {}) {
     kept_ = std::make_shared<Kept>();
-    kept_->elf = std::move(elf);
+    kept_->elf = elf;
     kept_->value = std::move(begin);
   }
   /// Empty where nothing was kept.
