@@ -380,9 +380,9 @@ std::vector<Eigen::Matrix3d> section_axes(const std::vector<Vec3>& spine) {
 }
 
 std::vector<Vec3> extrusion_points(const Node& g, const Affine& frame) {
-  const auto numbers = [&](const char* name, std::vector<double> usual) {
+  const auto numbers = [&](const char* name, const std::vector<double>& usual) {
     const Field* const field = g.field(name);
-    return field && !field->numbers.empty() ? field->numbers : std::move(usual);
+    return field && !field->numbers.empty() ? field->numbers : usual;
   };
   const std::vector<double> section = numbers("crossSection", {1, 1, 1, -1, -1, -1, -1, 1, 1, 1}),
                             scale = numbers("scale", {1, 1}), turn = numbers("orientation", {0, 0, 1, 0}),
