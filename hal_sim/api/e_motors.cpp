@@ -32,9 +32,10 @@ Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at)
                                              : (left ? c.left_backward : c.right_backward);
   cost += cost_of_set_cycle(key_of(run_of(wheel)));
   const Cycle then = at + cost - 2 * kReturnCycles;
-  const bool is_new = agendas().set_speed(wheel, speed, then, at + kReturnCycles);
-  board_.pins().follow_motor(wheel, then);
-  if (is_new) changed(call);
+  if (agendas().set_speed(wheel, speed, then, at + kReturnCycles)) {
+    board_.pins().follow_motor(wheel, then);
+    changed(call);
+  }
   return cost;
 }
 

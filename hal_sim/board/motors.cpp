@@ -31,6 +31,7 @@ double Motors::duty(Wheel wheel, Cycle at) const {
 
 Stepper& Motors::stepper(Wheel wheel, Cycle at) {
   if (driver_) driver_->bring_motor(wheel, at);
+  ++commands_;
   return own(wheel);
 }
 
@@ -57,6 +58,7 @@ void Motors::release(Cycle at) {
 }
 
 void Motors::processor_reset() {
+  ++commands_;
   for (Stepper& motor : own_) {
     motor.connect(false);
     motor.set_coils_only(0);
@@ -64,6 +66,7 @@ void Motors::processor_reset() {
 }
 
 void Motors::begin_again(Cycle at) {
+  ++commands_;
   for (Stepper& motor : own_) {
     motor.begin_again(at);
     motor.lose_steps(nullptr);

@@ -30,6 +30,8 @@ class Motors {
   double angle_rad(Wheel wheel, Cycle at) const;
   /// The same, how fast it grows, and until when at that rate, unless somebody commands the motor.
   WheelTurn turn(Wheel wheel, Cycle at) const;
+  /// Is another number once somebody has commanded a motor.
+  std::uint64_t commands() const { return commands_ + (driver_ ? driver_->motor_commands() : 0); }
   /// Full steps since power-up, forward positive, not wrapped, lost steps not counted.
   std::int64_t steps(Wheel wheel, Cycle at) const { return at_instant(wheel, at).steps(); }
   std::int64_t left_steps(Cycle at) const { return steps(Wheel::Left, at); }
@@ -49,7 +51,11 @@ class Motors {
   /// The motor as it was left, for a PinDriver.
   Stepper& own(Wheel wheel) { return own_[static_cast<std::size_t>(wheel)]; }
   /// Moves them from now on; null: nobody but the pins.
-  void attach(PinDriver* driver) { driver_ = driver; }
+  void attach(PinDriver* driver) {
+    commands_ = commands() + 1;
+    driver_ = driver;
+    commands_ -= commands() - commands_;
+  }
 
   // --- what happens to them
   /// The latch of port D: a motor whose pattern changed follows. True: the number of energised coils changed.
@@ -71,6 +77,7 @@ class Motors {
   }
 
   PinDriver* driver_ = nullptr;
+  std::uint64_t commands_ = 0;  // those of the driver are not in it
   const std::array<double, 2>& wheel_ratio_;
   Stepper own_[2] = {Stepper(-1), Stepper(+1)};
 };

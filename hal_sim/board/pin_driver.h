@@ -20,6 +20,8 @@ class PinDriver {
   virtual const Stepper& motor_at(Wheel wheel, Cycle at) const = 0;
   /// How the rotor turns on: over steps to come at their mean rate, as far as the driver knows them.
   virtual RotorCourse motor_course(Wheel wheel, Cycle at) const = 0;
+  /// Is another number once a wheel may turn otherwise than motor_course() said of it.
+  virtual std::uint64_t motor_commands() const = 0;
   /// Cycle before which the driver energises no other coils, or switches none off.
   virtual Cycle steps_horizon(Wheel wheel, Cycle at) const = 0;
   virtual Cycle coils_horizon(Wheel wheel, Cycle at) const = 0;

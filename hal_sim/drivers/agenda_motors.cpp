@@ -22,7 +22,7 @@ board::RotorCourse AgendaMotors::course(Wheel wheel, Cycle at) const {
     return {static_cast<double>(rotor.steps()) - rate * static_cast<double>(step - at), rate, kNever};
   }
   board::RotorCourse course = rotor.course(at);
-  course.until = std::min(course.until, step);
+  course.until = ticks_.is_held() ? at : std::min(course.until, step);
   return course;
 }
 

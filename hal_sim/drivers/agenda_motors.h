@@ -33,8 +33,11 @@ class AgendaMotors {
   /// Cycle before which the step counter keeps its value without a command.
   Cycle steps_horizon(Wheel wheel, Cycle at) const { return next_step(of(wheel, at)); }
   /// How the wheel turns on: once it does so evenly (AgendaMotor::is_even()), for ever; before, and when it
-  /// rests between steps, up to the next step.
+  /// rests between steps, up to the next step; no further than `at` while the handler is held.
   board::RotorCourse course(Wheel wheel, Cycle at) const;
+  /// Is another number once a wheel may turn otherwise than its course said: somebody has commanded motors,
+  /// their agendas or the timer; ticks were lost; the handler is held, or no longer.
+  std::uint64_t commands() const { return 2 * commands_ + (ticks_.is_held() ? 1 : 0); }
   /// Cycle before which the coils keep their state without a command.
   Cycle coils_horizon(Wheel wheel, Cycle at) const;
   /// The motor as it is at `at`, which is not before the last instant that anybody asked for.
@@ -44,6 +47,7 @@ class AgendaMotors {
   }
 
   // --- for the timer
+  void note_command() { ++commands_; }
   const AgendaMotor& of(Wheel wheel) const { return motors_[static_cast<int>(wheel)]; }
   AgendaMotor& of(Wheel wheel) { return motors_[static_cast<int>(wheel)]; }
   Stepper& stepper(Wheel wheel) { return *steppers_[static_cast<int>(wheel)]; }
@@ -95,6 +99,7 @@ class AgendaMotors {
   Cycle next_step(const AgendaMotor& motor) const;
 
   const AgendaTicks& ticks_;
+  std::uint64_t commands_ = 0;
   bool has_node_[2] = {false, false};
   std::uint32_t serials_[2] = {0, 0};
   Stepper* steppers_[2];

@@ -21,6 +21,7 @@ AgendaTimer::AgendaTimer(Stepper& left, Stepper& right)
 // --- ticks
 
 void AgendaTimer::start(Cycle at) {
+  motors_.note_command();
   motors_.bring_both(at);
   ticks_.start(at);
   shares_.change();
@@ -29,12 +30,14 @@ void AgendaTimer::start(Cycle at) {
 }
 
 void AgendaTimer::stop(Cycle at) {
+  motors_.note_command();
   motors_.bring_both(at);
   ticks_.stop(at);
   shares_.change();
 }
 
 void AgendaTimer::reset(Cycle at) {
+  motors_.note_command();
   for (Wheel wheel : {Wheel::Left, Wheel::Right}) {
     motors_.bring_to(wheel, ticks_.at(at));
     motors_.stepper(wheel).connect(false);
@@ -75,6 +78,7 @@ void AgendaTimer::disturb(const Node& node) {
 
 /// The list, or a node's cycle is another one from now on.
 void AgendaTimer::changed() {
+  motors_.note_command();
   shares_.change();
   if (!ticks_.is_walking()) find_next_fire();
 }
@@ -171,6 +175,7 @@ bool AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycl
   if (!is_off_before) motors_.stepper(wheel).set_coils_only(0);
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   if (keeps_rhythm(m)) return false;
+  motors_.note_command();
   m.set_speed(clamped);
   if (motors_.has_node(wheel)) m.set_cycle(m.step_ticks());
   shares_.change_motor(wheel, m.count.counts() != counted);
@@ -180,6 +185,7 @@ bool AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycl
 }
 
 bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
+  motors_.note_command();
   AgendaMotor& m = motors_.bring(wheel, at);
   const bool counted = m.count.counts();
   const bool fine = m.fire(at, motors_.stepper(wheel));
@@ -191,6 +197,7 @@ bool AgendaTimer::run_motor(Wheel wheel, Cycle at) {
 }
 
 Stepper& AgendaTimer::stepper(Wheel wheel, Cycle at) {
+  motors_.note_command();
   motors_.bring(wheel, at).disturb();  // the caller may write pins
   note(Command::Pins, at);
   return motors_.stepper(wheel);
@@ -247,6 +254,7 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
       return node.function;
     }
     const Wheel wheel = AgendaList::wheel_of(node.kind);
+    motors_.note_command();
     divided_by_zero = !motors_.of(wheel).fire(ticks_.line().cycle_of(tick), motors_.stepper(wheel));
     count.counter = 0;
     if (divided_by_zero) return nullptr;
@@ -307,6 +315,7 @@ void AgendaTimer::release(Cycle at) {
 }
 
 void AgendaTimer::lose(std::int64_t ticks) {
+  motors_.note_command();
   ticks_.lose(ticks);
   motors_.disturb();
 }

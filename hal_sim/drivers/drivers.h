@@ -46,6 +46,7 @@ class Drivers final : public board::PinDriver {
   board::RotorCourse motor_course(Wheel wheel, Cycle at) const override {
     return agendas_.motors().course(wheel, at);
   }
+  std::uint64_t motor_commands() const override { return agendas_.motors().commands(); }
   std::optional<double> coil_duty(Wheel wheel) const override;
   unsigned pulses(Cycle at) const override { return scan_.pulses(at); }
   Cycle pulses_horizon(Cycle at) const override { return scan_.pulses_horizon(at); }

@@ -60,7 +60,6 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   tell_asked(now_);
   if (runner_->turns() != turns_) {
     turns_ = runner_->turns();
-    course_.until = 0;
     if (!runner_->hashes_events()) hash_ = board_.state_hash(now_) ^ runner_->hash() * 0xD6E8FEB86659FD93u;
   }
   set_idle_until(find_idle_until());
@@ -79,7 +78,11 @@ void FirmwareMind::press_key(const board::KeyPress& key) {
 }
 
 sim::WheelCourse FirmwareMind::wheel_course(sim::Clicks at) {
-  if (at >= course_.until) course_ = course_at(at);
+  const std::uint64_t commands = board_.motors().commands();
+  if (at >= course_.until || commands != commands_) {
+    course_ = course_at(at);
+    commands_ = commands;
+  }
   return course_;
 }
 

@@ -89,6 +89,7 @@ class FirmwareMind final : public sim::RobotMind {
   Cycle board_horizon_ = 0;
   std::uint64_t hash_ = 0, turns_ = 0;  // of the robot, when they were made
   sim::WheelCourse course_;
+  std::uint64_t commands_ = 0;  // of its motors, when it was made
   board::Board board_;
   std::unique_ptr<Runner> runner_;  // uses the board to its end
 };

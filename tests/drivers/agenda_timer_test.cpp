@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <random>
 
 #include "tests/drivers/ticked_agenda.h"
@@ -323,6 +324,7 @@ class Twin {
     }
   }
   std::size_t callbacks() const { return closed_log_.size(); }
+  int foreseen() const { return foreseen_; }
 
  private:
   struct Script {
@@ -465,6 +467,20 @@ class Twin {
       ASSERT_EQ(static_cast<std::int16_t>(closed_.motors().commanded_steps(wheel, now_)), want.steps)
           << "cycle " << now_;
       ASSERT_EQ(got.position(now_), want.stepper.position(now_)) << "cycle " << now_;
+      compare_course(wheel, got.position(now_));
+    }
+    commands_ = closed_.motors().commands();
+  }
+
+  /// A course that was told before still holds, unless it is over or a motor was commanded.
+  void compare_course(Wheel wheel, double position) {
+    Told& told = told_[static_cast<int>(wheel)];
+    if (closed_.motors().commands() == commands_ && now_ < told.course.until) {
+      ASSERT_NEAR(told.course.steps + told.course.rate * static_cast<double>(now_ - told.at), position, 1e-6)
+          << "cycle " << now_ << ", told at " << told.at;
+      foreseen_ += now_ > told.at;
+    } else {
+      told = {closed_.motors().course(wheel, now_), now_};
     }
   }
 
@@ -473,22 +489,88 @@ class Twin {
   AgendaTimer closed_{motors_.left, motors_.right};
   ticked::Agendas ticked_;
   std::vector<Call> closed_log_, ticked_log_;
+  struct Told {
+    board::RotorCourse course;
+    Cycle at = 0;
+  } told_[2];
+  std::uint64_t commands_ = 0;
+  int foreseen_ = 0;
   Cycle now_ = 0;
   bool trapped_ = false;
 };
 
 TEST(Agendas, closed_form_equals_the_ticked_yardstick) {
   std::size_t callbacks = 0;
+  int foreseen = 0;
   for (unsigned seed = 1; seed <= 3000; ++seed) {
     Twin twin(seed);
     twin.run(60);
     callbacks += twin.callbacks();
+    foreseen += twin.foreseen();
     if (HasFailure()) {
       std::printf("seed %u\n", seed);
       return;
     }
   }
   EXPECT_GT(callbacks, 100000u);  // the random programs do exercise the handler
+  EXPECT_GT(foreseen, 10000);     // ... and courses that go on
+}
+
+TEST(Agendas, each_command_makes_what_was_told_of_a_motor_old) {
+  OwnMotors motors;
+  AgendaTimer timer(motors.left, motors.right);
+  timer.name_motor(Wheel::Left, &left_motor);
+  const std::pair<const char*, std::function<void()>> commands[] = {
+      {"activate", [&] { timer.activate(&left_motor, 0, 0); }},
+      {"start", [&] { timer.start(0); }},
+      {"set_speed", [&] { timer.set_speed(Wheel::Left, 300, kTick); }},
+      {"pause", [&] { timer.pause(&left_motor, 50 * kTick); }},
+      {"restart", [&] { timer.restart(&left_motor, 51 * kTick); }},
+      {"set_cycle", [&] { timer.set_cycle(&left_motor, 7, 52 * kTick); }},
+      {"reset_count", [&] { timer.reset_count(&left_motor, 53 * kTick); }},
+      {"run_motor", [&] { timer.run_motor(Wheel::Left, 54 * kTick); }},
+      {"pins", [&] { timer.stepper(Wheel::Left, 55 * kTick); }},
+      {"set_speed 0", [&] { timer.set_speed(Wheel::Left, 0, 56 * kTick); }},
+      {"set_cycle at speed 0", [&] { timer.set_cycle(&left_motor, 4, 57 * kTick); }},
+      {"a step at speed 0, by the handler",
+       [&] {
+         const Cycle at = timer.ticks().next_interrupt();
+         ASSERT_LT(at, 70 * kTick);
+         bool divides = false;
+         timer.begin(at);
+         EXPECT_EQ(timer.next(divides), nullptr);
+         timer.finish(at);
+       }},
+      {"stop", [&] { timer.stop(80 * kTick); }},
+      {"forget", [&] { timer.forget(81 * kTick); }},
+      {"reset", [&] { timer.reset(82 * kTick); }},
+  };
+  for (const auto& [name, command] : commands) {
+    const std::uint64_t before = timer.motors().commands();
+    command();
+    EXPECT_NE(timer.motors().commands(), before) << name;
+  }
+}
+
+TEST(Agendas, a_course_that_was_told_is_over_when_the_handler_is_held_and_let_go) {
+  OwnMotors motors;
+  AgendaTimer timer(motors.left, motors.right);
+  timer.stepper(Wheel::Left, 0).connect(true);
+  timer.name_motor(Wheel::Left, &left_motor);
+  timer.activate(&left_motor, 0, 0);
+  timer.start(0);
+  timer.set_speed(Wheel::Left, 700, 0);
+  const Cycle at = 100 * kTick;
+  EXPECT_EQ(timer.motors().course(Wheel::Left, at).until, board::kNever);
+  const std::uint64_t told = timer.motors().commands();
+  timer.hold(at);
+  EXPECT_NE(timer.motors().commands(), told);
+  EXPECT_EQ(timer.motors().course(Wheel::Left, at + kTick).until, at + kTick);
+  timer.release(at + kTick / 2);  // no tick came meanwhile
+  EXPECT_EQ(timer.motors().commands(), told);
+  timer.hold(at + kTick);
+  timer.release(at + 10 * kTick);  // nine came, one of which is made up for
+  EXPECT_NE(timer.motors().commands(), told);
 }
 
 }  // namespace
