@@ -22,7 +22,7 @@ bool is_done(Cpu& cpu, unsigned index, Cycle at, bool again, HostResult& result)
 }
 
 // goes by what handlers take from now on, `ahead` cycles from now, unless it stops before its next instruction
-void follow_changed_host(Cpu& cpu, Cycle ahead) {
+__attribute__((noinline)) void follow_changed_host(Cpu& cpu, Cycle ahead) {
   // it stops anyway, or flags of handlers are to be followed
   if (cpu.deadline <= cpu.now || cpu.host_is_held || cpu.parts.interrupts.writes() != cpu.writes_seen) {
     cpu.deadline = 0;
@@ -105,7 +105,8 @@ std::array<Decoded, kHostPlaces> make_places() {
 const std::array<Decoded, kHostPlaces> host_places = make_places();
 
 // the function waits, or there is none: the program stands at it, with the address that it returns to
-static const Decoded* stand_in_host(Cpu& cpu, const Decoded* d, Cycle at, Cycle until) {
+__attribute__((noinline)) static const Decoded* stand_in_host(Cpu& cpu, const Decoded* d, Cycle at,
+                                                              Cycle until) {
   const unsigned place = kHostStart + 2 * static_cast<unsigned>(d->imm);
   if (cpu.host_stale) cpu.deadline = 0;
   cpu.push_address(cpu.address_of(d) + 2u * d->b);

@@ -254,7 +254,8 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     const unsigned bit = 1u << h;
     ByHeart& handler = by_heart_[h];
     // events that came while it was held off set its flag
-    if ((held_ & bit) && raise_held(h)) {
+    const bool has_come = handler.source <= cpu.now || handler.missed_at > 0;
+    if ((held_ & bit) && has_come && raise_held(h)) {
       raised = true;
       state = handlers(next_vector);
     }

@@ -71,8 +71,12 @@ void HostLibrary::begin(Cycle at) {
 // --- calls
 
 HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
-  if (index == static_cast<unsigned>(HostFunction::e_get_prox) && is_right_reading(cpu, index))
-    return e_get_prox({cpu, index, at, again});
+  if (index == static_cast<unsigned>(HostFunction::e_get_prox) && is_right_reading(cpu, index) &&
+      !cpu.watching) {
+    cpu.w[0] = static_cast<std::uint16_t>(
+        variables_.dark_less_lit(cpu.w[0], at + cycles_.prox_dark, at + cycles_.prox_lit));
+    return HostResult::done(cycles_.prox);
+  }
   if (index >= kHostFunctionCount) return {};
   if (watch_ && !again && !is_right_reading(cpu, index)) watch_->called(static_cast<HostFunction>(index));
   return (this->*kMethods[index])({cpu, index, at, again});

@@ -112,10 +112,14 @@ IrConversion IrCircuit::conversion(int sensor, Cycle at, Cycle lit_for) const {
 
 // --- samples
 
+int IrCircuit::counts_in_dark(int sensor, Cycle at, Cycle lit_for) const {
+  return adc_counts(kAdcMax - reflected_counts(sensor, at, lit_for));
+}
+
 int IrCircuit::counts(int sensor, Cycle at, Cycle lit_for) const {
   if (robot_.damage()) return damaged_counts(sensor, at, lit_for);
   const bool lit = lit_for >= 0;
-  if (is_dark()) return lit ? adc_counts(kAdcMax - reflected_counts(sensor, at, lit_for)) : kAdcMax;
+  if (is_dark()) return lit ? counts_in_dark(sensor, at, lit_for) : kAdcMax;
   const double light = light_counts(sensor, at) + ambient_noise(sensor, at, lit);
   return adc_counts(kAdcMax - light - (lit ? reflected_counts(sensor, at, lit_for) : 0));
 }

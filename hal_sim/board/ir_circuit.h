@@ -62,6 +62,8 @@ class IrCircuit {
   // --- samples; `lit_for` cycles for which the emitter has been on, negative: it is off
   /// Counts of a sensor's phototransistor that is held at `at`, noise (noise.h) and damage included.
   int counts(int sensor, Cycle at, Cycle lit_for) const;
+  /// The same of a lit sample while is_dark().
+  int counts_in_dark(int sensor, Cycle at, Cycle lit_for) const;
   /// The same sample without noise: what a conversion is made of.
   IrConversion conversion(int sensor, Cycle at, Cycle lit_for) const;
   /// Dark minus lit of a noise-free pair taken at `at`.

@@ -175,16 +175,21 @@ void AdcScan::keep(Sample& kept, int sensor, std::int64_t number, bool lit_sampl
   kept.number = static_cast<std::int32_t>(number);
 }
 
-inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
-  if (at < kept.until) return kept.counts;
-  if (!kept.is_regular || clock_.held_since >= 0) return read_anew(kept, sensor, at, lit_sample);
+/// On to the newest sample at `at` of one that is regular and over. Returns when it was held.
+inline Cycle AdcScan::turn_to(Sample& kept, int sensor, Cycle at) const {
   // whole turns take whole cycles: the new sample's frame ends a turn before the next one's
   const Cycle turn = pairs_ * clock_.run.round;
   const std::int64_t turns = 1 + quotient(at - kept.until, turn);
   kept.until += turns * turn;
   kept.number += static_cast<std::int32_t>(turns * pairs_);
+  return kept.until - turn - kScanFileCycles - hold_to_end(sensor);
+}
+
+inline int AdcScan::read(Sample& kept, int sensor, Cycle at, bool lit_sample) {
+  if (at < kept.until) return kept.counts;
+  if (!kept.is_regular || clock_.held_since >= 0) return read_anew(kept, sensor, at, lit_sample);
+  const Cycle held = turn_to(kept, sensor, at);
   if (sensor >= kRingSensors) return kept.counts;
-  const Cycle held = kept.until - turn - kScanFileCycles - hold_to_end(sensor);
   kept.counts =
       static_cast<std::int16_t>(ir_.counts(sensor, held, lit_sample ? scan_flash_cycles(sensor) : -1));
   return kept.counts;
@@ -221,8 +226,17 @@ int AdcScan::lit(int sensor, Cycle at) {
 }
 
 int AdcScan::dark_less_lit(int sensor, Cycle dark_at, Cycle lit_at) {
-  const int dark = stays_dark(sensor) ? kAdcMax : this->dark(sensor, dark_at);
-  return dark - read(lit_[static_cast<std::size_t>(sensor)], sensor, lit_at, true);
+  Sample& kept = lit_[static_cast<std::size_t>(sensor)];
+  if (!stays_dark(sensor)) {
+    const int dark = this->dark(sensor, dark_at);
+    return dark - read(kept, sensor, lit_at, true);
+  }
+  if (lit_at >= kept.until) {
+    if (!kept.is_regular) return kAdcMax - read_anew(kept, sensor, lit_at, true);
+    const Cycle held = turn_to(kept, sensor, lit_at);
+    kept.counts = static_cast<std::int16_t>(ir_.counts_in_dark(sensor, held, scan_flash_cycles(sensor)));
+  }
+  return kAdcMax - kept.counts;
 }
 
 AdcScan::Pair AdcScan::pair(int sensor, Cycle at) {

@@ -128,6 +128,7 @@ class AdcScan {
   /// When the next sample is filed of `slot` and `pair`, after `filed` interrupts; kNever when none will.
   Cycle next_sample(std::int64_t filed, int slot, int shift, int pair) const;
   int evaluate(int sensor, std::int64_t period, bool lit_sample) const;
+  Cycle turn_to(Sample& kept, int sensor, Cycle at) const;
   int read(Sample& kept, int sensor, Cycle at, bool lit_sample);
   int read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample);
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;

@@ -95,7 +95,8 @@ class AgendaTicks {
   /// Ticks behind tick `done` that have come by `at`.
   std::int64_t came(std::int64_t done, Cycle at) const {
     const Cycle since = at - (line_.origin + done * kAgendaTickCycles);
-    return since / kAgendaTickCycles - (since % kAgendaTickCycles < 0 ? 1 : 0);
+    if (since >= 0) return static_cast<std::int64_t>(static_cast<std::uint64_t>(since) / kAgendaTickCycles);
+    return -((kAgendaTickCycles - 1 - since) / kAgendaTickCycles);
   }
   /// Ticks that never come; below 0: more than come by themselves.
   void lose(std::int64_t ticks) {
