@@ -3,7 +3,6 @@
 // what began is published and hashed, messages pass. Ticks in which nothing is due are passed over.
 #include "sim_core/simulation.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 
@@ -140,16 +139,15 @@ void Simulation::run_until(Clicks at) {
 
 /// Works out up to when nothing is due for each robot; returns the first of these instants.
 Clicks Simulation::find_horizons() {
-  using Instants = Eigen::Array<Clicks, Eigen::Dynamic, 1>;
-  const auto n = static_cast<Eigen::Index>(minds_.size());
-  const auto array = [n](const std::vector<Clicks>& v) { return Eigen::Map<const Instants>(v.data(), n); };
-  if (n == 0) return kEver;
-  Eigen::Map<Instants> horizons(horizons_.data(), n);
-  horizons = (array(idle_until_) - 1)
-                 .min(array(rims_until_))
-                 .min(array(motion_->leg_until()))
-                 .min(array(motion_->free_until()));
-  return horizons.minCoeff();
+  const Clicks* const leg_until = motion_->leg_until().data();
+  const Clicks* const free_until = motion_->free_until().data();
+  Clicks first = kEver;
+  for (std::size_t r = 0; r < horizons_.size(); ++r) {
+    const Clicks of_mind = std::min(idle_until_[r] - 1, rims_until_[r]);
+    horizons_[r] = std::min(of_mind, std::min(leg_until[r], free_until[r]));
+    first = std::min(first, horizons_[r]);
+  }
+  return first;
 }
 
 /// End of the first tick in which something is due, or that of `at`; nobody who sees every tick misses one.

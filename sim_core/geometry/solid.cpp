@@ -390,21 +390,6 @@ bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double
   return false;
 }
 
-bool is_beyond(Vec2 point, double reach_m, const Placed& what) {
-  const Vec2 gap = what.frame.at - point;
-  const double far = reach_m + what.solid->bound_m;
-  if (dot(gap, gap) > far * far) return true;
-  if (what.solid->kind != SolidKind::Prism) return false;
-  const Vec2 p = what.frame.to_local(point);
-  if (what.solid->is_box()) {
-    const Vec2 outside = outside_of_box(p, what.solid->half_m);
-    return outside.x > reach_m || outside.y > reach_m;
-  }
-  for (const HalfPlane& side : what.solid->sides)
-    if (dot(side.normal, p) - side.offset_m > reach_m) return true;
-  return false;
-}
-
 Placed placed_at(const Solid& solid, const Pose2& pose, double z_m) {
   Placed out{&solid, Frame2(), z_m};
   if (solid.kind == SolidKind::Prism)

@@ -96,9 +96,6 @@ bool cast_fan(const Fan& fan, const Placed& what, double factor, RayEnd* ends, b
 /// (sine and cosine of the half angle) of the axis. Sure when true; when false, cast.
 bool out_of_sight(Vec2 from, Vec2 axis, double half_sin, double half_cos, double range_m, const Placed& what);
 
-/// True when all of the solid's footprint lies further than `reach_m` from a point. Sure when true.
-bool is_beyond(Vec2 point, double reach_m, const Placed& what);
-
 /// Distance in the plane from a point to the solid's footprint, m; negative inside. `toward`, if given, gets
 /// the unit vector from the solid's nearest point towards the point.
 double plan_distance_m(Vec2 point, const Placed& what, Vec2* toward = nullptr);

@@ -78,12 +78,10 @@ void look_around(const Scene& scene, int robot, Surroundings& s) {
   s.frame = Frame2(scene.pose(robot, s.at));
   s.items.clear();
   const bool is_tilting = scene.layout().ground.has_ramps();
-  const double reach = scene.optics()->robots[static_cast<std::size_t>(robot)].reach_m;
+  // who stands beyond the rays' reach after all is passed over by each sensor's bundle
   const auto add = [&](const Candidate& c, const Placed& placed) {
-    if (is_beyond(s.frame.at, reach, placed)) return;
-    Surroundings::Item& item =
-        s.items.emplace_back(Surroundings::Item{placed, &surface_of(scene.layout(), c)});
-    if (!is_tilting) item.placed.frame = s.frame.to_local(placed.frame);
+    s.items.push_back({{placed.solid, is_tilting ? placed.frame : s.frame.to_local(placed.frame), placed.z_m},
+                       &surface_of(scene.layout(), c)});
   };
   const Neighbours& near = scene.neighbours();
   for (const Candidate *c = near.begin(robot), *end = near.end(robot); c != end; ++c) {
@@ -104,9 +102,15 @@ struct Kept {
   std::array<Surroundings, 4> instants;
 };
 
+// a function of its own: asking for the thread's own place takes longer than a call
+__attribute__((noinline)) Kept& kept_by_thread() {
+  thread_local Kept kept;
+  return kept;
+}
+
 /// `at` of a whole quantum.
 const Surroundings& surroundings(const Scene& scene, int robot, Clicks at) {
-  thread_local Kept kept;
+  Kept& kept = kept_by_thread();
   const std::uint64_t optics = scene.optics()->serial;
   if (kept.robot == robot && kept.version == scene.version() && kept.optics == optics) {
     for (std::size_t i = 0; i < kept.at.size(); ++i)
@@ -222,14 +226,14 @@ ProximityResponse respond(const SensorOptics& s, const RayEnd* ends) {
   ProximityResponse out;
   out.apparent_distance_m = factor > 0 ? distance / factor : s.config.max_range_m();
   out.uniform_noise = s.config.noise_law == NoiseLaw::Uniform;
+  const bool is_single = s.config.rays_answer_singly, is_noisy = s.config.noise_scale > 0;
+  if (is_single) out.value = answer_singly(s, ends);
+  if (is_single && !is_noisy) return out;
   const ResponseRow row = s.curve.at(out.apparent_distance_m);
-  out.value = row.value;
-  out.relative_noise = row.relative_noise * s.config.noise_scale;
-  if (s.config.rays_answer_singly) {
-    out.value = answer_singly(s, ends);
-    const double absolute = row.relative_noise * row.value;  // Enki's noise is in counts
-    out.relative_noise = out.value > 0 ? absolute * s.config.noise_scale / out.value : 0;
-  }
+  if (!is_single) out.value = row.value;
+  const double of_row = row.relative_noise * s.config.noise_scale;
+  // Enki's noise is in counts
+  out.relative_noise = !is_single ? of_row : out.value > 0 ? of_row * row.value / out.value : 0;
   return out;
 }
 
