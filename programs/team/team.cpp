@@ -119,8 +119,11 @@ void Team::take_turns() {
     for (const auto& member : members_)
       if (member->partner && (!member->has_said_hello || member->body->is_due(now)))
         due.push_back(member.get());
-    for (Member* member : due)
-      if (member->has_said_hello) hand_over_samples(*member);
+    bool is_as_it_will_be = true;  // until a supervisor that may change the world comes before
+    for (Member* member : due) {
+      if (member->has_said_hello) hand_over_samples(*member, is_as_it_will_be);
+      is_as_it_will_be = is_as_it_will_be && !member->is_supervisor;
+    }
     // Each in turn commands what it likes, up to its next step.
     for (Member* member : due) {
       if (outcome_.ended) return;  // the others have their last go in finish()
@@ -156,6 +159,7 @@ void Team::begin(Member& member) {
   member.has_said_hello = member.is_over = member.is_waiting = member.is_told_end = false;
   member.text.clear();
   member.place = {};
+  nodes_->forget_followed(number_of(member));
   if (member.of_robot) {
     member.began = member.of_robot->began();
     member.launch = *twin_.launch(member.robot);  // may have been built anew
@@ -181,7 +185,7 @@ void Team::begin(Member& member) {
   };
 }
 
-void Team::hand_over_samples(Member& member) {
+void Team::hand_over_samples(Member& member, bool with_followed) {
   link_clear(&packet_);
   const std::int64_t passed = member.body->take_samples(packet_);
   if (member.has_new_custom) {
@@ -190,6 +194,7 @@ void Team::hand_over_samples(Member& member) {
     link_end(&packet_);
     member.has_new_custom = false;
   }
+  if (with_followed) nodes_->tell_followed(number_of(member), packet_);
   done(member, passed);
 }
 
@@ -384,6 +389,7 @@ void Team::step(Member& member, std::int64_t milliseconds) {
     return member.body->begin_step(milliseconds);
   }
   link_clear(&packet_);
+  nodes_->tell_followed(number_of(member), packet_);
   done(member, 0);
 }
 

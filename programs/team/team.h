@@ -97,7 +97,7 @@ class Team final : public sim::Attendant, private SupervisorHost {
   bool is_to_begin(const Member& member) const;
   void begin(Member& member);
   void take_turns();
-  void hand_over_samples(Member& member);
+  void hand_over_samples(Member& member, bool with_followed);
   void done(Member& member, std::int64_t passed_ms);
   void tell_end(Member& member);
   void reply(Member& member);

@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "programs/world/bodies.h"
@@ -56,7 +58,18 @@ struct Nodes::Inside {
     enum class Of { Tree, Robot, Colour } of;
   };
 
+  /// What comes with the steps of a program.
+  struct Followed {
+    int node;
+    std::int64_t field;  // 0: of the node itself
+    int what;
+    bool operator==(const Followed& other) const {
+      return node == other.node && field == other.field && what == other.what;
+    }
+  };
+
   SupervisorHost& host;
+  std::map<int, std::vector<Followed>> followed;  // by program
   std::optional<Bodies> its_bodies;
   std::map<int, int> supervisors;  // program, supervisor
   std::vector<Handle> handles;
@@ -147,46 +160,80 @@ struct Nodes::Inside {
       nothing(out, why);
   }
 
-  void ask_node(const link_record& r, link_packet& out) {
-    const int id = static_cast<int>(r.ints[0]);
-    if (!tree().has(id)) return nothing(out, fmt::format("node {} is not there any more", id));
+  enum About { Position, Axes, Speed, Centre, Contacts, Pose, Balance, Fields };
+
+  std::vector<double> about_node(int id, std::int64_t what) {
     const wbt::Affine at = bodies().pose(id);
     const Eigen::Matrix<double, 4, 4, Eigen::RowMajor> rows = at.matrix();
     std::vector<double> values;
-    int count = -1;
-    // Questions: place, axes, velocity, centre of mass, points of contact, the whole pose, whether it stands
-    // firm, how many fields.
-    switch (r.ints[1]) {
-      case 0:
-        values = {at.translation().begin(), at.translation().end()};
-        break;
-      case 1:
+    switch (what) {
+      case Position:
+        return {at.translation().begin(), at.translation().end()};
+      case Axes:
         for (int i = 0; i < 9; ++i) values.push_back(rows(i / 3, i % 3));
-        break;
-      case 2:
-        values = bodies().velocity(id);
-        break;
-      case 3: {
+        return values;
+      case Speed:
+        return bodies().velocity(id);
+      case Centre: {
         const wbt::Vec3 centre = bodies().centre_of_mass(id);
-        values = {centre.begin(), centre.end()};
-        break;
+        return {centre.begin(), centre.end()};
       }
-      case 4:
-        count = 0;
-        break;
-      case 5:
-        values.assign(rows.data(), rows.data() + rows.size());
-        break;
-      case 6:
-        values = {1};
-        break;
-      case 7:
-        values = {static_cast<double>(tree().node(id).values.size())};
-        break;
+      case Pose:
+        return {rows.data(), rows.data() + rows.size()};
+      case Balance:
+        return {1};
+      case Fields:
+        return {static_cast<double>(tree().node(id).values.size())};
       default:
-        return nothing(out, fmt::format("got question {} about a node, expected 0 to 7", r.ints[1]));
+        return {};  // no points of contact
     }
-    tell_value(out, count, 0, values, "");
+  }
+
+  void ask_node(const link_record& r, link_packet& out) {
+    const int id = static_cast<int>(r.ints[0]);
+    if (!tree().has(id)) return nothing(out, fmt::format("node {} is not there any more", id));
+    if (r.ints[1] < Position || r.ints[1] > Fields)
+      return nothing(out, fmt::format("got question {} about a node, expected 0 to 7", r.ints[1]));
+    tell_value(out, r.ints[1] == Contacts ? 0 : -1, 0, about_node(id, r.ints[1]), "");
+  }
+
+  // --- what programs follow
+
+  void follow(const link_record& r, int program) {
+    constexpr std::size_t kMostFollowed = 4096;
+    const Followed one{static_cast<int>(r.ints[0]), r.ints[1], static_cast<int>(r.ints[2])};
+    const Handle* const h = one.field == 0 ? nullptr : handle(one.field);
+    const bool is_known = one.field == 0 ? one.what >= Position && one.what <= Pose && one.what != Contacts
+                                         : h && is_place(h->name);
+    if (!is_known || !tree().has(one.node))
+      return warn(program,
+                  fmt::format("got FOLLOW of node {}, field {}, what {}, expected a place or a question "
+                              "about a place",
+                              r.ints[0], r.ints[1], r.ints[2]));
+    std::vector<Followed>& of_program = followed[program];
+    const auto found = std::find(of_program.begin(), of_program.end(), one);
+    if (r.ints[3] == 0 && found != of_program.end()) of_program.erase(found);
+    if (r.ints[3] != 0 && found == of_program.end() && of_program.size() < kMostFollowed)
+      of_program.push_back(one);
+  }
+
+  void tell_followed(int program, link_packet& out) {
+    for (const Followed& one : followed[program]) {
+      std::vector<double> numbers;
+      if (one.field == 0 && tree().has(one.node)) {
+        numbers = about_node(one.node, one.what);
+      } else if (const Handle* h = handle(one.field)) {
+        Value v;
+        if (read(*h, v).empty()) numbers = std::move(v.numbers);
+      }
+      if (numbers.empty()) continue;
+      link_begin(&out, LINK_FOLLOWED);
+      link_int(&out, one.node);
+      link_int(&out, one.field);
+      link_int(&out, one.what);
+      link_numbers(&out, numbers.data(), numbers.size());
+      link_end(&out);
+    }
   }
 
   static void tell_value(link_packet& out, int count, int node, const std::vector<double>& values,
@@ -592,6 +639,9 @@ void Nodes::answer(const link_record& question, int program, int robot, link_pac
   }
 }
 
+void Nodes::tell_followed(int program, link_packet& out) { inside_->tell_followed(program, out); }
+void Nodes::forget_followed(int program) { inside_->followed.erase(program); }
+
 void Nodes::carry_out(const link_record& command, int program, int) {
   switch (command.number) {
     case LINK_SET:
@@ -604,6 +654,8 @@ void Nodes::carry_out(const link_record& command, int program, int) {
       return inside_->do_node(command, program);
     case LINK_DO_WORLD:
       return inside_->do_world(command, program);
+    case LINK_FOLLOW:
+      return inside_->follow(command, program);
     default:
       break;
   }

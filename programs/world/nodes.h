@@ -52,8 +52,12 @@ class Nodes {
   /// `program`: number of the asking program; `robot`: the robot whose node is its own, -1: a supervisor
   /// without a body.
   void answer(const link_record& question, int program, int robot, link_packet& answer);
-  /// Carries out SET, INSERT, REMOVE, DO_NODE, DO_WORLD.
+  /// Carries out SET, INSERT, REMOVE, DO_NODE, DO_WORLD, FOLLOW.
   void carry_out(const link_record& command, int program, int robot);
+  /// Adds FOLLOWED for all that the program follows and that is there, as an answer would tell it now.
+  void tell_followed(int program, link_packet& out);
+  /// The program has ended, or begins anew: it follows nothing.
+  void forget_followed(int program);
 
  private:
   struct Inside;

@@ -88,6 +88,93 @@ TEST(ControllerSupervisor, a_node_is_one_reference) {
   EXPECT_EQ(sim.errors(), "") << "whether there is a node is a question";
 }
 
+TEST(ControllerSupervisor, what_is_asked_for_step_after_step_comes_with_the_steps) {
+  Simulator sim([] {
+    WbNodeRef ball = wb_supervisor_node_get_from_def("BALL");
+    WbFieldRef place = wb_supervisor_node_get_field(ball, "translation");
+    WbFieldRef level = wb_supervisor_node_get_field(ball, "variable:level");
+    for (int step = 0; step < 4; ++step) {
+      printf("%g ", wb_supervisor_field_get_sf_vec3f(place)[1]);
+      printf("%g ", wb_supervisor_node_get_velocity(ball)[5]);
+      wb_robot_step(32);
+    }
+    // what is written of firmware leaves places as they are, but not what is read of it
+    printf("%g ", wb_supervisor_field_get_sf_float(level));
+    wb_supervisor_field_set_sf_float(level, 7);
+    wb_supervisor_set_label(0, "a", 0, 0, 0.1, 0, 0, "Arial");
+    printf("%g ", wb_supervisor_field_get_sf_vec3f(place)[1]);
+    printf("%g ", wb_supervisor_field_get_sf_float(level));
+    // a place that is written does not
+    const double to[3] = {1, 50, 3};
+    wb_supervisor_field_set_sf_vec3f(place, to);
+    printf("%g ", wb_supervisor_field_get_sf_vec3f(place)[1]);
+    for (int step = 0; step < 5; ++step) wb_robot_step(32);
+  });
+  sim.welcome(supervised());
+  asked(sim, LINK_FIND_NODE);
+  give_node(sim, 3);
+  asked(sim, LINK_FIND_FIELD);
+  give_field(sim, 8, WB_SF_VEC3F, -1, "translation");
+  asked(sim, LINK_FIND_FIELD);
+  give_field(sim, 9, WB_SF_FLOAT, -1, "variable:level");
+  std::int64_t now = 0;
+  const auto step = [&](double y, double spin, bool is_followed) {
+    Packet samples;
+    if (is_followed) {
+      samples.add(LINK_FOLLOWED, 3, 8, 0, std::vector<double>{0, y, 0});
+      samples.add(LINK_FOLLOWED, 3, 0, 2, std::vector<double>{0, 0, 0, 0, 0, spin});
+    }
+    sim.done(now += 32000000, samples);
+  };
+  // asked for once, and in the next step again
+  for (int i = 0; i < 2; ++i) {
+    for (const bool of_node : {false, true}) {
+      const auto said = sim.next();
+      ASSERT_EQ(said.size(), i == 0 ? 1u : 2u);
+      EXPECT_EQ(said.back().number, of_node ? LINK_ASK_NODE : LINK_GET);
+      if (i == 1) {
+        EXPECT_EQ(said[0].number, LINK_FOLLOW);
+        EXPECT_EQ(said[0].ints, (std::vector<std::int64_t>{3, of_node ? 0 : 8, of_node ? 2 : 0, 1}));
+      }
+      give(sim, of_node ? std::vector<double>{0, 0, 0, 0, 0, 20.0 + i} : std::vector<double>{0, 10.0 + i, 0});
+    }
+    EXPECT_TRUE(sim.until_step().empty());
+    step(12 + i, 22 + i, i == 1);
+  }
+  EXPECT_TRUE(sim.until_step().empty()) << "nothing is asked for";
+  step(14, 24, true);
+  EXPECT_TRUE(sim.until_step().empty());
+  step(15, 25, true);
+  asked(sim, LINK_GET);
+  give(sim, {1});
+  const auto again = sim.next();
+  ASSERT_EQ(again.size(), 3u);
+  EXPECT_EQ(again[0].number, LINK_SET);
+  EXPECT_EQ(again[1].number, LINK_DO_WORLD);
+  EXPECT_EQ(again[2].number, LINK_GET);
+  EXPECT_EQ(again[2].ints, (std::vector<std::int64_t>{9, 0}));
+  give(sim, {7});
+  const auto placed = sim.next();
+  ASSERT_EQ(placed.size(), 2u);
+  EXPECT_EQ(placed[1].ints, (std::vector<std::int64_t>{8, 0}));
+  give(sim, {1, 50, 3});
+  // nobody asks for them any more
+  std::vector<Record> ends;
+  for (int i = 0; i < 5; ++i) {
+    for (const Record& r : sim.until_step()) ends.push_back(r);
+    step(16, 26, ends.empty());
+  }
+  ASSERT_EQ(ends.size(), 2u);
+  for (const Record& r : ends) {
+    EXPECT_EQ(r.number, LINK_FOLLOW);
+    EXPECT_EQ(r.ints[0], 3);
+    EXPECT_EQ(r.ints[3], 0);
+  }
+  EXPECT_EQ(sim.wait(), 0);
+  EXPECT_EQ(sim.output(), "10 20 11 21 13 23 14 24 1 15 7 50 ");
+  EXPECT_EQ(sim.errors(), "");
+}
+
 TEST(ControllerSupervisor, a_position_is_asked_once_until_the_world_may_have_changed) {
   Simulator sim([] {
     WbNodeRef ball = wb_supervisor_node_get_self();

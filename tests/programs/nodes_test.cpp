@@ -101,6 +101,60 @@ TEST_F(NodesTest, what_is_not_there_is_nothing_with_a_reason) {
   expect(get(def("A"), "translation").numbers, {0.5, 0.25, 0}, 1e-3);
 }
 
+TEST_F(NodesTest, what_a_program_follows_is_told_as_it_is_now) {
+  open(kOurs);
+  const int a = def("A"), place = field(a, "translation");
+  const auto followed = [&](int program) {
+    std::vector<std::vector<double>> all;
+    link_packet out{};
+    nodes_->tell_followed(program, out);
+    link_reader reader;
+    link_record r;
+    link_read(&reader, out.bytes, out.size);
+    while (link_next(&reader, &r)) {
+      EXPECT_EQ(r.number, LINK_FOLLOWED);
+      all.push_back(
+          {static_cast<double>(r.ints[0]), static_cast<double>(r.ints[1]), static_cast<double>(r.ints[2])});
+      all.back().insert(all.back().end(), r.lists[0].values, r.lists[0].values + r.lists[0].count);
+    }
+    link_free(&out);
+    return all;
+  };
+  EXPECT_TRUE(followed(0).empty());
+  for (const int what : {0, 2}) command(LINK_FOLLOW, {{a, 0, what, 1}, {}, ""});
+  for (int i = 0; i < 2; ++i) command(LINK_FOLLOW, {{a, place, 0, 1}, {}, ""});  // once is enough
+  set(a, "translation", {-0.2, -0.3, 0});
+  const auto all = followed(0);
+  ASSERT_EQ(all.size(), 3u);
+  const auto numbers_of = [&](std::size_t i) {
+    return std::vector<double>(all[i].begin() + 3, all[i].end());
+  };
+  EXPECT_EQ(numbers_of(0), position(a));
+  EXPECT_EQ(numbers_of(1), ask(LINK_ASK_NODE, {{a, 2}, {}, ""}).numbers);
+  EXPECT_EQ(numbers_of(2), get(a, "translation").numbers);
+  EXPECT_EQ(all[2][1], place);
+  EXPECT_TRUE(followed(1).empty()) << "another program";
+  command(LINK_FOLLOW, {{a, 0, 2, 0}, {}, ""});
+  EXPECT_EQ(followed(0).size(), 2u);
+  nodes_->forget_followed(0);
+  EXPECT_TRUE(followed(0).empty());
+  // what may change otherwise than by a supervisor's command is not followed, nor what is not there
+  const std::size_t said = host_.said.size();
+  for (const std::vector<std::int64_t>& wrong :
+       std::vector<std::vector<std::int64_t>>{{a, 0, 4, 1},
+                                              {a, 0, 6, 1},
+                                              {a, 0, -1, 1},
+                                              {a, field(a, "customData"), 0, 1},
+                                              {a, 4711, 0, 1},
+                                              {4711, 0, 0, 1}})
+    command(LINK_FOLLOW, {wrong, {}, ""});
+  EXPECT_EQ(host_.said.size(), said + 6);
+  EXPECT_TRUE(wording::reads(
+      host_.said.back(),
+      "warn 0 got FOLLOW of node 4711, field 0, what 0, expected a place or a question about a place"));
+  EXPECT_TRUE(followed(0).empty());
+}
+
 TEST_F(NodesTest, a_robot_is_put_where_its_translation_says) {
   open(kOurs);
   const int a = def("A");

@@ -422,4 +422,57 @@ TEST_F(Supervisors, custom_data_reaches_the_robots_program) {
   EXPECT_EQ(value(robot(0), "custom_blue"), 1);
 }
 
+// what comes with the steps (FOLLOW) is what a question would be answered
+TEST_F(Supervisors, what_is_followed_is_what_is_asked) {
+  add_c("WbDeviceTag l, r;",
+        "l = wb_robot_get_device(\"left wheel motor\"); r = wb_robot_get_device(\"right wheel motor\");"
+        "wb_motor_set_position(l, INFINITY); wb_motor_set_position(r, INFINITY);"
+        "wb_motor_set_velocity(l, 3); wb_motor_set_velocity(r, 5);",
+        "", 32, "puck");
+  add_judge(R"(
+    WbNodeRef puck = wb_supervisor_node_get_from_def("puck");
+    WbFieldRef place = field("puck", "translation"), turn = field("puck", "rotation");
+    double before = 0;
+    for (int i = 0; i < 20; i++) {
+      double is[25];
+      const double *now[5];
+      wb_robot_step(i % 3 ? 32 : 48);
+      for (int fresh = 0; fresh < 2; fresh++) {
+        if (fresh) wb_supervisor_node_save_state(puck, "kept"); /* what is known is old now */
+        now[0] = wb_supervisor_field_get_sf_vec3f(place);
+        now[1] = wb_supervisor_field_get_sf_rotation(turn);
+        now[2] = wb_supervisor_node_get_position(puck);
+        now[3] = wb_supervisor_node_get_orientation(puck);
+        now[4] = wb_supervisor_node_get_velocity(puck);
+        const int counts[5] = {3, 4, 3, 9, 6};
+        double *to = is;
+        for (int k = 0; k < 5; to += counts[k++])
+          if (fresh)
+            EXPECT(memcmp(to, now[k], sizeof(double) * counts[k]) == 0);
+          else
+            memcpy(to, now[k], sizeof(double) * counts[k]);
+      }
+      EXPECT(i < 2 || is[0] != before);
+      before = is[0];
+    })");
+  expect_pass(2);
+}
+
+TEST_F(Supervisors, who_comes_second_sees_what_the_first_has_done) {
+  add_robot_with_source(kIdle);
+  add_ball();
+  add_supervisor_in_c(
+      "WbFieldRef f;",
+      "f = wb_supervisor_node_get_field(wb_supervisor_node_get_from_def(\"BALL\"), \"translation\");",
+      "double to[3] = {0.01 * steps, 0, 0.02}; wb_supervisor_field_set_sf_vec3f(f, to);", 32);
+  add_judge(R"(
+    WbFieldRef f = field("BALL", "translation");
+    for (int i = 0; i < 12; i++) {
+      wb_robot_step(32);
+      const double x = wb_supervisor_field_get_sf_vec3f(f)[0], k = x / 0.01;
+      EXPECT(fabs(k - floor(k + 0.5)) < 1e-9 && k >= i && k <= i + 2); /* put there now, and not rolled on */
+    })");
+  expect_pass(2);
+}
+
 }  // namespace

@@ -210,6 +210,9 @@ void take_sample(const struct link_record* record) {
     case LINK_RECOGNISED:
       take_recognition(record);
       return;
+    case LINK_FOLLOWED:
+      take_followed(record);
+      return;
     case LINK_CUSTOM:
       free(session.custom);
       session.custom = copy_text(record->texts[0].bytes, record->texts[0].size);

@@ -157,14 +157,27 @@ static int member(WbFieldRef field, int index, int beyond, const char* function)
   return -1;
 }
 
+/* of a robot's firmware, or a sensor that the world has given it: setting it changes no place in the world */
+static bool is_of_firmware(WbFieldRef field) { return strchr(field->name, ':') != 0; }
+
+static unsigned stamp_of(WbFieldRef field) { return session.stamp + (is_of_firmware(field) ? session.firmware : 0); }
+
+static bool is_place(WbFieldRef field) {
+  return (field->type == WB_SF_VEC3F && strcmp(field->name, "translation") == 0) ||
+         (field->type == WB_SF_ROTATION && strcmp(field->name, "rotation") == 0);
+}
+
 /* the value becomes the field's last one; false: it has none */
 static bool fetch(WbFieldRef field, WbFieldType type, int index, const char* function) {
   struct link_record answer;
   struct link_packet* out;
+  bool is_fresh;
   size_t i;
   if (!checked(field, type, function)) return false;
   if (field->type & WB_MF && (index = member(field, index, 0, function)) < 0) return false;
-  if (field->stamp == session.stamp && field->index == index) return true;
+  is_fresh = field->stamp == stamp_of(field) && field->index == index;
+  if (is_place(field)) follow(&field->followed, field->node->number, field->number, 0, is_fresh);
+  if (is_fresh) return true;
   out = command(LINK_GET);
   link_int(out, field->number);
   link_int(out, index);
@@ -177,7 +190,7 @@ static bool fetch(WbFieldRef field, WbFieldType type, int index, const char* fun
   field->value_node = (int)answer.ints[1];
   if (field->type & WB_MF) take_count(field, (int)answer.ints[0]);
   field->index = index;
-  field->stamp = session.stamp;
+  field->stamp = stamp_of(field);
   return true;
 }
 
@@ -213,7 +226,8 @@ static bool are_finite(const double* values, size_t count, const char* function)
 }
 
 static void say(int record, WbFieldRef field, int index, const double* values, size_t count, const char* text) {
-  struct link_packet* out = world_command(record);
+  struct link_packet* out = is_of_firmware(field) ? command(record) : world_command(record);
+  session.firmware++;
   link_int(out, field->number);
   link_int(out, index);
   if (record == LINK_SET) link_int(out, 0);

@@ -40,7 +40,9 @@ struct session {
   double basic_step_ms;
   double speed_unit_rad_s; /* of differential wheels */
   char *robot, *model, *project, *world, *title, *custom;
-  unsigned stamp; /* changes when the world may have changed: at a step, and at a command to the world */
+  unsigned stamp;    /* changes when the world may have changed: at a step, and at a command to the world */
+  unsigned firmware; /* changes when variables of firmware may have changed, and nothing else has */
+  unsigned steps;    /* that have ended */
   struct link_packet out;
 };
 extern struct session session;
@@ -167,11 +169,14 @@ void take_sound(const struct link_record* record);
 void take_packet(const struct link_record* record);
 void take_keys(const struct link_record* record);
 void take_playing(const struct link_record* record);
+void take_followed(const struct link_record* record);
 /* at the end of a step, once its samples have come */
 void emitters_step(void);
 void speakers_step(void);
 void old_supervisor_step(void);
 void keyboard_step(void);
+/* before a step is asked for */
+void followed_step(void);
 
 /** A key that is down, each once a step, then `none`. */
 long next_key(long none);

@@ -146,6 +146,71 @@ const char* wb_supervisor_node_get_base_type_name(WbNodeRef node) {
 }
 bool wb_supervisor_node_is_proto(WbNodeRef node) { return (void)node_known(node, "wb_supervisor_node_is_proto"), false; }
 
+/* --- what is followed */
+
+#define FOLLOWED_MOST 1000 /* at a time */
+#define FOLLOWED_UNUSED 3  /* steps without a question, after which it is no more */
+
+static struct followed* all_followed;
+static int followed_count;
+
+static void say_follow(const struct followed* one, bool on) {
+  struct link_packet* out = command(LINK_FOLLOW);
+  link_int(out, one->node);
+  link_int(out, one->field);
+  link_int(out, one->what);
+  link_int(out, on);
+  command_end();
+}
+
+void follow(struct followed* one, int node, int field, int what, bool is_fresh) {
+  if (!is_fresh && !one->is_on && one->is_used && session.steps - one->used == 1 && followed_count < FOLLOWED_MOST) {
+    one->node = node, one->field = field, one->what = what;
+    one->is_on = true;
+    one->next = all_followed;
+    all_followed = one;
+    followed_count++;
+    say_follow(one, true);
+  }
+  one->is_used = true;
+  one->used = session.steps;
+}
+
+void followed_step(void) {
+  struct followed** at = &all_followed;
+  while (*at) {
+    struct followed* one = *at;
+    if (session.steps - one->used < FOLLOWED_UNUSED) {
+      at = &one->next;
+      continue;
+    }
+    say_follow(one, false);
+    one->is_on = one->is_used = false;
+    *at = one->next;
+    followed_count--;
+  }
+}
+
+/* it is of the step's end, which has another stamp */
+void take_followed(const struct link_record* r) {
+  WbNodeRef node = node_of((int)r->ints[0]);
+  WbFieldRef field;
+  struct asked* asked;
+  size_t count = r->lists[0].count;
+  if (!node || count > NODE_NUMBERS || r->ints[2] < 0 || r->ints[2] >= ASKED) return;
+  for (field = node->fields; field && r->ints[1]; field = field->next)
+    if (field->number == r->ints[1] && count <= 4) {
+      memcpy(field->numbers, r->lists[0].values, count * sizeof(double));
+      field->index = 0;
+      field->stamp = session.stamp + 1;
+    }
+  if (r->ints[1]) return;
+  asked = &node->asked[r->ints[2]];
+  memcpy(asked->numbers, r->lists[0].values, count * sizeof(double));
+  asked->count = (int)count;
+  asked->stamp = session.stamp + 1;
+}
+
 /* --- where */
 
 static bool ask_node(WbNodeRef node, int what, struct link_record* answer, const char* function) {
@@ -165,7 +230,10 @@ static bool ask_node(WbNodeRef node, int what, struct link_record* answer, const
 static const double* numbers(WbNodeRef node, int what, int count, const char* function) {
   struct asked* a = node ? &node->asked[what] : 0;
   struct link_record answer;
-  if (a && a->stamp == session.stamp && a->count == count) return a->numbers;
+  const bool is_fresh = a && a->stamp == session.stamp && a->count == count;
+  if (a && session.supervisor && what <= ASK_POSE && what != ASK_CONTACTS)
+    follow(&a->followed, node->number, 0, what, is_fresh);
+  if (is_fresh) return a->numbers;
   if (!ask_node(node, what, &answer, function) || answer.lists[0].count != (size_t)count) return no_numbers();
   memcpy(a->numbers, answer.lists[0].values, (size_t)count * sizeof(double));
   a->count = count;

@@ -319,6 +319,7 @@ int wb_robot_step_begin(int duration) {
     WARN("wb_robot_step(): got %d ms, expected 0 or more", duration);
     duration = 0;
   }
+  followed_step();
   link_int(command(LINK_STEP), duration);
   command_end();
   session_flush();
@@ -354,6 +355,7 @@ int wb_robot_step_end(void) {
     }
   session.stepping = false;
   session.stamp++;
+  session.steps++;
   emitters_step();
   speakers_step();
   if (session.state != SESSION_RUNS) return ended();

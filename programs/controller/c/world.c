@@ -12,7 +12,8 @@ static WbSimulationMode simulation_mode = WB_SUPERVISOR_SIMULATION_MODE_FAST;
 static void do_world(int what, const double* values, size_t count, const char* text, const char* function) {
   struct link_packet* out;
   if (!may_ask_world(function)) return;
-  out = world_command(LINK_DO_WORLD);
+  /* a label or picture changes nothing that may be asked for */
+  out = what == DO_LABEL || what == DO_PICTURE || what == DO_MODE ? command(LINK_DO_WORLD) : world_command(LINK_DO_WORLD);
   link_int(out, what);
   link_numbers(out, values, count);
   link_text(out, text);

@@ -10,8 +10,19 @@
 
 #define NODE_NUMBERS 16
 
+/** What is asked for in one step and in the next is followed: it comes with the steps, until nobody asks. */
+struct followed {
+  struct followed* next; /* of all that are followed now */
+  int node, field, what; /* as FOLLOW has them */
+  unsigned used;         /* steps when it was asked for last */
+  bool is_used, is_on;
+};
+/** It is asked for; `is_fresh`: no question was needed. */
+void follow(struct followed* one, int node, int field, int what, bool is_fresh);
+
 /** An answer of ASK_NODE. */
 struct asked {
+  struct followed followed;
   unsigned stamp; /* of the session when it was asked; 0: never */
   int count;
   double numbers[NODE_NUMBERS];
@@ -52,6 +63,7 @@ struct WbFieldStructPrivate {
   WbFieldType type;
   char* name;
   unsigned count_stamp;
+  struct followed followed;
   /* the last value that was asked for */
   unsigned stamp;
   int index;
