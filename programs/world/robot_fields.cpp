@@ -13,12 +13,13 @@ namespace {
 std::string behind_colon(const std::string& name) { return name.substr(name.find(':') + 1); }
 
 /// A scalar variable of the robot's firmware; null, and what is wrong.
-const host::Variable* scalar_of(host::FirmwareMind& mind, const std::string& expression, std::string& wrong) {
-  if (!mind.runner()) {
+const host::Variable* scalar_of(const host::Runner* runner, const std::string& expression,
+                                std::string& wrong) {
+  if (!runner) {
     wrong = "got a robot that runs no firmware, expected one that does";
     return nullptr;
   }
-  return mind.runner()->data().find_number(expression, wrong);
+  return runner->data().find_number(expression, wrong);
 }
 
 std::string range(const std::string& name, double value, double least, double most, const char* unit) {
@@ -95,9 +96,10 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
   } else if (name.rfind("sensor:", 0) == 0) {
     numbers[0] = mind.board().virtual_devices().get(behind_colon(name)).value_or(0);
   } else if (name.rfind("variable:", 0) == 0) {
-    const host::Variable* v = scalar_of(mind, behind_colon(name), wrong);
+    const host::Runner* const runner = mind.runner();
+    const host::Variable* v = scalar_of(runner, behind_colon(name), wrong);
     if (!v) return wrong;
-    numbers[0] = mind.runner()->data().number(*v);
+    numbers[0] = runner->data().number(*v);
   } else {
     wrong = "no such field";
   }
@@ -107,6 +109,7 @@ std::string get_robot_field(twin::Twin& twin, int robot, const std::string& name
 std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name, double value) {
   host::FirmwareMind& mind = twin.mind(robot);
   sim::Simulation& simulation = twin.simulation();
+  host::Runner* const runner = mind.runner();
   std::string wrong;
   if (name == "selector") {
     wrong = range(name, value, 0, 15, "");
@@ -123,15 +126,15 @@ std::string set_robot_field(twin::Twin& twin, int robot, const std::string& name
   } else if (name.rfind("sensor:", 0) == 0) {
     mind.board().virtual_devices().set(behind_colon(name), value);
   } else if (name.rfind("variable:", 0) == 0) {
-    const host::Variable* v = scalar_of(mind, behind_colon(name), wrong);
+    const host::Variable* v = scalar_of(runner, behind_colon(name), wrong);
     if (!v) return wrong;
-    mind.runner()->data().set_number(*v, value);
+    runner->data().set_number(*v, value);
   } else {
     wrong = "it can only be read";
   }
   if (!wrong.empty()) return wrong;
   // A program that waits looks again, and the run's digest tells that somebody did this.
-  if (mind.runner()) mind.runner()->wake();
+  if (runner) runner->wake();
   std::uint64_t h = static_cast<std::uint64_t>(robot) + 1;
   for (const char c : name) h = sim::fold(h, static_cast<std::uint64_t>(static_cast<unsigned char>(c)));
   simulation.note_intervention(sim::fold(h, value));
