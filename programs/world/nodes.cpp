@@ -199,17 +199,25 @@ struct Nodes::Inside {
 
   // --- what programs follow
 
+  /// Numbers that time and supervisors change, and no robot's program in its turn.
+  bool stands_until_commanded(const Handle& h) {
+    if (is_list(h.type) || member_of(h.type) == kText || member_of(h.type) == kNode) return false;
+    if (h.of != Handle::Of::Robot || !host.twin().launch(tree().node(h.node).number)) return true;
+    return h.name == "collisions" || h.name == "longestWallTouch" || h.name == "distance";
+  }
+
   void follow(const link_record& r, int program) {
     constexpr std::size_t kMostFollowed = 4096;
     const Followed one{static_cast<int>(r.ints[0]), r.ints[1], static_cast<int>(r.ints[2])};
     const Handle* const h = one.field == 0 ? nullptr : handle(one.field);
-    const bool is_known = one.field == 0 ? one.what >= Position && one.what <= Pose && one.what != Contacts
-                                         : h && is_place(h->name);
+    const bool is_known =
+        one.field == 0 ? one.what >= Position && one.what <= Pose && one.what != Contacts : h != nullptr;
     if (!is_known || !tree().has(one.node))
       return warn(program,
-                  fmt::format("got FOLLOW of node {}, field {}, what {}, expected a place or a question "
+                  fmt::format("got FOLLOW of node {}, field {}, what {}, expected a field or a question "
                               "about a place",
                               r.ints[0], r.ints[1], r.ints[2]));
+    if (h && !stands_until_commanded(*h)) return;  // the program goes on asking
     std::vector<Followed>& of_program = followed[program];
     const auto found = std::find(of_program.begin(), of_program.end(), one);
     if (r.ints[3] == 0 && found != of_program.end()) of_program.erase(found);

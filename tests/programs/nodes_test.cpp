@@ -138,20 +138,22 @@ TEST_F(NodesTest, what_a_program_follows_is_told_as_it_is_now) {
   EXPECT_EQ(followed(0).size(), 2u);
   nodes_->forget_followed(0);
   EXPECT_TRUE(followed(0).empty());
-  // what may change otherwise than by a supervisor's command is not followed, nor what is not there
+  // numbers of a robot of firmware and of other nodes; texts and lists are asked for
+  for (const char* name : {"distance", "selector", "customData", "proximity"})
+    command(LINK_FOLLOW, {{a, field(a, name), 0, 1}, {}, ""}, 2);
+  command(LINK_FOLLOW, {{def("sun"), field(def("sun"), "intensity"), 0, 1}, {}, ""}, 2);
+  std::vector<double> last;
+  for (const std::vector<double>& one : followed(2)) last.push_back(one.back());
+  expect(last, {0, 0, 2});
+  // a question that has no such numbers, what is not there
   const std::size_t said = host_.said.size();
-  for (const std::vector<std::int64_t>& wrong :
-       std::vector<std::vector<std::int64_t>>{{a, 0, 4, 1},
-                                              {a, 0, 6, 1},
-                                              {a, 0, -1, 1},
-                                              {a, field(a, "customData"), 0, 1},
-                                              {a, 4711, 0, 1},
-                                              {4711, 0, 0, 1}})
+  for (const std::vector<std::int64_t>& wrong : std::vector<std::vector<std::int64_t>>{
+           {a, 0, 4, 1}, {a, 0, 6, 1}, {a, 0, -1, 1}, {a, 4711, 0, 1}, {4711, 0, 0, 1}})
     command(LINK_FOLLOW, {wrong, {}, ""});
-  EXPECT_EQ(host_.said.size(), said + 6);
+  EXPECT_EQ(host_.said.size(), said + 5);
   EXPECT_TRUE(wording::reads(
       host_.said.back(),
-      "warn 0 got FOLLOW of node 4711, field 0, what 0, expected a place or a question about a place"));
+      "warn 0 got FOLLOW of node 4711, field 0, what 0, expected a field or a question about a place"));
   EXPECT_TRUE(followed(0).empty());
 }
 

@@ -458,6 +458,25 @@ TEST_F(Supervisors, what_is_followed_is_what_is_asked) {
   expect_pass(2);
 }
 
+TEST_F(Supervisors, variables_that_are_followed_are_those_of_now) {
+  add_robot_with_source(
+      "#include <stdint.h>\nvolatile uint16_t count; volatile int mine;\nint main(void) { while (1) count++; "
+      "}\n",
+      "alice");
+  add_judge(R"(
+    double before = -1;
+    for (int i = 0; i < 12; i++) {
+      wb_robot_step(10);
+      const double now = get("alice", "variable:count");
+      set("alice", "variable:mine", 3 * i);
+      EXPECT(get("alice", "variable:mine") == 3 * i);
+      EXPECT(get("alice", "variable:count") == now && now != before);
+      EXPECT(whole("alice", "collisions") == 0);
+      before = now;
+    })");
+  expect_pass(1);
+}
+
 TEST_F(Supervisors, who_comes_second_sees_what_the_first_has_done) {
   add_robot_with_source(kIdle);
   add_ball();

@@ -162,9 +162,15 @@ static bool is_of_firmware(WbFieldRef field) { return strchr(field->name, ':') !
 
 static unsigned stamp_of(WbFieldRef field) { return session.stamp + (is_of_firmware(field) ? session.firmware : 0); }
 
-static bool is_place(WbFieldRef field) {
-  return (field->type == WB_SF_VEC3F && strcmp(field->name, "translation") == 0) ||
-         (field->type == WB_SF_ROTATION && strcmp(field->name, "rotation") == 0);
+/* at the end of a step, before its stamp is that of the next */
+void take_followed_field(WbFieldRef field, const double* values, size_t count) {
+  memcpy(field->numbers, values, count * sizeof(double));
+  field->index = 0;
+  field->stamp = stamp_of(field) + 1;
+}
+
+static bool has_numbers(WbFieldRef field) {
+  return !(field->type & WB_MF) && field->type != WB_SF_STRING && field->type != WB_SF_NODE;
 }
 
 /* the value becomes the field's last one; false: it has none */
@@ -176,7 +182,7 @@ static bool fetch(WbFieldRef field, WbFieldType type, int index, const char* fun
   if (!checked(field, type, function)) return false;
   if (field->type & WB_MF && (index = member(field, index, 0, function)) < 0) return false;
   is_fresh = field->stamp == stamp_of(field) && field->index == index;
-  if (is_place(field)) follow(&field->followed, field->node->number, field->number, 0, is_fresh);
+  if (has_numbers(field)) follow(&field->followed, field->node->number, field->number, 0, is_fresh);
   if (is_fresh) return true;
   out = command(LINK_GET);
   link_int(out, field->number);

@@ -199,11 +199,7 @@ void take_followed(const struct link_record* r) {
   size_t count = r->lists[0].count;
   if (!node || count > NODE_NUMBERS || r->ints[2] < 0 || r->ints[2] >= ASKED) return;
   for (field = node->fields; field && r->ints[1]; field = field->next)
-    if (field->number == r->ints[1] && count <= 4) {
-      memcpy(field->numbers, r->lists[0].values, count * sizeof(double));
-      field->index = 0;
-      field->stamp = session.stamp + 1;
-    }
+    if (field->number == r->ints[1] && count <= 4) take_followed_field(field, r->lists[0].values, count);
   if (r->ints[1]) return;
   asked = &node->asked[r->ints[2]];
   memcpy(asked->numbers, r->lists[0].values, count * sizeof(double));

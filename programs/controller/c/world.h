@@ -72,6 +72,9 @@ struct WbFieldStructPrivate {
   int value_node;
 };
 
+/** FOLLOWED's numbers, up to 4, become the field's value. */
+void take_followed_field(WbFieldRef field, const double* values, size_t count);
+
 /** Whether the program may ask of the world; else a warning. */
 bool may_ask_world(const char* function);
 
