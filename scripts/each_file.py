@@ -42,6 +42,13 @@ def ninja(build, *targets):
         sys.exit(run.stdout + run.stderr)
 
 
+def without_pch(command):
+    """A compiler's own form of headers, which no other reads."""
+    words = shlex.split(command)
+    pch = [i for i, word in enumerate(words) if word.endswith("cmake_pch.hxx")]
+    return [word for i, word in enumerate(words) if word != "-Winvalid-pch" and i not in pch and i + 1 not in pch]
+
+
 def commands(build, apart=True):
     """By source, from the top: the words that compile it, and where. Those of a room compiled together have its words;
     where they are not to be told apart, the file that includes them is named."""
@@ -51,7 +58,7 @@ def commands(build, apart=True):
         together = re.findall(r'^#include "(.+)"$', file.read_text(), re.MULTILINE) if file.parent.name == "Unity" else [file]
         together = [s for s in (os.path.relpath(source, ROOT) for source in together) if not s.startswith((*OTHERS, ".."))]
         for source in together if apart else [os.path.relpath(file, ROOT)] if together else []:
-            words = [str(ROOT / source) if word == entry["file"] else word for word in shlex.split(entry["command"])]
+            words = [str(ROOT / source) if word == entry["file"] else word for word in without_pch(entry["command"])]
             all_of_them.setdefault(source, (words, entry["directory"]))
     return all_of_them
 

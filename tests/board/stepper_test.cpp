@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
+#include <functional>
+#include <utility>
+
+#include "hal_sim/board/motors.h"
 
 namespace {
 
@@ -142,6 +147,32 @@ TEST(Stepper, coils_held_for_a_second_and_opposed_ends_are_counted) {
   EXPECT_EQ(faults.held.count, 1);
   EXPECT_EQ(faults.opposed.count, 1);
   EXPECT_EQ(faults.opposed.first, 3 * board::kRestCycles);
+}
+
+// who has foreseen how a wheel turns looks again once these are others
+TEST(Motors, whoever_commands_one_is_counted) {
+  const std::array<double, 2> ratio{1, 1};
+  board::Motors motors(ratio);
+  const std::pair<const char*, std::function<void()>> commands[] = {
+      {"directions", [&] { motors.set_directions(0, 0); }},
+      {"a pattern", [&] { motors.write(0x6A, kStep); }},
+      {"another of one motor", [&] { motors.write(0x65, 2 * kStep); }},
+      {"steps are lost", [&] { motors.lose_steps(board::Wheel::Left, nullptr, 3 * kStep); }},
+      {"no current", [&] { motors.release(4 * kStep); }},
+      {"a reset", [&] { motors.processor_reset(); }},
+      {"the beginning", [&] { motors.begin_again(5 * kStep); }},
+      {"no driver", [&] { motors.attach(nullptr); }},
+  };
+  for (const auto& [name, command] : commands) {
+    const std::uint64_t before = motors.commands();
+    command();
+    EXPECT_NE(motors.commands(), before) << name;
+  }
+  const std::uint64_t before = motors.commands();
+  motors.write(0, 6 * kStep);  // the pattern that is there
+  motors.steps(board::Wheel::Left, 7 * kStep);
+  motors.turn(board::Wheel::Right, 7 * kStep);
+  EXPECT_EQ(motors.commands(), before);
 }
 
 }  // namespace
