@@ -133,8 +133,9 @@ const char* wbu_system_webots_instance_path(bool refresh) { return (void)refresh
 
 const char* wb_gps_convert_to_degrees_minutes_seconds(double decimal_degrees) {
   static char text[64];
-  double degrees = floor(fabs(decimal_degrees)), minutes = floor((fabs(decimal_degrees) - degrees) * 60);
-  double seconds = ((fabs(decimal_degrees) - degrees) * 60 - minutes) * 60;
-  snprintf(text, sizeof text, "%s%.0f\302\260 %.0f' %.0f''", decimal_degrees < 0 ? "-" : "", degrees, minutes, seconds);
+  /* whole seconds, which never round up to 60 */
+  const double seconds = rint(fabs(decimal_degrees) * 3600), minutes = floor(seconds / 60), degrees = floor(minutes / 60);
+  snprintf(text, sizeof text, "%s%.0f\302\260 %.0f' %.0f''", decimal_degrees < 0 ? "-" : "", degrees,
+           minutes - 60 * degrees, seconds - 60 * minutes);
   return text;
 }
