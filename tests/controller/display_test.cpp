@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Displays: pixels of the PNG that a program writes.
 #include <gtest/gtest.h>
-#include <png.h>
 #include <webots/camera.h>
 #include <webots/display.h>
 #include <webots/robot.h>
@@ -13,36 +12,12 @@
 #include <functional>
 
 #include "tests/controller/fake_simulator.h"
+#include "tests/controller/picture.h"
+
+using fake::Picture;
+using fake::read_picture;
 
 namespace {
-
-/// Rows of a picture as text, '.' black, '#' white, else '+'; empty: no picture.
-struct Picture {
-  int width = 0, height = 0;
-  std::vector<std::uint32_t> argb;
-  std::string text() const {
-    std::string out;
-    for (int y = 0; y < height; ++y, out += '\n')
-      for (int x = 0; x < width; ++x) {
-        const std::uint32_t p = argb[static_cast<std::size_t>(y * width + x)] & 0xFFFFFF;
-        out += p == 0 ? '.' : p == 0xFFFFFF ? '#' : '+';
-      }
-    return out;
-  }
-};
-
-Picture read(const std::string& file) {
-  Picture picture;
-  png_image png{};
-  png.version = PNG_IMAGE_VERSION;
-  if (!png_image_begin_read_from_file(&png, file.c_str())) return picture;
-  png.format = PNG_FORMAT_BGRA;
-  picture.width = static_cast<int>(png.width);
-  picture.height = static_cast<int>(png.height);
-  picture.argb.resize(png.width * png.height);
-  png_image_finish_read(&png, nullptr, picture.argb.data(), 0, nullptr);
-  return picture;
-}
 
 /// What a program draws on a display of 12 x 9 pixels, in a folder of its own.
 Picture drawn(const std::function<void(WbDeviceTag)>& draw, std::string* output = nullptr,
@@ -61,7 +36,7 @@ Picture drawn(const std::function<void(WbDeviceTag)>& draw, std::string* output 
   EXPECT_EQ(sim.wait(), 0);
   if (output) *output = sim.output();
   if (errors) *errors = sim.errors();
-  const Picture picture = read(std::string(folder) + "/screen.png");
+  const Picture picture = read_picture(std::string(folder) + "/screen.png");
   EXPECT_EQ(system(("rm -r " + std::string(folder)).c_str()), 0);
   return picture;
 }

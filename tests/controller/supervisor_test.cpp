@@ -10,42 +10,18 @@
 #include <cstdio>
 
 #include "tests/controller/fake_simulator.h"
+#include "tests/controller/supervised.h"
 #include "tests/support/wording.h"
 
+using fake::asked;
+using fake::give;
+using fake::give_field;
+using fake::give_node;
 using fake::Packet;
 using fake::Record;
 using fake::Simulator;
+using fake::supervised;
 using fake::World;
-
-namespace {
-World supervised(bool nue = false) {
-  World world;
-  world.supervisor = true;
-  world.nue = nue;
-  return world;
-}
-
-/// A question that comes alone, or last in its packet.
-Record asked(Simulator& sim, int number) {
-  const auto said = sim.next();
-  if (said.empty() || said.back().number != number) {
-    ADD_FAILURE() << "expected record " << number;
-    return {};
-  }
-  return said.back();
-}
-
-void give_node(Simulator& sim, int number, int kind = WB_NODE_SOLID, const char* def = "BALL") {
-  sim.send(Packet().add(LINK_NODE, number, 1, kind, def, "Ball", "Solid"));
-}
-void give_field(Simulator& sim, int number, int type, int count, const char* name) {
-  sim.send(Packet().add(LINK_FIELD, number, type, count, name));
-}
-void give(Simulator& sim, const std::vector<double>& numbers, const char* text = "", int count = -1,
-          int node = 0) {
-  sim.send(Packet().add(LINK_VALUE, count, node, numbers, text));
-}
-}  // namespace
 
 TEST(ControllerSupervisor, a_robot_without_the_right_is_told) {
   Simulator sim([] {
