@@ -457,6 +457,42 @@ TEST_F(Accelerometer, lsm330_over_the_bus_byte_by_byte) {
   expect_no_traps();
 }
 
+// Registers of both halves as another master reads them, and the gyroscope's bytes, low ones first.
+TEST_F(Accelerometer, lsm330_is_set_up_register_by_register) {
+  Robot& r = quiet(add_robot_with_source(R"(
+#include <acc_gyro/e_lsm330.h>
+#include <motor_led/e_init_port.h>
+unsigned char bytes[6], present_1_1;
+int main(void) {
+  e_init_port();
+  initAccAndGyro();
+  getAllAxesGyroRaw(bytes);
+  getAllAxesGyroRaw(bytes);
+  present_1_1 = isEpuckVersion1_1();
+  while (1);
+}
+)"));
+  r.settings().own["revision"] = "1.3";
+  r.settings().variation.gyro_offset_rad_s = {sim::radians(3.5), sim::radians(-7), 0};
+  run_for(0.2);
+  const auto read = [&](int device, int number) {
+    board::I2cDevice& half = *twin().mind(0).board().i2c().find(device);
+    const auto at = twin().mind(0).now();
+    half.begin(static_cast<std::uint8_t>(device), false, at);
+    half.write(static_cast<std::uint8_t>(number), at);
+    half.begin(static_cast<std::uint8_t>(device), true, at);
+    return int{half.read(at)};
+  };
+  for (const auto& [number, value] : {std::pair{0x20, 0x9F}, {0x25, 0x50}})
+    EXPECT_EQ(read(0x3C, number), value);
+  for (const auto& [number, value] : {std::pair{0x20, 0xCF}, {0x21, 0x20}, {0x23, 0x00}})
+    EXPECT_EQ(read(0xD4, number), value);
+  // 400 is 0x0190, -800 is 0xFCE0
+  EXPECT_EQ(r.variables<std::uint8_t>("bytes", 6), (std::vector<std::uint8_t>{0x90, 0x01, 0xE0, 0xFC, 0, 0}));
+  EXPECT_EQ(r.variable<std::uint8_t>("present_1_1"), 1) << "the name of before 1.3 for the same flag";
+  expect_no_traps();
+}
+
 TEST_F(Accelerometer, gyroscope_offsets_are_calibrated_away) {
   Robot& r = quiet(add_robot_with_source(R"(
 #include <acc_gyro/e_lsm330.h>

@@ -13,9 +13,9 @@ namespace {
 class CameraSettings : public FirmwareTest {
  protected:
   /// A register as somebody else on the bus would read it; bank -1: the one selected.
-  int read(int number, int bank = -1) {
-    board::I2cDevice& sensor = *twin().mind(0).board().i2c().find(0xDC);
-    const auto at = twin().mind(0).now();
+  int read(int number, int bank = -1, int robot = 0) {
+    board::I2cDevice& sensor = *twin().mind(robot).board().i2c().find(0xDC);
+    const auto at = twin().mind(robot).now();
     if (bank >= 0) {
       sensor.begin(0xDC, false, at);
       sensor.write(3, at);
@@ -188,6 +188,85 @@ TEST_F(CameraSettings, po3030k_window_of_config_cam) {
   expect({{0x08, 1}, {0x09, 0x6d}, {0x0a, 0}, {0x0b, 83}, {0x0c, 3}, {0x0d, 0x53}, {0x0e, 1}, {0x0f, 0xe8}});
   expect({{0xa5, 0}, {0xa6, 83}, {0xa7, 1}, {0xa8, 0xe7}, {0xa9, 1}, {0xaa, 0x6f}});
   expect({{0x1d, 0x00}, {0x20, 0x33}, {0x4e, 0x0c}});
+}
+
+// 160 + 16 - 4 = 172, 80 + 8 - 4 = 84: columns from 172 / 4 - 1 on, VSYNC 84 to 488
+TEST_F(CameraSettings, po6030k_window_of_config_cam) {
+  Robot& r = run_statements("fast_2_timer/e_po6030k.h", R"(
+  answer[0] = e_po6030k_config_cam(160, 80, 320, 320, 8, 8, GREY_SCALE_MODE);
+  e_po6030k_set_bank(BANK_C);
+)",
+                            "po6030k");
+  EXPECT_EQ(r.variables("answer", 1)[0], 0);
+  EXPECT_EQ(read(0x03), 2);
+  expect({{0x91, 0x10}}, 0);  // PO_6030_SPEED_1
+  expect({{0x38, 0x0d}, {0x68, 7}, {0x80, 0x80}, {0x81, 0x80}, {0x82, 1}, {0x50, 0}, {0x51, 42}}, 1);
+  expect({{0x60, 0}, {0x61, 84}, {0x62, 1}, {0x63, 0xe8}}, 1);
+}
+
+// columns from 400 + 16 - 1 = 415, lines from 300 + 8 - 1 = 307 on; PO_6030_SPEED_8
+TEST_F(CameraSettings, po6030k_window_in_colour) {
+  run_statements("fast_2_timer/e_po6030k.h", "  e_po6030k_config_cam(400, 300, 40, 30, 1, 1, RGB_565_MODE);",
+                 "po6030k");
+  expect({{0x91, 0xb0}}, 0);
+  expect({{0x38, 0x08}, {0x68, 0}, {0x80, 0x20}, {0x81, 0x20}, {0x50, 1}, {0x51, 0x9e}}, 1);  // 415 - 1
+  expect({{0x60, 1}, {0x61, 0x33}, {0x62, 1}, {0x63, 0xe8}}, 1);
+}
+
+// x 160 - 4 = 156, y 76: window 156 / 4 + 1 = 40 to 156 + 80 - 1 = 235, 20 to 155; its middle thirds 182 to 209 and
+// 102 to 129; (648 - 195) * (195 + 8) / 656 = 140
+TEST_F(CameraSettings, po8030d_window_of_config_cam) {
+  Robot& r = run_statements("fast_2_timer/e_po8030d.h", R"(
+  answer[0] = e_po8030d_config_cam(160, 80, 320, 320, 8, 8, GREY_SCALE_MODE);
+  e_po8030d_set_bank(BANK_C);
+)",
+                            "po8030d");
+  EXPECT_EQ(r.variables("answer", 1)[0], 0);
+  EXPECT_EQ(read(0x03), 2);
+  expect({{0x08, 0}, {0x09, 39}, {0x0c, 0}, {0x0d, 235}, {0x11, 3}, {0x6a, 4}}, 0);
+  expect({{0x35, 0}, {0x36, 40}, {0x37, 0}, {0x38, 235}, {0x39, 0}, {0x3a, 20}, {0x3b, 0}, {0x3c, 155}}, 0);
+  expect({{0x3d, 0}, {0x3e, 182}, {0x3f, 0}, {0x40, 209}, {0x41, 0}, {0x42, 102}, {0x43, 0}, {0x44, 129}}, 0);
+  expect({{0x4e, 0x43}, {0x93, 0x80}, {0x94, 0x80}, {0xb7, 1}, {0x95, 0}, {0x96, 140}}, 1);
+}
+
+// x 500 - 1 = 499, y 299: 499 to 538, 299 to 328; thirds 512 to 525 and 309 to 319; (648 - 39) * 2 * 86 / 1304 = 80
+TEST_F(CameraSettings, po8030d_window_in_colour) {
+  run_statements("fast_2_timer/e_po8030d.h", R"(
+  e_po8030d_config_cam(500, 300, 40, 30, 1, 1, RGB_565_MODE);
+  e_po8030d_write_register(BANK_D, 0x20, 0x99);
+)",
+                 "po8030d");
+  expect({{0x08, 1}, {0x09, 0xf2}, {0x0c, 2}, {0x0d, 0x1a}, {0x11, 10}, {0x6a, 5}}, 0);
+  expect({{0x35, 1}, {0x36, 0xf3}, {0x37, 2}, {0x38, 0x1a}, {0x39, 1}, {0x3a, 0x2b}, {0x3b, 1}, {0x3c, 0x48}},
+         0);
+  expect({{0x3d, 2}, {0x3e, 0}, {0x3f, 2}, {0x40, 0x0d}, {0x41, 1}, {0x42, 0x35}, {0x43, 1}, {0x44, 0x3f}},
+         0);
+  expect({{0x4e, 0x30}, {0x93, 0x20}, {0x94, 0x20}, {0xb7, 0}, {0x95, 0}, {0x96, 80}}, 1);
+  expect({{0x20, 0x99}}, 3);
+}
+
+// the call that serves all three: each sensor has its own registers for red, green and blue
+TEST_F(CameraSettings, gains_of_whichever_sensor_it_is) {
+  struct {
+    const char* camera;
+    int bank;
+    std::map<int, int> registers;
+  } const kSensors[] = {{"po3030k", -1, {{0x15, 40}, {0x16, 0x41}, {0x17, 0x42}, {0x18, 0x43}, {0x19, 0x42}}},
+                        {"po6030k", 2, {{0xa4, 0x41}, {0xa5, 0x42}, {0xa6, 0x43}}},
+                        {"po8030d", 0, {{0x23, 0x41}, {0x24, 0x42}, {0x25, 0x43}}}};
+  for (int i = 0; i < 3; ++i) {
+    Robot& r = add_robot_with_source(
+        "#include <camera/fast_2_timer/e_poxxxx.h>\nint main(void) {\n  e_poxxxx_init_cam();\n"
+        "  e_poxxxx_set_rgb_gain(0x41, 0x42, 0x43);\n  e_poxxxx_write_cam_registers();\n  while (1);\n}\n",
+        kSensors[i].camera);
+    r.settings().own["camera"] = kSensors[i].camera;
+    r.at(0, i);
+  }
+  run_for(1);
+  for (int i = 0; i < 3; ++i)
+    for (const auto& [number, value] : kSensors[i].registers)
+      EXPECT_EQ(read(number, kSensors[i].bank, i), value) << kSensors[i].camera << std::hex << number;
+  expect_no_traps();
 }
 
 TEST_F(CameraSettings, po6030k_writes_at_once) {
