@@ -61,4 +61,35 @@ int main(void) {
   EXPECT_NEAR(robot.battery_v(), 3.4, 0.002);
 }
 
+// [lib: utility/utility.c]: 2070 counts at 3.4 V, 490 more at 4.2 V; robots before 1.3 have no such input
+TEST_F(FirmwareTest, charge_of_revision_1_3_is_a_percentage_of_counts) {
+  const char* const text = R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <motor_led/e_init_port.h>
+#include <utility/utility.h>
+unsigned int raw = 7, percent = 7;
+int main(void) {
+  e_init_port();
+  e_init_ad_scan(ALL_ADC);
+  raw = getBatteryValueRaw();
+  percent = getBatteryValuePercentage();
+  while (1);
+}
+)";
+  const double volts[] = {3.6, 4.0};
+  for (int i = 0; i < 3; ++i) {
+    Robot& robot = add_robot_with_source(text, "r" + std::to_string(i)).battery(volts[i % 2]);
+    robot.settings().own["revision"] = i < 2 ? "1.3" : "1.2";
+    robot.at(0, i);
+  }
+  run_for(1);
+  for (int i = 0; i < 2; ++i) {
+    const double share = (volts[i] - 3.4) / 0.8;
+    EXPECT_NEAR(robot(i).variable<std::uint16_t>("raw"), 2070 + 490 * share, 15) << volts[i];
+    EXPECT_NEAR(robot(i).variable<std::uint16_t>("percent"), 100 * share, 3) << volts[i];
+  }
+  EXPECT_EQ(robot(2).variable<std::uint16_t>("raw"), 0);
+  EXPECT_EQ(robot(2).variable<std::uint16_t>("percent"), 0);
+}
+
 }  // namespace

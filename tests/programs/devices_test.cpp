@@ -75,6 +75,61 @@ TEST_F(Devices, all_devices_of_the_page_are_there_with_their_kinds) {
       1);
 }
 
+TEST_F(Devices, each_device_of_the_world_is_of_its_kind_and_size) {
+  Robot& r = add_c("", R"(
+#define KIND(name) wb_device_get_node_type(wb_robot_get_device(name))
+    WbDeviceTag to = wb_robot_get_device("to"), from = wb_robot_get_device("from");
+    WbDeviceTag screen = wb_robot_get_device("screen"), eye = wb_robot_get_device("eye");
+    WbDeviceTag arm = wb_robot_get_device("arm");
+    printf("kinds %d\n", KIND("to") == WB_NODE_EMITTER && KIND("from") == WB_NODE_RECEIVER &&
+           KIND("screen") == WB_NODE_DISPLAY && KIND("eye") == WB_NODE_CAMERA && KIND("arm") == WB_NODE_ROTATIONAL_MOTOR &&
+           KIND("bumper") == WB_NODE_TOUCH_SENSOR && KIND("photo") == WB_NODE_LIGHT_SENSOR && KIND("lamp") == WB_NODE_LED &&
+           KIND("voice") == WB_NODE_SPEAKER && KIND("ink") == WB_NODE_PEN && KIND("angle") == WB_NODE_POSITION_SENSOR &&
+           KIND("spin") == WB_NODE_GYRO && KIND("scan") == WB_NODE_LIDAR && KIND("depth") == WB_NODE_RANGE_FINDER);
+    printf("radio %d %g %d %d\n", wb_emitter_get_channel(to), wb_emitter_get_range(to), wb_emitter_get_buffer_size(to),
+           wb_receiver_get_channel(from));
+    printf("size %d %d %d %d %g\n", wb_display_get_width(screen), wb_display_get_height(screen), wb_camera_get_width(eye),
+           wb_camera_get_height(eye), wb_camera_get_fov(eye));
+    printf("arm %g\n", wb_motor_get_max_velocity(arm));
+    printf("device %d\n", KIND("eye") == KIND("camera") && eye != wb_robot_get_device("camera"));)",
+                   "");
+  auto& devices = r.settings().devices;
+  const auto add = [&](const char* name, sim::DeviceKind kind) -> sim::DeviceDesc& {
+    devices.push_back(device(name, kind));
+    return devices.back();
+  };
+  using Kind = sim::DeviceKind;
+  for (const auto& [name, kind] : std::vector<std::pair<const char*, Kind>>{{"arm", Kind::Motor},
+                                                                            {"bumper", Kind::Touch},
+                                                                            {"photo", Kind::Light},
+                                                                            {"lamp", Kind::Led},
+                                                                            {"voice", Kind::Speaker},
+                                                                            {"ink", Kind::Pen},
+                                                                            {"angle", Kind::Position},
+                                                                            {"spin", Kind::Gyro},
+                                                                            {"scan", Kind::Lidar},
+                                                                            {"depth", Kind::RangeFinder}})
+    add(name, kind);
+  sim::DeviceDesc& to = add("to", Kind::Emitter);
+  to.channel = 3;
+  to.range_m = 0.75;
+  add("from", Kind::Receiver).channel = 4;
+  sim::DeviceDesc& screen = add("screen", Kind::Display);
+  screen.width = 80;
+  screen.height = 60;
+  sim::DeviceDesc& eye = add("eye", Kind::Camera);
+  eye.width = 12;
+  eye.height = 8;
+  eye.fov_rad = 0.5;
+  run_for(0.1);
+  using Numbers = std::vector<double>;
+  EXPECT_EQ(value(r, "kinds"), 1);
+  EXPECT_EQ(told(r, "radio"), (Numbers{3, 0.75, 4096, 4}));
+  EXPECT_EQ(told(r, "size"), (Numbers{80, 60, 12, 8, 0.84})) << "the lens is that of the own camera";
+  EXPECT_NEAR(value(r, "arm"), 6.28319, 1e-5) << "as a wheel";
+  EXPECT_EQ(value(r, "device"), 1);
+}
+
 TEST_F(Devices, what_a_robot_does_not_carry_has_no_tag) {
   Robot& r = add_c("", R"(
     const char *const names[] = {"gs0", "fs1", "gps", "display", "camera"};

@@ -386,6 +386,45 @@ TEST_F(Supervisors, two_supervisors_speak_on_a_channel_of_theirs) {
   expect_pass();
 }
 
+TEST_F(Supervisors, its_own_devices_are_those_of_the_world) {
+  add_judge(R"(
+    WbDeviceTag to = wb_robot_get_device("to"), from = wb_robot_get_device("receiver");
+    WbDeviceTag eye = wb_robot_get_device("eye"), arm = wb_robot_get_device("arm");
+    EXPECT(wb_robot_get_number_of_devices() == 4);
+    EXPECT(wb_emitter_get_channel(to) == 3 && wb_emitter_get_range(to) == 0.75 && wb_emitter_get_buffer_size(to) == 4096);
+    EXPECT(wb_receiver_get_channel(from) == 1);
+    EXPECT(wb_camera_get_width(eye) == 12 && wb_camera_get_height(eye) == 8 && wb_camera_get_fov(eye) == 0.5);
+    EXPECT(wb_motor_get_max_velocity(arm) == 10);
+    EXPECT(wb_robot_get_device("emitter") == 0);)");
+  const auto add = [&](const char* name, sim::DeviceKind kind) -> sim::DeviceDesc& {
+    auto& devices = world.supervisors.back().devices;
+    devices.push_back(device(name, kind));
+    return devices.back();
+  };
+  sim::DeviceDesc& to = add("to", sim::DeviceKind::Emitter);
+  to.channel = 3;
+  to.range_m = 0.75;
+  add("arm", sim::DeviceKind::Motor);
+  sim::DeviceDesc& eye = add("eye", sim::DeviceKind::Camera);
+  eye.width = 12;
+  eye.height = 8;
+  eye.fov_rad = 0.5;
+  expect_pass();
+}
+
+TEST_F(Supervisors, a_device_without_a_node_is_told_by_its_name) {
+  add_judge(R"(
+    EXPECT(wb_supervisor_node_get_from_device(wb_robot_get_device("receiver")) == NULL);
+    wb_robot_step(32);)");
+  listen();
+  expect_pass();
+  EXPECT_EQ(std::count(said.begin(), said.end(),
+                       "supervisor0: Warning: wb_supervisor_node_get_from_device(): the device 'receiver' "
+                       "has no node in the world"),
+            1)
+      << ::testing::PrintToString(said);
+}
+
 TEST_F(Supervisors, a_made_up_sensor_is_read_by_programs_and_firmware) {
   add_c("WbDeviceTag s;", "s = wb_robot_get_device(\"ball_distance\"); wb_distance_sensor_enable(s, 32);",
         "printf(\"s %g\\n\", wb_distance_sensor_get_value(s));", 32, "puck")
