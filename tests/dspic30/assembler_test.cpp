@@ -34,14 +34,26 @@ TEST(Assembler, blocks_that_are_repeated_count_as_text) {
 
 TEST(Assembler, text_is_bytes_and_knows_escapes) {
   const auto image = dspic::assembly::assemble(
-      "__reset: nop\n.section .const, psv\n.ascii \"a\\n\\r\\t\\0\\\\\\\"\", \"z\"\n.asciz \"b\"\n.string "
+      "__reset: nop\n.section .const, psv\n.ascii \"a, b(\\n\\r\\t\\0\\\\\\\"\", \"z\"\n.asciz "
+      "\"b\"\n.string "
       "\"\"\n",
       "x.s");
   ASSERT_TRUE(image.messages.empty()) << image.messages[0].text;
   std::string bytes;  // two of them in a word of the flash that data are read from
   for (std::uint32_t at = 0x102; image.program.count(at); at += 2)
     for (const int shift : {0, 8}) bytes += static_cast<char>(image.program.at(at) >> shift & 0xFF);
-  EXPECT_EQ(bytes, std::string("a\n\r\t\0\\\"zb\0\0\0", 12));
+  EXPECT_EQ(bytes, std::string("a, b(\n\r\t\0\\\"zb\0\0\0", 16));
+}
+
+// 1b is the label that comes before, on this line too; 1f the one that comes behind it
+TEST(Assembler, numbers_are_labels_of_their_neighbourhood) {
+  const auto image = dspic::assembly::assemble(
+      "__reset: nop\n1: bra 1f\n bra 1b\n1: nop\n bra 1b\n1: bra 1b\n bra 2f\n2: nop\n", "x.s");
+  ASSERT_TRUE(image.messages.empty()) << image.messages[0].text;
+  std::vector<int> words_on;
+  for (const std::uint32_t at : {0x102u, 0x104u, 0x108u, 0x10Au, 0x10Cu})
+    words_on.push_back(static_cast<std::int16_t>(image.program.at(at) & 0xFFFF));
+  EXPECT_EQ(words_on, (std::vector<int>{1, -2, -2, -1, 0}));
 }
 
 // each operator, by where it binds: what is written as a number

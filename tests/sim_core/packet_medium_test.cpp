@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "sim_core/world/scene.h"
@@ -58,6 +59,16 @@ class PacketMediumTest : public ::testing::Test {
   PacketMedium medium;
   End a{0, 1}, b{1, 1}, c{2, 2}, tower{-1, kAllChannels};
 };
+
+TEST_F(PacketMediumTest, in_one_place_there_is_no_direction) {
+  world.robots[1].pose = {};
+  a.say("here", 1);
+  exchange();
+  ASSERT_EQ(b.got.size(), 1u);
+  for (const double along : {b.got[0].direction.x, b.got[0].direction.y, b.got[0].direction.z})
+    EXPECT_TRUE(std::isfinite(along));
+  EXPECT_TRUE(std::isfinite(b.got[0].strength));
+}
 
 TEST_F(PacketMediumTest, a_packet_reaches_its_channel_and_never_its_sender) {
   a.say("hello", 1);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <fstream>
 #include <regex>
+#include <set>
 
 #include "sim_core/record/heatmap.h"
 #include "sim_core/record/picture.h"
@@ -146,6 +147,55 @@ TEST(Names, of_up_to_40_robots_are_drawn) {
     }
     EXPECT_EQ(shown[0] != shown[1], count <= 40) << count;
   }
+}
+
+/// Lines of a file.
+std::set<std::string> lines_of(const std::string& path) {
+  std::ifstream in(path);
+  std::set<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.insert(line);
+  return lines;
+}
+
+/// Where the outlines of the longest line begin that is in one SVG and not in another, a word's letters: in px from the left,
+/// in order.
+std::vector<double> letters_added(const std::string& with, const std::string& without) {
+  static const std::regex begin("M ([-0-9.]+) ");
+  const std::set<std::string> others = lines_of(without);
+  std::string word;
+  for (const std::string& line : lines_of(with))
+    if (!others.count(line) && line.size() > word.size()) word = line;
+  std::vector<double> found;
+  for (std::sregex_iterator it(word.begin(), word.end(), begin), end; it != end; ++it)
+    found.push_back(std::stod((*it)[1]));
+  std::sort(found.begin(), found.end());
+  return found;
+}
+
+TEST(Names, stand_on_the_side_where_there_is_room) {
+  const auto letters_at = [](const std::string& x) {
+    auto s = cruising(
+        world_of("twinpuck = 1\n[arena]\nsize = [2, 1]\n[[robot]]\nname = \"explorer\"\nposition = [" + x +
+                 ", 0]\n"),
+        0, 0);
+    for (const bool names : {false, true}) {
+      sim::PictureOptions options;
+      options.names = names;
+      options.width_px = 600;
+      EXPECT_EQ(sim::write_picture(scratch(names ? "named.svg" : "nameless.svg"), s->scene(), s->minds(),
+                                   nullptr, options),
+                "");
+    }
+    return letters_added(scratch("named.svg"), scratch("nameless.svg"));
+  };
+  const auto middle = letters_at("0"), right = letters_at("0.9");
+  ASSERT_FALSE(middle.empty());
+  ASSERT_FALSE(right.empty());
+  // 300 px a metre behind a margin of 28 px: robots at 328 and 598 px, whose radius is 11 px, and 6 px beside it
+  EXPECT_GT(middle.front(), 328 + 17);
+  EXPECT_LT(middle.front(), 328 + 25);
+  EXPECT_LT(right.back(), 598 - 17);
+  EXPECT_GT(right.back(), 598 - 30);
 }
 
 TEST_F(Furnished, heat_maps_have_the_scale_that_was_asked_for) {

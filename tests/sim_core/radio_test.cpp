@@ -146,7 +146,7 @@ TEST(Radio, the_stronger_of_two_survives_by_the_capture_ratio) {
 TEST(Radio, frames_one_after_the_other_do_not_collide) {
   Channel c(plain(), {{0, 0}, {0.4, 0}, {0.8, 0}});
   c.port(0).ask(0, {1});
-  c.port(2).ask(sim::from_seconds(0.0032) + 1, {2});  // begins when the first is over
+  c.port(2).ask(sim::from_seconds(0.0032), {2});  // begins in the instant in which the first is over
   c.run_ticks(5);
   ASSERT_EQ(c.port(1).heard.size(), 2u);
   EXPECT_EQ(c.port(1).heard[0].sender, 0);
