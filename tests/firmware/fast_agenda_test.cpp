@@ -101,4 +101,54 @@ int main(void) {
   EXPECT_NEAR(static_cast<double>(r.right_steps() - right), 4 * 368, 15);
 }
 
+// Three tasks take a timer each: 13, 11 and 7 units of 1474.56 cycles. What shares a divisor with one goes there, and that
+// timer counts by it; what shares none goes to the timer with the shortest period, which then counts units.
+TEST_F(FastAgenda, a_fourth_task_goes_where_it_fits) {
+  struct {
+    int cycle;
+    std::vector<std::uint16_t> periods;  // of timers 1 to 3
+  } const kRows[] = {{22, {19169, 16220, 10321}}, {39, {19169, 16220, 10321}}, {17, {19169, 16220, 1474}}};
+  for (std::size_t i = 0; i < std::size(kRows); ++i) {
+    Robot& r = add_robot_with_source("#define CYCLE " + std::to_string(kRows[i].cycle) + R"(
+#include <p30F6014A.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>
+unsigned int periods[3];
+volatile int counts[4];
+static void a(void) { counts[0]++; }
+static void b(void) { counts[1]++; }
+static void c(void) { counts[2]++; }
+static void d(void) { counts[3]++; }
+int main(void) {
+  e_init_port();
+  e_start_agendas_processing();
+  e_activate_agenda(a, 13);
+  e_activate_agenda(b, 11);
+  e_activate_agenda(c, 7);
+  e_activate_agenda(d, CYCLE);
+  e_start_timer_processing(0);
+  e_start_timer_processing(1);
+  e_start_timer_processing(2);
+  periods[0] = PR1; periods[1] = PR2; periods[2] = PR3;
+  while (1);
+}
+)",
+                                     "r" + std::to_string(i));
+    r.at(0, static_cast<double>(i));
+  }
+  run_for(0.1);
+  std::vector<std::vector<std::int16_t>> before;
+  for (std::size_t i = 0; i < std::size(kRows); ++i)
+    before.push_back(robot(static_cast<int>(i)).variables("counts", 4));
+  run_for(1);
+  for (std::size_t i = 0; i < std::size(kRows); ++i) {
+    const Robot& r = robot(static_cast<int>(i));
+    EXPECT_EQ(r.variables<std::uint16_t>("periods", 3), kRows[i].periods) << kRows[i].cycle;
+    const auto counts = r.variables("counts", 4);
+    const int cycles[] = {13, 11, 7, kRows[i].cycle};
+    for (std::size_t t = 0; t < 4; ++t) EXPECT_NEAR(counts[t] - before[i][t], 10000 / cycles[t], 1) << t;
+  }
+  expect_no_traps();
+}
+
 }  // namespace
