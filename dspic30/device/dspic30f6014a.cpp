@@ -14,11 +14,6 @@ constexpr unsigned kFirstOc = sfr("OC1RS"), kFirstIc = sfr("IC1BUF");
 constexpr int module_bit(const char* name) { return sfr_field("PMD1", name).lowest; }
 static_assert(sfr_field("PMD2", "OC1MD").lowest == 0 && sfr_field("PMD2", "IC1MD").lowest == 8);
 
-// PORTA to PORTG, whose bits are pins
-constexpr bool is_port(const SfrInfo& info) {
-  return info.name[0] == 'P' && info.name[1] == 'O' && info.name[2] == 'R';
-}
-
 }  // namespace
 
 // A module that is switched off forgets everything and answers 0.
@@ -232,12 +227,11 @@ std::int64_t Dspic30f6014a::uart_overruns(int uart) {
   return parts_->uarts[static_cast<std::size_t>(uart - 1)].overruns();
 }
 
-std::uint64_t Dspic30f6014a::state_hash(Cycle now, bool with_pins) {
+std::uint64_t Dspic30f6014a::state_hash(Cycle now) {
   run_to(now);
   std::uint64_t h = 0xCBF29CE484222325u;
   const auto add = [&h](std::uint64_t v) { h = (h ^ v) * 0x100000001B3u; };
-  for (const unsigned address : parts_->bus.written())
-    if (with_pins || !is_port(*sfr_info(address))) add(parts_->bus.peek(address, now));
+  for (const unsigned address : parts_->bus.written()) add(parts_->bus.peek(address, now));
   for (const Uart& u : parts_->uarts) add(u.state_hash());
   add(static_cast<std::uint64_t>(parts_->interrupts.cpu().level()));
   add(parts_->nvm.eeprom_hash());

@@ -128,9 +128,8 @@ class Dspic30f6014a {
   /// Words lost by receive overruns of UART 1 or 2 since power-up.
   std::int64_t uart_overruns(int uart);
   /// Hash of FIFOs, of the registers that were written since power-on and of the EEPROM as
-  /// operations left it, for determinism checks. Without pins: what the outside puts on the ports is
-  /// left out, and not asked for.
-  std::uint64_t state_hash(Cycle now, bool with_pins = true);
+  /// operations left it, for determinism checks.
+  std::uint64_t state_hash(Cycle now);
 
   /// For a host that includes chip_parts.h.
   ChipParts& parts() { return *parts_; }
