@@ -333,6 +333,180 @@ int main(void) {
   expect_no_traps();
 }
 
+// What each function of today's interface answers on the chip, word for word; numbers in thousandths.
+TEST_F(WebotsOnChip, each_function_answers) {
+  Robot& r = add_robot_with_source(R"(
+#include <math.h>
+#include <stdio.h>
+#include <webots/accelerometer.h>
+#include <webots/console.h>
+#include <webots/device.h>
+#include <webots/differential_wheels.h>
+#include <webots/distance_sensor.h>
+#include <webots/emitter.h>
+#include <webots/gyro.h>
+#include <webots/led.h>
+#include <webots/light_sensor.h>
+#include <webots/microphone.h>
+#include <webots/motor.h>
+#include <webots/position_sensor.h>
+#include <webots/receiver.h>
+#include <webots/robot.h>
+#include <webots/speaker.h>
+#define K(x) ((int)(1000 * (x) + ((x) < 0 ? -0.5 : 0.5)))
+int left, right, turns, charge, angle;
+int main(void) {
+  WbDeviceTag m, s, p, l, a, g, mic, sp, led, e, r;
+  wb_robot_init();
+  m = wb_robot_get_device("left wheel motor"), s = wb_robot_get_device("left wheel sensor");
+  p = wb_robot_get_device("ps0"), l = wb_robot_get_device("ls0"), a = wb_robot_get_device("accelerometer");
+  g = wb_robot_get_device("gyro"), mic = wb_robot_get_device("mic1");
+  sp = wb_robot_get_device("speaker"), led = wb_robot_get_device("led3");
+  e = wb_robot_get_device("emitter"), r = wb_robot_get_device("receiver");
+  printf("robot [%s] [%s] [%s] [%s] [%s] [%s]\n", wb_robot_get_name(), wb_robot_get_model(), wb_robot_get_project_path(),
+         wb_robot_get_world_path(), wb_robot_get_controller_name(), wb_robot_get_custom_data());
+  wb_robot_set_custom_data("some");
+  printf("%s ", wb_robot_get_data());
+  wb_robot_set_data("kept");
+  wb_robot_set_mode(0, "");
+  printf("%s %d %d %d %d\n", wb_robot_get_custom_data(), wb_robot_get_synchronization(), wb_robot_get_supervisor(),
+         wb_robot_get_type() == WB_NODE_ROBOT, K(wb_robot_get_basic_time_step()));
+  printf("%s %s %d %d [%s] %u\n", wb_device_get_name(m), wb_device_get_model(led), wb_device_get_node_type(g) == WB_NODE_GYRO,
+         wb_device_get_type(999) == WB_NODE_NO_NODE, wb_device_get_name(0), wb_robot_get_device_by_index(99));
+  printf("%d\n", wb_robot_get_device_by_index(0) == p);
+
+  wb_motor_set_acceleration(m, 1), wb_motor_set_available_force(m, 1);
+  wb_motor_set_available_torque(m, 1), wb_motor_set_control_pid(m, 1, 2, 3);
+  printf("motor %d %d %d %d %d %d ", K(wb_motor_get_max_velocity(m)), K(wb_motor_get_velocity(m)),
+         K(wb_motor_get_target_position(m)), K(wb_motor_get_min_position(m)), K(wb_motor_get_max_position(m)),
+         K(wb_motor_get_acceleration(m)));
+  wb_motor_set_position(m, 0.5), wb_motor_set_velocity(m, 2);
+  printf("%d %d\n", K(wb_motor_get_target_position(m)), K(wb_motor_get_velocity(m)));
+  printf("%d%d%d%d %d%d\n", wb_motor_get_type(m) == WB_ROTATIONAL, wb_motor_get_brake(m), wb_motor_get_position_sensor(m) == s,
+         wb_position_sensor_get_motor(s) == m, wb_position_sensor_get_type(s) == WB_ROTATIONAL, wb_position_sensor_get_brake(s));
+
+  wb_position_sensor_enable(s, 64), wb_distance_sensor_enable(p, 65), wb_light_sensor_enable(l, 66);
+  wb_accelerometer_enable(a, 67), wb_gyro_enable(g, 68), wb_microphone_enable(mic, 70);
+  wb_receiver_enable(r, 71), wb_differential_wheels_enable_encoders(72), wb_robot_battery_sensor_enable(73);
+  printf("on %d %d %d %d %d %d %d %d %d\n", wb_position_sensor_get_sampling_period(s),
+         wb_distance_sensor_get_sampling_period(p), wb_light_sensor_get_sampling_period(l),
+         wb_accelerometer_get_sampling_period(a), wb_gyro_get_sampling_period(g),
+         wb_microphone_get_sampling_period(mic), wb_receiver_get_sampling_period(r),
+         wb_differential_wheels_get_encoders_sampling_period(), wb_robot_battery_sensor_get_sampling_period());
+  printf("none yet %d%d%d%d%d%d%d %d\n", isnan(wb_position_sensor_get_value(s)) != 0, isnan(wb_distance_sensor_get_value(p)) != 0,
+         isnan(wb_light_sensor_get_value(l)) != 0, isnan(wb_accelerometer_get_values(a)[0]) != 0,
+         isnan(wb_gyro_get_values(g)[0]) != 0, isnan(wb_robot_battery_sensor_get_value()) != 0,
+         wb_microphone_get_sample_data(mic) == 0, (int)wb_differential_wheels_get_left_encoder());
+  printf("distance %d %d %d %d %d%d\n", (int)wb_distance_sensor_get_max_value(p), (int)wb_distance_sensor_get_min_value(p),
+         K(wb_distance_sensor_get_aperture(p)), wb_distance_sensor_get_type(p) == WB_DISTANCE_SENSOR_INFRA_RED,
+         wb_distance_sensor_get_lookup_table_size(p), wb_distance_sensor_get_lookup_table(p) == 0);
+  printf("tables %d%d %d%d %d%d\n", wb_light_sensor_get_lookup_table_size(l), wb_light_sensor_get_lookup_table(l) == 0,
+         wb_accelerometer_get_lookup_table_size(a), wb_accelerometer_get_lookup_table(a) == 0,
+         wb_gyro_get_lookup_table_size(g), wb_gyro_get_lookup_table(g) == 0);
+  wb_led_set(led, 5);
+  printf("led %d %d\n", wb_led_get(led), wb_led_get(wb_robot_get_device("led4")));
+  printf("packets %d %d %d ", wb_emitter_get_channel(e), wb_receiver_get_channel(r), wb_emitter_get_buffer_size(e));
+  wb_emitter_set_channel(e, 4), wb_receiver_set_channel(r, -1);
+  printf("%d %d\n", wb_emitter_get_channel(e), wb_receiver_get_channel(r));
+
+  wb_differential_wheels_set_speed(500, -250);
+  printf("wheels %d %d %d %d %d\n", (int)(wb_differential_wheels_get_left_speed() + 0.5),
+         (int)(wb_differential_wheels_get_right_speed() - 0.5), K(100 * wb_differential_wheels_get_speed_unit()),
+         K(wb_differential_wheels_get_max_speed()), isinf(wb_motor_get_target_position(m)) != 0);
+  wb_robot_step_begin(640);
+  wb_robot_step_end();
+  left = (int)wb_differential_wheels_get_left_encoder(), right = (int)wb_differential_wheels_get_right_encoder();
+  angle = K(wb_position_sensor_get_value(s));
+  turns = (int)wb_gyro_get_values(g)[2];
+  charge = (int)wb_robot_battery_sensor_get_value();
+  wb_differential_wheels_set_speed(0, 0);
+  wb_differential_wheels_set_encoders(10, -20);
+  printf("set %d %d\n", (int)wb_differential_wheels_get_left_encoder(), (int)wb_differential_wheels_get_right_encoder());
+  printf("time %d\n", K(wb_robot_get_time()));
+
+  wb_speaker_play_sound(sp, sp, "haa.wav", 1, 1, 0, 1);
+  printf("sound %d ", wb_speaker_is_sound_playing(sp, ""));
+  wb_robot_step(500);
+  printf("%d ", wb_speaker_is_sound_playing(sp, ""));  /* it lasts 0.29 s, and begins again */
+  wb_speaker_stop(sp, "");
+  wb_robot_step(200);
+  printf("%d\n", wb_speaker_is_sound_playing(sp, ""));
+
+  wb_position_sensor_disable(s), wb_distance_sensor_disable(p), wb_light_sensor_disable(l), wb_accelerometer_disable(a);
+  wb_gyro_disable(g), wb_microphone_disable(mic), wb_receiver_disable(r);
+  wb_differential_wheels_disable_encoders(), wb_robot_battery_sensor_disable();
+  printf("off %d%d%d%d%d%d%d%d%d\n", wb_position_sensor_get_sampling_period(s), wb_distance_sensor_get_sampling_period(p),
+         wb_light_sensor_get_sampling_period(l), wb_accelerometer_get_sampling_period(a), wb_gyro_get_sampling_period(g),
+         wb_microphone_get_sampling_period(mic), wb_receiver_get_sampling_period(r),
+         wb_differential_wheels_get_encoders_sampling_period(), wb_robot_battery_sensor_get_sampling_period());
+  wb_robot_console_printf("%d of %s ", 3, "four");
+  wb_console_print("end", WB_STDOUT);
+  while (1) wb_robot_step(64);
+})");
+  r.settings().own["revision"] = "1.3";
+  r.battery(3.8);
+  run_for(4);
+  EXPECT_TRUE(wording::reads(
+      r.uart(1).text(),
+      "robot [e-puck] [GCtronic e-puck] [] [] [] []\n"
+      "some kept 1 0 1 32000\n"
+      "left wheel motor led3 1 1 [] 0\n"
+      "1\n"
+      "motor 6283 6283 0 0 0 -1000 500 2000\n"
+      "1011 10\n"
+      "Warning: wb_receiver_enable(): this robot carries no radio turret, nothing is sent or heard\n"
+      "on 64 65 66 67 68 70 71 72 73\n"
+      "none yet 1111111 0\n"
+      "distance 4095 0 300 1 01\n"
+      "tables 01 01 01\n"
+      "led 5 0\n"
+      "packets 1 1 108 4 -1\n"
+      "wheels 500 -250 628 6283 1\n"
+      "set 10 -20\n"
+      "time 640\n"
+      "sound 1 1 0\n"
+      "off 000000000\n"
+      "3 of four end"));
+  // 3.14 rad/s are 500 steps/s for 0.64 s, less what the step before took; the last sample is of 576 ms or later
+  EXPECT_NEAR(r.variable("left"), 0.576 * 500, 35);
+  EXPECT_NEAR(r.variable("right"), -0.576 * 250, 18);
+  EXPECT_NEAR(r.variable("angle"), 1000 * 320 / 159.155, 220);
+  // (-250 - 500) steps/s of 0.1288 mm on 53 mm are -1.823 rad/s, times 7509.9
+  EXPECT_NEAR(r.variable("turns"), -13688, 150);
+  EXPECT_NEAR(r.variable("charge"), 18000 * 0.43, 400)
+      << "0.3 A through 0.2 ohm take 0.06 of 3.8 V while it drives";
+  expect_no_traps();
+}
+
+TEST_F(WebotsOnChip, the_camera_tells_its_size) {
+  Robot& r = add_robot_with_source(R"(
+#include <stdio.h>
+#include <device/camera.h>
+#include <webots/camera.h>
+#include <webots/robot.h>
+int main(void) {
+  WbDeviceTag c;
+  wb_robot_init();
+  c = wb_robot_get_device("camera");
+  printf("%d %d ", wb_camera_get_image(c) == 0, camera_get_image(c) == 0);
+  wb_camera_enable(c, 69);
+  printf("%d %d %d %d %d\n", wb_camera_get_sampling_period(c), wb_camera_get_width(c), wb_camera_get_height(c),
+         (int)(1000 * wb_camera_get_fov(c)), (int)wb_camera_get_near(c));
+  wb_camera_disable(c);
+  printf("%d ", wb_camera_get_sampling_period(c));
+  camera_enable(c, 70);
+  camera_move_window(c, 1, 1);
+  printf("%d %d %d %d ", wb_camera_get_sampling_period(c), camera_get_width(c), camera_get_height(c),
+         (int)(1000 * camera_get_fov(c)));
+  camera_disable(c);
+  printf("%d %d\n", wb_camera_get_sampling_period(c), camera_get_image(c) == (unsigned char *)wb_camera_get_image(c));
+  while (1) wb_robot_step(64);
+})");
+  run_for(1);
+  EXPECT_TRUE(wording::reads(r.uart(1).text(), "1 1 69 52 39 840 0\n0 70 52 39 840 0 1"));
+  expect_no_traps();
+}
+
 // --- building
 
 class WebotsForChip : public testing::Test {
