@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the library does something else with than its name says is told, once (docs/controllers.md).
+#include <map>
+
 #include "tests/support/firmware_test.h"
 #include "tests/support/wording.h"
 
@@ -124,6 +126,26 @@ int main(void) { RCONbits.LVDEN = 1; RCONbits.BGST = 0; while (!RCONbits.BGST); 
   run_for(0.01);
   EXPECT_EQ(r.variable("calls"), 7);
   expect_no_traps();
+}
+
+// four words wait and the fifth stays in the shift register: each UART tells how many of its own were lost
+TEST_F(FirmwareTest, words_that_nobody_reads_are_counted_by_their_uart) {
+  Robot& r = add_robot_with_source(R"(
+#include <p30F6014A.h>
+int main(void) {
+  U1BRG = U2BRG = 7;
+  U1MODEbits.UARTEN = U2MODEbits.UARTEN = 1;
+  while (1);
+}
+)");
+  run_for(0.01);
+  r.uart(1).send("12345678");
+  r.uart(2).send("123456789AB");
+  run_for(0.1);
+  std::map<std::string, std::int64_t> lost;
+  for (const board::Diagnosis& d : r.diagnoses())
+    if (d.place.find("OERR") != std::string::npos) lost[d.place] = d.count;
+  EXPECT_EQ(lost, (std::map<std::string, std::int64_t>{{"U1STA.OERR", 4}, {"U2STA.OERR", 7}}));
 }
 
 }  // namespace
