@@ -176,6 +176,11 @@ TEST_P(DebugExpressions, mistakes_are_named) {
   build(kVariables + std::string("int main(void) { while (1) LATA = k + nodes[0].value; }\n"));
   const std::vector<std::pair<std::string, std::string>> rows = {
       {"print k +", "a value is missing"},
+      {"print *********p", "got '*********p', expected at most 8 [ or * within one another"},
+      {"print ********p", "got '**p', expected a pointer to something of a known type"},
+      {"print table[table[table[table[table[table[table[table[table[0]]]]]]]]]",
+       "got 'table[table[table[table[table[table[table[table[table[0]]]]]]]]]', expected at most 8 [ or * "
+       "within one another"},
       {"print (k", "')' is missing"},
       {"print k)", "unexpected ')'"},
       {"print 5 / 0", "division by zero"},

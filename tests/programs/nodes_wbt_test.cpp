@@ -18,7 +18,7 @@ DEF GROUP Transform {
   ]
 }
 DEF BALL Solid { translation -0.5 0.2 0.03 children [ DEF S Shape { geometry Sphere { radius 0.03 } } ] boundingObject USE S physics Physics { mass 0.1 density -1 } name "ball" }
-DEF ROB E-puck { translation 0 -0.3 0 rotation 0 0 1 1 name "r" controller "void" turretSlot [ DEF POS GPS { } ] }
+DEF ROB E-puck { translation 0 -0.3 0 rotation 0 0 1 1 name "r" controller "void" controllerArgs [ "one" "two" ] turretSlot [ DEF POS GPS { } ] }
 DEF BOSS Robot { name "boss" controller "<extern>" supervisor TRUE children [ Emitter { channel 5 } ] }
 )");
   expect(get(def("ARENA"), "floorSize").numbers, {2, 1.5});
@@ -39,6 +39,7 @@ DEF BOSS Robot { name "boss" controller "<extern>" supervisor TRUE children [ Em
   set(def("ROB"), "translation", {0.2, -0.3, 0});
   expect(position(def("POS")), {0.2, -0.3, 0}, 1e-3);
   EXPECT_NEAR(simulation().pose(0).heading_rad, 1, 1e-4) << "where it looks stays";
+  EXPECT_EQ(ask(LINK_FIND_FIELD, {{def("ROB"), -1}, {}, "controllerArgs"}).ints[2], 2);
   EXPECT_EQ(get(inner(def("BOSS"), "children"), "channel").numbers.at(0), 5);
   EXPECT_EQ(get(inner(def("BOSS"), "children"), "name").texts.at(0), "emitter") << "its usual name";
   nodes_->attach(3, 0);
