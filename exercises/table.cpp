@@ -20,15 +20,65 @@ constexpr const char* kMeasureNames[kMeasures] = {
     "slip_m",       "speed",        "rows",      "range_m",     "detection_m", "centre_weight",
     "outer_weight", "restarts",     "restart_m", "straightness"};
 
+// --- what a key's value may be
+
+bool is_text(const toml::node& n) { return n.is_string(); }
+bool is_number(const toml::node& n) { return n.is_number(); }
+bool is_flag(const toml::node& n) { return n.is_boolean(); }
+bool is_list(const toml::node& n) { return n.is_array(); }
+bool is_table(const toml::node& n) { return n.is_table(); }
+bool is_number_or_list(const toml::node& n) { return n.is_number() || n.is_array(); }
+bool is_place(const toml::node& n) { return n.is_table() || n.value_or(std::string()) == "anywhere"; }
+
+const char* kind_of(const toml::node& n) {
+  return n.is_string()    ? "text"
+         : n.is_number()  ? "a number"
+         : n.is_boolean() ? "true or false"
+         : n.is_array()   ? "a list"
+         : n.is_table()   ? "a table"
+                          : "a date or time";
+}
+
+struct Key {
+  const char* name;
+  bool (*fits)(const toml::node&);
+  const char* expected;
+};
+constexpr Key kOfTable[] = {{"exercise", is_list, "tables [[exercise]]"}};
+constexpr Key kOfExercise[] = {
+    {"id", is_text, "text"}, {"title", is_text, "text"}, {"step", is_list, "tables [[exercise.step]]"}};
+constexpr Key kOfStep[] = {{"says", is_text, "text"},
+                           {"worlds", is_list, "a list of names"},
+                           {"firmware", is_text, "text"},
+                           {"supervisor", is_text, "text"},
+                           {"seconds", is_number_or_list, "a number or [quick, full]"},
+                           {"seeds", is_list, "[quick, full]"},
+                           {"noise_scales", is_list, "a list of numbers"},
+                           {"share", is_list, "[lowest, highest]"},
+                           {"spread", is_table, "a table"},
+                           {"start", is_place, "\"anywhere\" or a table"},
+                           {"region", is_list, "a list of four numbers"},
+                           {"at_most", is_table, "a table of measures"},
+                           {"at_least", is_table, "a table of measures"},
+                           {"show", is_list, "a list of texts"},
+                           {"by_world", is_flag, "true or false"},
+                           {"answer", is_text, "text"},
+                           {"sensor", is_flag, "true or false"}};
+constexpr Key kOfSpread[] = {
+    {"gain", is_number, "a number"}, {"offset", is_number, "a number"}, {"wheel", is_number, "a number"}};
+constexpr Key kOfStart[] = {{"x", is_list, "[lowest, highest]"},
+                            {"y", is_list, "[lowest, highest]"},
+                            {"heading", is_list, "[lowest, highest]"}};
+
 class Reader {
  public:
   Reader(const std::string& file, std::vector<std::string>& problems) : file_(file), problems_(problems) {}
 
   std::vector<Exercise> exercises(const toml::table& root) {
-    only(root, {"exercise"});
+    only(root, kOfTable);
     std::vector<Exercise> all;
     each_table(root, "exercise", [&](const toml::table& t) {
-      only(t, {"id", "title", "step"});
+      only(t, kOfExercise);
       Exercise e{text(t, "id"), text(t, "title"), {}};
       each_table(t, "step", [&](const toml::table& s) { e.steps.push_back(step(s)); });
       if (e.id.empty()) problem(t, "exercise: got no id, expected one such as \"I1\"");
@@ -44,11 +94,20 @@ class Reader {
     problems_.push_back(fmt::format("{}:{}:{}: {}", file_, at.line, at.column, what));
   }
 
-  void only(const toml::table& t, const std::vector<std::string>& known) {
+  // unknown keys, and values of another kind than theirs
+  template <std::size_t N>
+  void only(const toml::table& t, const Key (&known)[N]) {
     for (const auto& [key, node] : t) {
       const std::string name(key.str());
-      if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-      problem(node, "unknown key '" + name + "'" + sim::did_you_mean_tail(name, known));
+      const Key* const found =
+          std::find_if(std::begin(known), std::end(known), [&](const Key& k) { return name == k.name; });
+      if (found == std::end(known)) {
+        std::vector<std::string> names;
+        for (const Key& k : known) names.push_back(k.name);
+        problem(node, "unknown key '" + name + "'" + sim::did_you_mean_tail(name, names));
+      } else if (!found->fits(node)) {
+        problem(node, fmt::format("{}: got {}, expected {}", name, kind_of(node), found->expected));
+      }
     }
   }
 
@@ -102,6 +161,8 @@ class Reader {
     for (const auto& [name, node] : *list) {
       const Measure m = measure(node, std::string(name.str()));
       const double limit = node.value<double>().value_or(0);
+      if (!node.is_number())
+        problem(node, fmt::format("{}: got {}, expected a number", std::string(name.str()), kind_of(node)));
       if (m == Measure::Count) continue;
       const bool most = std::string(key) == "at_most";
       s.bounds.push_back({m, most ? -none : limit, most ? limit : none});
@@ -137,7 +198,7 @@ class Reader {
     s.shares.clear();
     for (const toml::node& n : *list) {
       const toml::array* pair = n.as_array();
-      if (!pair || pair->size() != 2)
+      if (!pair || pair->size() != 2 || !pair->get(0)->is_number() || !pair->get(1)->is_number())
         problem(n, "share: got something else, expected [lowest, highest]");
       else
         s.shares.push_back({pair->get(0)->value_or(0.0), pair->get(1)->value_or(1.0)});
@@ -148,15 +209,17 @@ class Reader {
   }
 
   Step step(const toml::table& t) {
-    only(t, {"says", "worlds", "firmware", "supervisor", "seconds", "seeds", "noise_scales", "share",
-             "spread", "start", "region", "at_most", "at_least", "show", "by_world", "answer", "sensor"});
+    only(t, kOfStep);
     Step s;
     s.says = text(t, "says");
     s.answer = text(t, "answer");
     if (!s.answer.empty()) s.kind = Step::Kind::Answer;
     if (t["sensor"].value_or(false)) s.kind = Step::Kind::Sensor;
     if (const toml::array* list = t["worlds"].as_array())
-      for (const toml::node& n : *list) s.worlds.push_back(n.value_or(std::string()));
+      for (const toml::node& n : *list) {
+        if (!n.is_string()) problem(n, fmt::format("worlds: got {}, expected a world's name", kind_of(n)));
+        s.worlds.push_back(n.value_or(std::string()));
+      }
     if (s.kind != Step::Kind::Answer && s.worlds.empty())
       problem(t, "step: got no worlds, expected one or more");
     s.firmware = text(t, "firmware");
@@ -172,14 +235,14 @@ class Reader {
     s.noise_scales = numbers(t, "noise_scales");
     shares(t, s);
     if (const toml::table* spread = t["spread"].as_table()) {
-      only(*spread, {"gain", "offset", "wheel"});
+      only(*spread, kOfSpread);
       s.gain_spread = number(*spread, "gain", 0);
       s.offset_spread_counts = number(*spread, "offset", 0);
       s.wheel_spread = number(*spread, "wheel", 0);
     }
     s.start.anywhere = text(t, "start") == "anywhere";
     if (const toml::table* start = t["start"].as_table()) {
-      only(*start, {"x", "y", "heading"});
+      only(*start, kOfStart);
       s.start.x_m = span(*start, "x", {});
       s.start.y_m = span(*start, "y", {});
       s.start.heading_deg = span(*start, "heading", {});
