@@ -396,6 +396,23 @@ TEST_F(Asercom, without_gyroscope_rotation_and_temperature_are_nought) {
   EXPECT_EQ(reply(binary("t") + kEnd), std::string(1, '\0'));
 }
 
+// 8.75 mdps a count: 400, -800 and 200; of single axes the library takes the low byte as signed, so 0x0190 is 256 - 112,
+// 0xFCE0 is -1024 - 32 and 0x00C8 is -56
+TEST_F(Asercom, rotation_temperature_and_charge_of_revision_1_3) {
+  Robot& robot = puck().battery(3.8);
+  robot.settings().own["revision"] = "1.3";
+  robot.settings().variation.motion_noise_scale = 0;
+  robot.settings().variation.gyro_offset_rad_s = {sim::radians(3.5), sim::radians(-7), sim::radians(1.75)};
+  run_for(3);
+  EXPECT_EQ(reply("g\r"), "g,144,-1056,-56\r\n");
+  EXPECT_EQ(reply(binary("t") + kEnd), std::string(1, 25));
+  const std::string charge = reply("b\r");
+  int raw = 0, percent = 0;
+  ASSERT_EQ(std::sscanf(charge.c_str(), "b,%d (%d%%)\r\n", &raw, &percent), 2) << charge;
+  EXPECT_NEAR(raw, 2070 + 245, 30);
+  EXPECT_EQ(percent, (raw - 2070) * 100 / 490);
+}
+
 TEST_F(Asercom, loudness_and_samples) {
   started();
   const std::vector<int> text = numbers_of(reply("U\r"));

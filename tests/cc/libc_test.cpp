@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The firmware's C library: formats with 16-bit int, strings, numbers, heap, mathematics, leaving.
 #include <gtest/gtest.h>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
 
 #include "tests/cc/bench.h"
 
@@ -104,9 +107,50 @@ TEST(libc, sorting_random_and_jumps) {
   EXPECT_EQ(printed("int t[6] = {5, -3, 9, 0, 9, -7}, i; qsort(t, 6, sizeof(int), order); for (i = 0; i < 6; "
                     "i++) printf(\"%d \", t[i]);"),
             "-7 -3 0 5 9 9 ");
+  // by the place where it stands; 7, -8 and 10 stand nowhere
+  EXPECT_EQ(
+      printed(
+          "int t[5] = {-7, -3, 0, 5, 9}, keys[8] = {-7, -3, 0, 5, 9, 7, -8, 10}, i; for (i = 0; i < 8; i++) "
+          "{ "
+          "int *p = bsearch(&keys[i], t, 5, sizeof(int), order); printf(\"%d \", p ? (int)(p - t) : -1); }"),
+      "0 1 2 3 4 -1 -1 -1 ");
   EXPECT_EQ(printed("srand(3); printf(\"%d\", rand());"),
             "17747");  // (3 * 1103515245 + 12345) / 65536 % 32768
   EXPECT_EQ(printed("int n = setjmp(where); if (n == 0) jump(); printf(\"%d\", n);"), "7");
+}
+
+// halves go to the even neighbour, and what is beside them up or down: as the PC rounds
+TEST(libc, a_long_double_is_rounded_to_the_nearest_float) {
+  const double values[] = {0x1.000001p0,
+                           0x1.000003p0,
+                           0x1.0000010000001p0,
+                           0x1.000000fffffffp0,
+                           0x1.000002p0,
+                           -0x1.000001p0,
+                           0x1.ffffffp0,
+                           0x1.fffffep127,
+                           0x1.ffffffp127,
+                           0x1.000001p-126,
+                           0x1.800003p-127,
+                           0x1.000001p-149,
+                           0x1p-150,
+                           0x1.8p-149,
+                           0x1p-151};
+  std::string program = "long double v[] = {", wanted;
+  for (const double value : values) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%aL, ", value);
+    program += text;
+    const auto rounded = static_cast<float>(value);
+    std::uint32_t bits;
+    std::memcpy(&bits, &rounded, sizeof bits);
+    std::snprintf(text, sizeof text, "%lx ", static_cast<unsigned long>(bits));
+    wanted += text;
+  }
+  EXPECT_EQ(
+      printed(program + "}; unsigned i; for (i = 0; i < sizeof v / sizeof *v; i++) { float f = (float)v[i]; "
+                        "unsigned long u; memcpy(&u, &f, 4); printf(\"%lx \", u); }"),
+      wanted);
 }
 
 TEST(libc, mathematics_is_single_precision_under_both_names) {

@@ -191,6 +191,27 @@ TEST_F(FirmwareTest, calls_without_argument_mean_what_they_meant_in_older_librar
   expect_no_traps();
 }
 
+// each round of wait() takes as long as the one before: none for 0, and as many as it is told
+TEST_F(FirmwareTest, wait_goes_round_as_often_as_it_is_told) {
+  Robot& robot = add_robot_with_source(
+      "#include <p30F6014A.h>\n#include <utility/utility.h>\n"
+      "unsigned int ticks[5];\n"
+      "static const long rounds[5] = {0, 1, 2, 3, 1000};\n"
+      "int main(void) {\n"
+      "  int i;\n"
+      "  PR1 = 0xFFFF; T1CON = 0x8000;\n"
+      "  for (i = 0; i < 5; i++) { TMR1 = 0; wait(rounds[i]); ticks[i] = TMR1; }\n"
+      "  while (1);\n"
+      "}\n");
+  run_for(0.1);
+  const auto ticks = robot.variables<std::uint16_t>("ticks", 5);
+  const int round = ticks[3] - ticks[2];
+  EXPECT_EQ(round, 6);  // XC16's at -O1
+  EXPECT_EQ(ticks[2] - ticks[1], round);
+  EXPECT_EQ(ticks[4] - ticks[3], 997 * round);
+  EXPECT_GT(ticks[1] - ticks[0], 0);
+}
+
 TEST_F(FirmwareTest, a_transform_helper_rounds_the_mean_down) {
   Robot& robot = add_robot_with_source(
       "#include <fft/e_fft_utilities.h>\n"

@@ -354,7 +354,7 @@ TEST_F(WebotsOnChip, each_function_answers) {
 #include <webots/robot.h>
 #include <webots/speaker.h>
 #define K(x) ((int)(1000 * (x) + ((x) < 0 ? -0.5 : 0.5)))
-int left, right, turns, charge, angle;
+int left, right, turns, charge, angle, ahead, aside, upwards;
 int main(void) {
   WbDeviceTag m, s, p, l, a, g, mic, sp, led, e, r;
   wb_robot_init();
@@ -419,6 +419,8 @@ int main(void) {
   angle = K(wb_position_sensor_get_value(s));
   turns = (int)wb_gyro_get_values(g)[2];
   charge = (int)wb_robot_battery_sensor_get_value();
+  ahead = K(wb_accelerometer_get_values(a)[0]), aside = K(wb_accelerometer_get_values(a)[1]);
+  upwards = K(wb_accelerometer_get_values(a)[2]);
   wb_differential_wheels_set_speed(0, 0);
   wb_differential_wheels_set_encoders(10, -20);
   printf("set %d %d\n", (int)wb_differential_wheels_get_left_encoder(), (int)wb_differential_wheels_get_right_encoder());
@@ -444,6 +446,7 @@ int main(void) {
   while (1) wb_robot_step(64);
 })");
   r.settings().own["revision"] = "1.3";
+  r.settings().variation.acc_offset_m_s2 = {0.5, -1, 0};
   r.battery(3.8);
   run_for(4);
   EXPECT_TRUE(wording::reads(
@@ -473,6 +476,9 @@ int main(void) {
   EXPECT_NEAR(r.variable("angle"), 1000 * 320 / 159.155, 220);
   // (-250 - 500) steps/s of 0.1288 mm on 53 mm are -1.823 rad/s, times 7509.9
   EXPECT_NEAR(r.variable("turns"), -13688, 150);
+  EXPECT_NEAR(r.variable("ahead"), 500, 100);
+  EXPECT_NEAR(r.variable("aside"), -1000, 100);
+  EXPECT_NEAR(r.variable("upwards"), 9810, 150);
   EXPECT_NEAR(r.variable("charge"), 18000 * 0.43, 400)
       << "0.3 A through 0.2 ohm take 0.06 of 3.8 V while it drives";
   expect_no_traps();
