@@ -263,3 +263,71 @@ test("the list of pieces follows the world and keeps its rows", () => {
   assert.equal(store.selected, 2);
   assert.equal(puck.getAttribute("aria-selected"), "true");
 });
+
+test("the list of pieces is walked by keys and picked by mouse", () => {
+  const { store, pieces } = start();
+  new Tree(store, pieces);
+  const elements = [1, 2, 3, 4].map((id) => element(id, "box", 10 * id));
+  store.takeWorld(world({ things: [1, 2, 3, 4].map((id) => thing(id)), elements }), 1);
+  const list = document.getElementById("pieces")!,
+    row = (id: number) => document.getElementById(`piece-${id}`)!;
+  const lines: number[] = [];
+  store.on("worldLine", (line) => lines.push(line as number));
+  const press = (key: string, more: object = {}) => {
+    const e = new KeyboardEvent("keydown", { key, cancelable: true, ...more });
+    list.dispatchEvent(e);
+    return e.defaultPrevented;
+  };
+  const click = (id: number, more: object = {}) => row(id).dispatchEvent(new MouseEvent("click", more));
+  // key by key: what is selected then, the last one first asked for
+  const steps: [string, object, number[]][] = [
+    ["ArrowUp", {}, [1]],
+    ["ArrowDown", {}, [2]],
+    ["ArrowUp", {}, [1]],
+    ["ArrowUp", {}, [1]],
+    ["End", {}, [4]],
+    ["ArrowDown", {}, [4]],
+    ["Home", {}, [1]],
+    ["ArrowDown", { shiftKey: true }, [1, 2]],
+    ["ArrowDown", { shiftKey: true }, [1, 2, 3]],
+    ["a", { ctrlKey: true }, [1, 2, 3, 4]],
+  ];
+  for (const [key, more, selected] of steps) {
+    assert.equal(press(key, more), true);
+    assert.deepEqual(store.selection, selected, key);
+  }
+  assert.equal(press("a"), false);
+  click(2);
+  assert.deepEqual(store.selection, [2]);
+  click(4, { ctrlKey: true });
+  assert.deepEqual(store.selection, [2, 4]);
+  click(2, { metaKey: true });
+  assert.deepEqual(store.selection, [4]);
+  click(3, { shiftKey: true });
+  assert.deepEqual(store.selection, [2, 3]);
+  assert.equal(row(3).getAttribute("aria-selected"), "true");
+  assert.equal(row(4).getAttribute("aria-selected"), "false");
+  assert.equal(list.getAttribute("aria-activedescendant"), "piece-3");
+  assert.equal(press("Enter"), true);
+  row(4).dispatchEvent(new MouseEvent("dblclick"));
+  assert.deepEqual(lines, [30, 40]);
+});
+
+test("the list of pieces shows what the filter holds", () => {
+  const { store, pieces } = start();
+  new Tree(store, pieces);
+  const things = [thing(1, { name: "wall" }), thing(2, { name: "crate", kind: "cylinder" })];
+  store.takeWorld(world({ things, robots: [robot(3)] }), 1);
+  const filter = document.getElementById("piece-filter") as HTMLInputElement;
+  const shown = (wanted: string) => {
+    filter.value = wanted;
+    filter.dispatchEvent(new Event("input"));
+    return [...document.querySelectorAll<HTMLElement>("#pieces li")].map((r) => r.id);
+  };
+  assert.deepEqual(shown(" WALL "), ["piece-1"]);
+  assert.deepEqual(shown("cyl"), ["piece-2"]);
+  assert.deepEqual(shown("driv"), ["piece-3"]);
+  assert.equal(text("#tree small"), "1 of 3");
+  assert.deepEqual(shown(""), ["piece-3", "piece-1", "piece-2"]);
+  assert.equal(text("#tree small"), "3");
+});
