@@ -30,6 +30,17 @@ test("what has not come is not written", async () => {
   assert.deepEqual(link.of("write_source"), []);
 });
 
+test("two who open a source at once read it once", async () => {
+  const { link, buffers } = start();
+  link.answers.source = () => ({ text: "one", base: "b1" });
+  const [a, b] = await Promise.all([buffers.open("drive", "main.c"), buffers.open("drive", "main.c")]);
+  assert.equal(a, b);
+  assert.equal(link.of("source").length, 1);
+  await buffers.open("drive", "main.c"); // it is known
+  await buffers.open("drive", "other.c");
+  assert.equal(link.of("source").length, 2);
+});
+
 test("text is saved over the bytes that were read, and the next time over those", async () => {
   const { link, buffers } = start();
   link.answers.source = () => ({ text: "one", base: "b1", writable: true });

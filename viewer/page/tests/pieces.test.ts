@@ -141,6 +141,43 @@ test("what is done to pieces, before a run and in it", async () => {
   }
 });
 
+test("a piece is put where it is said to be, a wall by its first point", () => {
+  const { link, pieces, store } = start(0);
+  const [box, wall] = store.world.things;
+  pieces.put([
+    { piece: box as never, at: [1, 2] },
+    { piece: wall as never, at: [0.5, -0.25] },
+  ]);
+  assert.deepEqual(
+    link.of("edit").flatMap(({ group, ...edit }) => edit.edits ?? [edit]),
+    [
+      set(kBox, { position: [1, 2, 0.3] }),
+      set(kWall, {
+        points: [
+          [0.5, -0.25],
+          [0.7, -0.25],
+        ],
+      }),
+    ],
+  );
+  // from somewhere else than the origin, too
+  wall.points = [
+    [0.2, 0.3],
+    [0.4, 0.6],
+  ] as never;
+  pieces.put([{ piece: wall as never, at: [1, 1] }]);
+  const { group, ...edit } = link.of("edit").at(-1)!;
+  assert.deepEqual(
+    edit,
+    set(kWall, {
+      points: [
+        [1, 1],
+        [1.2, 1.3],
+      ],
+    }),
+  );
+});
+
 test("what is pasted again lies further, and something else begins anew", async () => {
   const { link, pieces } = start(0);
   for (const text of ["[[box]]\n", "[[box]]\n", "words", "[[lamp]]\n"]) await pieces.paste(text);

@@ -79,3 +79,41 @@ test("an earlier time of the server's is a new run: nothing of the old one stays
   assert.deepEqual(store.traps, []);
   await settle();
 });
+
+test("what ends a run, a recording or the server is said in the page", async () => {
+  const { store, link } = start();
+  const box = document.getElementById("notice")!,
+    said = () => [box.textContent, box.className];
+  const tell = (more: object) => link.event("state", { state: { ...store.state, ...more } });
+  const nothing = said();
+  tell({});
+  assert.deepEqual(said(), nothing);
+  tell({ ended: true, outcome: { code: 0, text: "three goals" } });
+  assert.deepEqual(said(), ["three goals", "shown"]);
+  tell({ ended: true, outcome: { code: 1, text: "" } });
+  assert.deepEqual(said(), ["The supervisor has ended the run", "bad shown"]);
+  tell({ ended: false, outcome: undefined, recording: { file: "r.jsonl", error: "no space left" } });
+  assert.deepEqual(said(), ["The recording r.jsonl: no space left", "bad shown"]);
+  link.event("problems", { problems: [] });
+  assert.deepEqual(said(), ["The recording r.jsonl: no space left", "bad shown"]);
+  link.event("problems", { problems: ["puck: two of that name", "more"] });
+  assert.deepEqual(said(), ["puck: two of that name", "bad shown"]);
+  tell({ recording: { file: "r.jsonl", error: "no space left" } }); // it was said
+  assert.deepEqual(said(), ["puck: two of that name", "bad shown"]);
+  link.onClose();
+  assert.deepEqual(said(), [
+    "twinpuck view has ended. Start it again and open the address that it prints.",
+    "bad shown",
+  ]);
+  assert.equal(document.body.dataset.ready, "gone");
+  await settle();
+});
+
+test("a run begins with the first frame behind 0 s, and again after a reset", () => {
+  const { store, link } = start();
+  store.takeWorld(world(), 1);
+  const began: boolean[] = [];
+  store.on("frame", (told) => began.push((told as { began: boolean }).began));
+  for (const time of [0, 0, 0.1, 0.2, 0, 0.1]) hear(link, frame(1, time, 1, []));
+  assert.deepEqual(began, [false, false, true, false, true, true]);
+});
