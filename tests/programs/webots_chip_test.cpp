@@ -333,9 +333,8 @@ int main(void) {
   expect_no_traps();
 }
 
-// What each function of today's interface answers on the chip, word for word; numbers in thousandths.
-TEST_F(WebotsOnChip, each_function_answers) {
-  Robot& r = add_robot_with_source(R"(
+// Asks each function of today's interface; numbers in thousandths.
+const char* const kEachFunction = R"(
 #include <math.h>
 #include <stdio.h>
 #include <webots/accelerometer.h>
@@ -444,7 +443,10 @@ int main(void) {
   wb_robot_console_printf("%d of %s ", 3, "four");
   wb_console_print("end", WB_STDOUT);
   while (1) wb_robot_step(64);
-})");
+})";
+
+TEST_F(WebotsOnChip, each_function_answers) {
+  Robot& r = add_robot_with_source(kEachFunction);
   r.settings().own["revision"] = "1.3";
   r.settings().variation.acc_offset_m_s2 = {0.5, -1, 0};
   r.battery(3.8);
