@@ -158,11 +158,11 @@ class Reader {
     const double none = std::numeric_limits<double>::infinity();
     const toml::table* list = t[key].as_table();
     if (!list) return;
-    for (const auto& [name, node] : *list) {
-      const Measure m = measure(node, std::string(name.str()));
+    for (const auto& [name_of, node] : *list) {
+      const std::string name(name_of.str());
+      const Measure m = measure(node, name);
       const double limit = node.value<double>().value_or(0);
-      if (!node.is_number())
-        problem(node, fmt::format("{}: got {}, expected a number", std::string(name.str()), kind_of(node)));
+      if (!node.is_number()) problem(node, fmt::format("{}: got {}, expected a number", name, kind_of(node)));
       if (m == Measure::Count) continue;
       const bool most = std::string(key) == "at_most";
       s.bounds.push_back({m, most ? -none : limit, most ? limit : none});

@@ -13,19 +13,19 @@
 #include <cstdio>
 #include <cstdlib>
 
+/// Nothing but what it says in assembler, also in a build that counts calls.
+#define LAZY_JUMP __attribute__((naked, no_profile_instrument_function, used, visibility("hidden")))
+
 /// Each function jumps to where its slot points, so any signature will do: first to the loader, which keeps
 /// all registers that arguments can be in, then to the library.
-#define LAZY_FUNCTION(library, name)                                                         \
-  extern "C" {                                                                               \
-  __attribute__((naked, no_profile_instrument_function, used,                                \
-                 visibility("hidden"))) void lazy_first_##name() {                           \
-    __asm__("call lazy_load_" #library "\n jmp *lazy_at_" #name "(%rip)");                   \
-  }                                                                                          \
-  __attribute__((used, visibility("hidden"))) void* lazy_at_##name =                         \
-      reinterpret_cast<void*>(&lazy_first_##name);                                           \
-  __attribute__((naked, no_profile_instrument_function, visibility("hidden"))) void name() { \
-    __asm__("jmp *lazy_at_" #name "(%rip)");                                                 \
-  }                                                                                          \
+#define LAZY_FUNCTION(library, name)                                       \
+  extern "C" {                                                             \
+  LAZY_JUMP void lazy_first_##name() {                                     \
+    __asm__("call lazy_load_" #library "\n jmp *lazy_at_" #name "(%rip)"); \
+  }                                                                        \
+  __attribute__((used, visibility("hidden"))) void* lazy_at_##name =       \
+      reinterpret_cast<void*>(&lazy_first_##name);                         \
+  LAZY_JUMP void name() { __asm__("jmp *lazy_at_" #name "(%rip)"); }       \
   }
 
 #define LAZY_FIND(library, name) \
@@ -46,8 +46,7 @@
                  handle ? "it is of another version" : dlerror());                                           \
     std::abort();                                                                                            \
   }                                                                                                          \
-  extern "C" __attribute__((naked, no_profile_instrument_function, used,                                     \
-                            visibility("hidden"))) void lazy_load_##library() {                              \
+  extern "C" LAZY_JUMP void lazy_load_##library() {                                                          \
     __asm__(                                                                                                 \
         "push %rax\n push %rdi\n push %rsi\n push %rdx\n push %rcx\n push %r8\n push %r9\n sub $136, %rsp\n" \
         "movups %xmm0, (%rsp)\n movups %xmm1, 16(%rsp)\n movups %xmm2, 32(%rsp)\n movups %xmm3, 48(%rsp)\n"  \
