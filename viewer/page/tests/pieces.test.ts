@@ -42,6 +42,8 @@ function start(time: number) {
   store.frame = { time, bodies: 2, poses } as Frame;
   return { store, link, pieces };
 }
+/** Edits that were asked for, one by one. */
+const editsOf = (link: FakeLink) => link.of("edit").flatMap(({ group, ...edit }) => edit.edits ?? [edit]);
 const set = (id: number, values: Record<string, unknown>) => ({ op: "set", thing: id, values });
 const move = (body: number, x: number, y: number, heading: number) => ({ body, x, y, heading });
 
@@ -135,7 +137,7 @@ test("what is done to pieces, before a run and in it", async () => {
     store.selectAll(selected);
     await act(pieces);
     await settle();
-    const asked = link.of("edit").flatMap(({ group, ...edit }) => edit.edits ?? [edit]);
+    const asked = editsOf(link);
     assert.deepEqual(asked, edits, what);
     assert.deepEqual(link.of("move"), moves, what);
   }
@@ -148,27 +150,23 @@ test("a piece is put where it is said to be, a wall by its first point", () => {
     { piece: box as never, at: [1, 2] },
     { piece: wall as never, at: [0.5, -0.25] },
   ]);
-  assert.deepEqual(
-    link.of("edit").flatMap(({ group, ...edit }) => edit.edits ?? [edit]),
-    [
-      set(kBox, { position: [1, 2, 0.3] }),
-      set(kWall, {
-        points: [
-          [0.5, -0.25],
-          [0.7, -0.25],
-        ],
-      }),
-    ],
-  );
+  assert.deepEqual(editsOf(link), [
+    set(kBox, { position: [1, 2, 0.3] }),
+    set(kWall, {
+      points: [
+        [0.5, -0.25],
+        [0.7, -0.25],
+      ],
+    }),
+  ]);
   // from somewhere else than the origin, too
   wall.points = [
     [0.2, 0.3],
     [0.4, 0.6],
   ] as never;
   pieces.put([{ piece: wall as never, at: [1, 1] }]);
-  const { group, ...edit } = link.of("edit").at(-1)!;
   assert.deepEqual(
-    edit,
+    editsOf(link).at(-1),
     set(kWall, {
       points: [
         [1, 1],
