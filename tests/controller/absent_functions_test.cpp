@@ -109,9 +109,6 @@ World puck() {
   X(skin_get_bone_orientation, 0, 1, true) \
   X(skin_get_bone_position, 0, 1, true)
 
-}  // namespace
-
-namespace {
 #define NAME(function, ...) #function,
 #define CALL(function, ...) wb_##function(__VA_ARGS__);
 #define SAY_UNLESS(is_so, function) \
@@ -130,6 +127,7 @@ const Absent kAbsent[] = {{{EACH_SILENT(NAME)}, [] { EACH_SILENT(CALL) }},
                           {{EACH_ZERO_MORE(NAME)}, [] { EACH_ZERO_MORE(IS_ZERO) }},
                           {{EACH_EMPTY(NAME)}, [] { EACH_EMPTY(IS_EMPTY) }},
                           {{EACH_NULL(NAME)}, [] { EACH_NULL(IS_NULL) }}};
+
 }  // namespace
 
 TEST(AbsentFunctions, kinds_that_no_robot_carries_say_which_function_got_which_tag) {
@@ -204,9 +202,9 @@ TEST(AbsentFunctions, nobody_has_a_mouse_or_a_joystick) {
 }
 
 TEST(AbsentFunctions, windows_are_not_and_the_system_is_the_pcs) {
-  setenv("TMPDIR", "/somewhere", 1);
-  setenv("CONTROLLER_TEST", "set", 1);
   Simulator sim([] {
+    setenv("TMPDIR", "/somewhere", 1);
+    setenv("CONTROLLER_TEST", "set", 1);
     wb_robot_wwi_send("abc", 3);
     wb_robot_wwi_send_text("abc");
     wbu_default_robot_window_configure();
@@ -222,15 +220,12 @@ TEST(AbsentFunctions, windows_are_not_and_the_system_is_the_pcs) {
   });
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_EQ(sim.output(), "111 set /a b /somewhere /somewhere /tmp");
-  unsetenv("TMPDIR");
-  unsetenv("CONTROLLER_TEST");
 }
 
 TEST(AbsentFunctions, lidars_and_range_finders_tell_their_size_and_ranges) {
-  char file[] = "/tmp/range_imageXXXXXX";
-  close(mkstemp(file));
-  const std::string name = file;
-  Simulator sim([name] {
+  char file[] = "/tmp/range_imageXXXXXX.png";
+  close(mkstemps(file, 4));
+  Simulator sim([&] {
     wb_robot_init();
     wb_lidar_enable(kLidar, 64);
     wb_range_finder_enable(kFinder, 96);
@@ -252,7 +247,7 @@ TEST(AbsentFunctions, lidars_and_range_finders_tell_their_size_and_ranges) {
            wb_lidar_get_layer_point_cloud(kLidar, -1) == nullptr);
     wb_lidar_disable_point_cloud(kLidar);
     printf("%d%d ", wb_lidar_is_point_cloud_enabled(kLidar), wb_lidar_get_point_cloud(kLidar) == nullptr);
-    printf("%d ", wb_range_finder_save_image(kFinder, (name + ".png").c_str(), 100));
+    printf("%d ", wb_range_finder_save_image(kFinder, file, 100));
     wb_lidar_disable(kLidar);
     wb_range_finder_disable(kFinder);
     printf("%d %d", wb_lidar_get_sampling_period(kLidar), wb_range_finder_get_sampling_period(kFinder));
@@ -273,11 +268,10 @@ TEST(AbsentFunctions, lidars_and_range_finders_tell_their_size_and_ranges) {
   // the lower layer is 0.1 rad down: 2 m cos and sin of it
   EXPECT_EQ(sim.output(),
             "64 96 2 1.5 0.2 0.1 3.5\n3 2 1.25 0.01 1\n10 10 10 0 1 1.990 -0.200 1 11\n01 0 0 0");
-  const fake::Picture grey = fake::read_picture(name + ".png");
+  const fake::Picture grey = fake::read_picture(file);
   EXPECT_EQ(grey.width, 3);
   EXPECT_EQ(grey.argb, (std::vector<std::uint32_t>{0xFF000000u, 0xFF3F3F3Fu, 0xFF7F7F7Fu, 0xFFBFBFBFu,
                                                    0xFFFFFFFFu, 0xFFFFFFFFu}));
-  std::remove((name + ".png").c_str());
   std::remove(file);
 }
 

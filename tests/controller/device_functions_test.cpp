@@ -113,9 +113,13 @@ World all_kinds(bool nue = false) {
   X(kGyro, gyro)                   \
   X(kCompass, compass)             \
   X(kAltimeter, altimeter)         \
-  X(kGps, gps) X(kUnit, inertial_unit) X(kCamera, camera) X(kReceiver, receiver) X(kMicrophone, microphone)
-constexpr int kSensors[] = {kDistance,  kLight, kTouch, kPosition, kAccelerometer, kGyro,      kCompass,
-                            kAltimeter, kGps,   kUnit,  kCamera,   kReceiver,      kMicrophone};
+  X(kGps, gps)                     \
+  X(kUnit, inertial_unit)          \
+  X(kCamera, camera)               \
+  X(kReceiver, receiver)           \
+  X(kMicrophone, microphone)
+#define TAG(tag, name) tag,
+constexpr int kSensors[] = {EACH_SENSOR(TAG)};
 
 #define EACH_OLD_SENSOR(X)         \
   X(kDistance, distance_sensor)    \
@@ -123,9 +127,12 @@ constexpr int kSensors[] = {kDistance,  kLight, kTouch, kPosition, kAcceleromete
   X(kTouch, touch_sensor)          \
   X(kAccelerometer, accelerometer) \
   X(kGyro, gyro)                   \
-  X(kCompass, compass) X(kGps, gps) X(kCamera, camera) X(kReceiver, receiver) X(kMicrophone, microphone)
-constexpr int kOldSensors[] = {kDistance, kLight, kTouch,  kAccelerometer, kGyro,
-                               kCompass,  kGps,   kCamera, kReceiver,      kMicrophone};
+  X(kCompass, compass)             \
+  X(kGps, gps)                     \
+  X(kCamera, camera)               \
+  X(kReceiver, receiver)           \
+  X(kMicrophone, microphone)
+constexpr int kOldSensors[] = {EACH_OLD_SENSOR(TAG)};
 
 /// Tags and periods of what was switched, in order.
 std::vector<std::pair<int, int>> switched(const std::vector<Record>& said) {

@@ -113,7 +113,7 @@ const Type kTypes[] = {
     {"String", {WB_SF_STRING, {}, "text"}, SET_AND_GET(string, "text", say)},
 };
 
-/// The fake world's field: numbers, or its text, and the text in between.
+/// What a program of the table tells: the value of the field, or its text, for each time it asks.
 std::string three_times(const Answers& a) {
   std::string told;
   for (const double number : a.numbers) {
@@ -181,11 +181,10 @@ TEST(WorldFunctions, nodes_are_imported_from_texts_and_files_and_removed) {
   char file[] = "/tmp/world_functionsXXXXXX";
   close(mkstemp(file));
   std::ofstream(file) << "Ball { }";
-  const std::string name = file;
-  Simulator sim([name] {
+  Simulator sim([&] {
     wb_supervisor_field_import_sf_node_from_string(one(), "Box { }");
-    wb_supervisor_field_import_sf_node(one(), name.c_str());
-    wb_supervisor_field_import_mf_node(many(), 0, name.c_str());
+    wb_supervisor_field_import_sf_node(one(), file);
+    wb_supervisor_field_import_mf_node(many(), 0, file);
     wb_supervisor_field_import_mf_node(many(), 0, "/nowhere/node.wbo");
     wb_supervisor_field_remove_sf(one());
     wb_supervisor_field_remove_mf_node(many(), 1);
@@ -201,7 +200,9 @@ TEST(WorldFunctions, nodes_are_imported_from_texts_and_files_and_removed) {
   for (std::size_t i = 0; i < told.size(); ++i) {
     EXPECT_EQ(told[i].number, i < 3 ? LINK_IMPORT : LINK_REMOVE);
     EXPECT_EQ(told[i].ints, places[i]);
-    if (i < 3) EXPECT_EQ(told[i].texts[0], texts[i]);
+    if (i < 3) {
+      EXPECT_EQ(told[i].texts[0], texts[i]);
+    }
   }
   EXPECT_EQ(sim.wait(), 0);
   EXPECT_TRUE(wording::reads(

@@ -8,6 +8,7 @@ using bench::Bench;
 using bench::Cycle;
 using bench::kNever;
 using dspic::Cause;
+using dspic::Pin;
 using dspic::Port;
 namespace irq = dspic::irq;
 
@@ -137,16 +138,16 @@ TEST(ExternalInterrupt, flag_comes_two_cycles_after_its_edge) {
 
 TEST(ExternalInterrupt, edges_while_the_flag_is_set_are_missed) {
   const struct {
-    Port port;
-    int bit, irq;
-  } kLines[] = {{Port::F, 6, irq::Int0},
-                {Port::A, 12, irq::Int1},
-                {Port::A, 13, irq::Int2},
-                {Port::A, 14, irq::Int3},
-                {Port::A, 15, irq::Int4}};
+    Pin pin;
+    int irq;
+  } kLines[] = {{{Port::F, 6}, irq::Int0},
+                {{Port::A, 12}, irq::Int1},
+                {{Port::A, 13}, irq::Int2},
+                {{Port::A, 14}, irq::Int3},
+                {{Port::A, 15}, irq::Int4}};
   for (const auto& line : kLines) {
     Bench b;
-    b.outside.clock({line.port, line.bit}, 1000, 100, 50, 10);
+    b.outside.clock(line.pin, 1000, 100, 50, 10);
     b.chip.outside_changed(0);
     b.enable(line.irq, 0);
     b.clear_flag(line.irq, 1450);  // edges at 1100, 1200, 1300, 1400
@@ -199,24 +200,21 @@ TEST(ChangeNotification, other_pins_do_not_count) {
 }
 
 // CN0 to CN23 [DS70143 pins]: each has a bit of its own in CNEN1, CNEN2, CNPU1 and CNPU2
-struct Input {
-  Port port;
-  int bit;
-};
-constexpr Input kInputs[] = {{Port::C, 14}, {Port::C, 13}, {Port::B, 0},  {Port::B, 1}, {Port::B, 2},
-                             {Port::B, 3},  {Port::B, 4},  {Port::B, 5},  {Port::G, 6}, {Port::G, 7},
-                             {Port::G, 8},  {Port::G, 9},  {Port::B, 15}, {Port::D, 4}, {Port::D, 5},
-                             {Port::D, 6},  {Port::D, 7},  {Port::F, 4},  {Port::F, 5}, {Port::D, 13},
-                             {Port::D, 14}, {Port::D, 15}, {Port::A, 6},  {Port::A, 7}};
-constexpr const char* kPortNames[] = {"PORTA", "PORTB", "PORTC", "PORTD", "PORTF", "PORTG"};
-constexpr Port kPortsInOrder[] = {Port::A, Port::B, Port::C, Port::D, Port::F, Port::G};
+constexpr Pin kInputs[] = {{Port::C, 14}, {Port::C, 13}, {Port::B, 0},  {Port::B, 1}, {Port::B, 2},
+                           {Port::B, 3},  {Port::B, 4},  {Port::B, 5},  {Port::G, 6}, {Port::G, 7},
+                           {Port::G, 8},  {Port::G, 9},  {Port::B, 15}, {Port::D, 4}, {Port::D, 5},
+                           {Port::D, 6},  {Port::D, 7},  {Port::F, 4},  {Port::F, 5}, {Port::D, 13},
+                           {Port::D, 14}, {Port::D, 15}, {Port::A, 6},  {Port::A, 7}};
+constexpr std::pair<const char*, Port> kAllPorts[] = {{"PORTA", Port::A}, {"PORTB", Port::B},
+                                                      {"PORTC", Port::C}, {"PORTD", Port::D},
+                                                      {"PORTF", Port::F}, {"PORTG", Port::G}};
 
 TEST(ChangeNotification, each_input_has_its_bit) {
   for (int n = 0; n < 24; ++n)
     for (const bool others : {false, true}) {
       Bench b;
       b.write("ADPCFG", 0xFFFF, 0);
-      b.outside.clock({kInputs[n].port, kInputs[n].bit}, 1000, 1000, 300, 1);
+      b.outside.clock(kInputs[n], 1000, 1000, 300, 1);
       const auto own = static_cast<std::uint32_t>(1u << n), enabled = others ? 0xFFFFFFu & ~own : own;
       b.write("CNEN1", enabled & 0xFFFF, 10);
       b.write("CNEN2", enabled >> 16, 10);
@@ -230,9 +228,8 @@ TEST(ChangeNotification, pull_ups_lift_open_pins) {
     Bench b;
     b.write("ADPCFG", 0xFFFF, 0);
     b.write(n < 16 ? "CNPU1" : "CNPU2", 1u << n % 16, 2);
-    for (int p = 0; p < 6; ++p)
-      EXPECT_EQ(b.read(kPortNames[p], 3), kPortsInOrder[p] == kInputs[n].port ? 1u << kInputs[n].bit : 0u)
-          << "CN" << n;
+    for (const auto& [name, port] : kAllPorts)
+      EXPECT_EQ(b.read(name, 3), port == kInputs[n].port ? 1u << kInputs[n].bit : 0u) << "CN" << n;
   }
 }
 

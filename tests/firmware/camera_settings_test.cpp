@@ -14,17 +14,14 @@ class CameraSettings : public FirmwareTest {
  protected:
   /// A register as somebody else on the bus would read it; bank -1: the one selected.
   int read(int number, int bank = -1, int robot = 0) {
-    board::I2cDevice& sensor = *twin().mind(robot).board().i2c().find(0xDC);
-    const auto at = twin().mind(robot).now();
     if (bank >= 0) {
+      board::I2cDevice& sensor = *twin().mind(robot).board().i2c().find(0xDC);
+      const auto at = twin().mind(robot).now();
       sensor.begin(0xDC, false, at);
       sensor.write(3, at);
       sensor.write(static_cast<std::uint8_t>(bank), at);
     }
-    sensor.begin(0xDC, false, at);
-    sensor.write(static_cast<std::uint8_t>(number), at);
-    sensor.begin(0xDC, true, at);
-    return sensor.read(at);
+    return this->robot(robot).bus_register(0xDC, number);
   }
   Robot& run_statements(const std::string& header, const std::string& statements, const char* camera,
                         double seconds = 1) {

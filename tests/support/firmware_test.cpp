@@ -111,6 +111,15 @@ void Robot::press_key(int key, double hold_s, int address) {
   test_->twin();
   mind().press_key({key, at_s, hold_s, address});
 }
+int Robot::bus_register(int address, int number) const {
+  board::I2cDevice& device = *mind().board().i2c().find(address);
+  const auto to = static_cast<std::uint8_t>(address);
+  const auto at = mind().now();
+  device.begin(to, false, at);
+  device.write(static_cast<std::uint8_t>(number), at);
+  device.begin(to, true, at);
+  return device.read(at);
+}
 double Robot::battery_v() const { return mind().board().power().battery().voltage(mind().now()); }
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});

@@ -87,6 +87,8 @@ class Robot {
   void turn_selector(int position);
   /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
   void press_key(int key, double hold_s = 0.1, int address = 0);
+  /// A register of a device of its I2C bus, as another master reads it now.
+  int bus_register(int address, int number) const;
   double battery_v() const;                                  ///< V at the terminals
   void push_to(double x_m, double y_m, double heading_deg);  ///< puts the robot somewhere else by hand
 
