@@ -476,9 +476,9 @@ int main(void) {
   r.settings().variation.gyro_offset_rad_s = {sim::radians(3.5), sim::radians(-7), 0};
   run_for(0.2);
   for (const auto& [number, value] : {std::pair{0x20, 0x9F}, {0x25, 0x50}})
-    EXPECT_EQ(r.bus_register(0x3C, number), value);
+    EXPECT_EQ(bus_register(0, 0x3C, number), value);
   for (const auto& [number, value] : {std::pair{0x20, 0xCF}, {0x21, 0x20}, {0x23, 0x00}})
-    EXPECT_EQ(r.bus_register(0xD4, number), value);
+    EXPECT_EQ(bus_register(0, 0xD4, number), value);
   // 400 is 0x0190, -800 is 0xFCE0
   EXPECT_EQ(r.variables<std::uint8_t>("bytes", 6), (std::vector<std::uint8_t>{0x90, 0x01, 0xE0, 0xFC, 0, 0}));
   EXPECT_EQ(r.variable<std::uint8_t>("present_1_1"), 1) << "the name of before 1.3 for the same flag";

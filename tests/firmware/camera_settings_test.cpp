@@ -21,7 +21,7 @@ class CameraSettings : public FirmwareTest {
       sensor.write(3, at);
       sensor.write(static_cast<std::uint8_t>(bank), at);
     }
-    return this->robot(robot).bus_register(0xDC, number);
+    return bus_register(robot, 0xDC, number);
   }
   Robot& run_statements(const std::string& header, const std::string& statements, const char* camera,
                         double seconds = 1) {

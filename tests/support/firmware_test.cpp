@@ -111,15 +111,6 @@ void Robot::press_key(int key, double hold_s, int address) {
   test_->twin();
   mind().press_key({key, at_s, hold_s, address});
 }
-int Robot::bus_register(int address, int number) const {
-  board::I2cDevice& device = *mind().board().i2c().find(address);
-  const auto to = static_cast<std::uint8_t>(address);
-  const auto at = mind().now();
-  device.begin(to, false, at);
-  device.write(static_cast<std::uint8_t>(number), at);
-  device.begin(to, true, at);
-  return device.read(at);
-}
 double Robot::battery_v() const { return mind().board().power().battery().voltage(mind().now()); }
 void Robot::push_to(double x_m, double y_m, double heading_deg) {
   test_->twin().simulation().move(index_, {x_m, y_m, sim::radians(heading_deg)});
@@ -157,6 +148,16 @@ FirmwareTest::~FirmwareTest() {
   std::vector<std::string> problems;
   if (run_ && run_->coverage()) run_->coverage()->finish(problems);
   for (const std::string& problem : problems) ADD_FAILURE() << problem;
+}
+
+int FirmwareTest::bus_register(int robot, int address, int number) {
+  host::FirmwareMind& mind = twin().mind(robot);
+  board::I2cDevice& device = *mind.board().i2c().find(address);
+  const auto to = static_cast<std::uint8_t>(address);
+  device.begin(to, false, mind.now());
+  device.write(static_cast<std::uint8_t>(number), mind.now());
+  device.begin(to, true, mind.now());
+  return device.read(mind.now());
 }
 
 void FirmwareTest::arena(double width_m, double depth_m) {

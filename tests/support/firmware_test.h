@@ -87,8 +87,6 @@ class Robot {
   void turn_selector(int position);
   /// Somebody presses a key of a remote control now, for `hold_s` seconds: key 0 to 63, address 0 to 31.
   void press_key(int key, double hold_s = 0.1, int address = 0);
-  /// A register of a device of its I2C bus, as another master reads it now.
-  int bus_register(int address, int number) const;
   double battery_v() const;                                  ///< V at the terminals
   void push_to(double x_m, double y_m, double heading_deg);  ///< puts the robot somewhere else by hand
 
@@ -178,6 +176,8 @@ class FirmwareTest : public ::testing::Test {
   /// Number of threads, extra flags for twinpuck-cc; before the first run. `options.coverage`: an lcov file
   /// that the counts of the test's programs are added to when it ends.
   twin::Options options;
+  /// A register of a device of a robot's I2C bus, as another master reads it now.
+  int bus_register(int robot, int address, int number);
   twin::Twin& twin(Caller caller = Caller::here());
 
  private:
