@@ -2,6 +2,8 @@
 #include "dspic30/translate/stretch.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <string_view>
 
 namespace dspic::translate {
@@ -54,7 +56,7 @@ bool is_direct_call(Insn id) { return id == Insn::Rcall_Expr || id == Insn::Call
 
 class Scanner {
  public:
-  Scanner(const Cpu& cpu, const Decoded* head) : cpu_(cpu), head_(head) {}
+  Scanner(const Cpu& cpu, const Decoded* head) : cpu_(cpu), head_(head) { items.reserve(kLongest); }
   std::vector<Item> items;
 
   /// One piece from a place on, as words follow one another; is its end the function's, or a jump out of it?
@@ -198,12 +200,15 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
 }
 
 std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
-  std::string key;
-  const auto add = [&key](const auto& value) {
-    key.append(reinterpret_cast<const char*>(&value), sizeof value);
-  };
-  add(cpu.plain_start);
+  std::string key(reinterpret_cast<const char*>(&cpu.plain_start), sizeof cpu.plain_start);
+  key.reserve(key.size() + items.size() * sizeof(Item));
+  std::array<char, sizeof(Item)> packed;  // what counts of an item, without gaps
   for (const Item& item : items) {
+    std::size_t size = 0;
+    const auto add = [&](const auto& value) {
+      std::memcpy(&packed[size], &value, sizeof value);
+      size += sizeof value;
+    };
     add(item.place);
     add(item.word);
     add(item.decoded.lead);
@@ -219,6 +224,7 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.way);
     add(item.routine_place);
     add(item.routine ? item.routine->code : 0);
+    key.append(packed.data(), size);
     if (item.routine) key += item.routine->name;
   }
   return key;

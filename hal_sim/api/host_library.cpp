@@ -77,6 +77,10 @@ HostResult HostLibrary::call(Cpu& cpu, unsigned index, Cycle at, bool again) {
         variables_.dark_less_lit(cpu.w[0], at + cycles_.prox_dark, at + cycles_.prox_lit));
     return HostResult::done(cycles_.prox);
   }
+  return call_any(cpu, index, at, again);
+}
+
+HostResult HostLibrary::call_any(Cpu& cpu, unsigned index, Cycle at, bool again) {
   if (index >= kHostFunctionCount) return {};
   if (watch_ && !again && !is_right_reading(cpu, index)) watch_->called(static_cast<HostFunction>(index));
   return (this->*kMethods[index])({cpu, index, at, again});

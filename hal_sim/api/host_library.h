@@ -102,6 +102,8 @@ class HostLibrary final : public dspic::HostCalls {
 
   void begin(Cycle at);
   bool is_right_reading(const Cpu& cpu, unsigned index) const;
+  /// call() of any function: apart, so that those readings need few registers.
+  __attribute__((noinline)) HostResult call_any(Cpu& cpu, unsigned index, Cycle at, bool again);
   void note(std::uint64_t what, Cycle at);
   void effect(const Call& call);
   void follow_ticks(Cycle at);

@@ -27,10 +27,9 @@ class ScanVariables {
   }
   /// A sensor's dark word at one instant less its lit one at another, the difference as a word too.
   int dark_less_lit(unsigned sensor, Cycle dark_at, Cycle lit_at) const {
-    if (!overlay_)
-      return static_cast<std::int16_t>(scan_.dark_less_lit(static_cast<int>(sensor), dark_at, lit_at));
-    return static_cast<std::int16_t>(read(HostVariable::e_ambient_ir, sensor, dark_at) -
-                                     read(HostVariable::e_ambient_and_reflected_ir, sensor, lit_at));
+    return overlay_ ? written_dark_less_lit(sensor, dark_at, lit_at)
+                    : static_cast<std::int16_t>(
+                          scan_.dark_less_lit(static_cast<int>(sensor), dark_at, lit_at));
   }
   /// Since the last reset.
   bool was_started() const { return scan_.starts() > 0; }
@@ -50,6 +49,8 @@ class ScanVariables {
     unsigned index = 0;  // word
   };
   static Place place_of(unsigned address);
+  /// dark_less_lit() where a program has written samples.
+  int written_dark_less_lit(unsigned sensor, Cycle dark_at, Cycle lit_at) const;
   struct Written {
     std::uint16_t value = 0;
     std::int64_t number = kNobody;  // of the newest sample then; kNobody: not written

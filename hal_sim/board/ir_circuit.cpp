@@ -65,9 +65,13 @@ inline double IrCircuit::ambient_noise(int sensor, Cycle at, bool lit) const {
 inline double IrCircuit::settled_share(int sensor, Cycle lit_for) const {
   if (lit_for >= kSettled) return 1;
   Settled& kept = settled_[sensor < kRingSensors / 2 ? 0 : 1];
-  if (lit_for != kept.lit_for)
-    kept = {lit_for, 1.0 - std::exp(-static_cast<double>(lit_for) / static_cast<double>(kIrSettleCycles))};
+  if (lit_for != kept.lit_for) kept.settle(lit_for);
   return kept.share;
+}
+
+void IrCircuit::Settled::settle(Cycle flash) {
+  lit_for = flash;
+  share = 1.0 - std::exp(-static_cast<double>(flash) / static_cast<double>(kIrSettleCycles));
 }
 
 __attribute__((always_inline)) inline double IrCircuit::reflected_counts(int sensor, Cycle at,

@@ -103,6 +103,7 @@ class IrCircuit {
   struct Settled {
     Cycle lit_for = -1;
     double share = 0;
+    __attribute__((noinline)) void settle(Cycle flash);
   };
   mutable std::array<Settled, 2>
       settled_;  // flashes have two lengths nearly always: their exponentials, once

@@ -221,16 +221,18 @@ int AdcScan::dark(int sensor, Cycle at) {
   return counts;
 }
 
+int AdcScan::both_read(int sensor, Cycle dark_at, Cycle lit_at) {
+  const int dark = this->dark(sensor, dark_at);
+  return dark - lit(sensor, lit_at);
+}
+
 int AdcScan::lit(int sensor, Cycle at) {
   return read(lit_[static_cast<std::size_t>(sensor)], sensor, at, true);
 }
 
 int AdcScan::dark_less_lit(int sensor, Cycle dark_at, Cycle lit_at) {
+  if (!stays_dark(sensor)) return both_read(sensor, dark_at, lit_at);
   Sample& kept = lit_[static_cast<std::size_t>(sensor)];
-  if (!stays_dark(sensor)) {
-    const int dark = this->dark(sensor, dark_at);
-    return dark - read(kept, sensor, lit_at, true);
-  }
   if (lit_at >= kept.until) {
     if (!kept.is_regular) return kAdcMax - read_anew(kept, sensor, lit_at, true);
     const Cycle held = turn_to(kept, sensor, lit_at);

@@ -131,6 +131,8 @@ class AdcScan {
   Cycle turn_to(Sample& kept, int sensor, Cycle at) const;
   int read(Sample& kept, int sensor, Cycle at, bool lit_sample);
   int read_anew(Sample& kept, int sensor, Cycle at, bool lit_sample);
+  /// dark_less_lit() of two samples that both have to be looked at.
+  __attribute__((noinline)) int both_read(int sensor, Cycle dark_at, Cycle lit_at);
   void keep(Sample& kept, int sensor, std::int64_t number, bool lit_sample) const;
   void settle(Cycle at);
   int evaluate_acc(int axis, std::int64_t sample) const;

@@ -151,7 +151,7 @@ struct TiltedFrame {
 };
 
 /// The same as shoot() in space, ramps included; every ray is tried on every neighbour.
-bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around,
+__attribute__((noinline)) bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around,
                       RayEnd* ends) {
   const TiltedFrame frame(scene, robot, around.at);
   const Vec3 from = frame.to_world(s.fan.from);
