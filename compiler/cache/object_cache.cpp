@@ -206,7 +206,9 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
   // debug information and messages name the files as the compiler was given them, from where it ran
   const Names names(job);
   std::string key = names.told(job.source.string()) + "\n" + job.salt + "\n" + salt;
-  if (job.source.is_relative()) key += "\n" + fs::current_path().string();
+  // from the top folder, so that no name in debug information or a message is relative to where this runs
+  const std::string folder = job.source.is_relative() ? fs::current_path().string() : "/";
+  key += "\n" + folder;
   for (const auto& f : job.flags) key += "\n" + names.told(f);
   const std::string stem = job.source.stem().string() + "-" + content_hash(key);
   if (!folders.ready.empty() && recall((folders.ready / stem).string(), job, inputs, outcome)) return outcome;
@@ -220,10 +222,8 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
                                    "--depfile",       half + ".d"};
   argv.insert(argv.end(), job.flags.begin(), job.flags.end());
   if (job.has_facts) argv.insert(argv.end(), {"--facts", half + ".facts"});
-  // from the top folder, so that no name in it is relative
-  if (!job.home.empty())
-    argv.insert(argv.end(),
-                {"-fdebug-compilation-dir=/", "-ffile-prefix-map=" + job.home + "=" + job.called});
+  argv.push_back("-fdebug-compilation-dir=" + folder);
+  if (!job.home.empty()) argv.push_back("-ffile-prefix-map=" + job.home + "=" + job.called);
   const int64_t began_ns = now_ns();
   std::error_code ec;
   fs::create_directories(folders.cache, ec);  // somebody may have removed it since

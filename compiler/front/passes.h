@@ -22,6 +22,9 @@ struct Unit {
   void warning(const llvm::DebugLoc& where, const llvm::Twine& text);
 };
 
+/// The file of a place that is known, as whoever started the compiler would reach it.
+std::string file_of(const llvm::DebugLoc& where);
+
 /// A loop that only counts is a delay and must not vanish: each round calls `mark`.
 void keep_empty_loops(llvm::Module& m, llvm::Function& mark);
 /// What _FOSC() and _FWDT() of the device header make, for words given by #pragma config: each is handed to

@@ -246,7 +246,7 @@ class FactWriter {
   static std::string place(const Instruction& i) {
     const DebugLoc& where = i.getDebugLoc();
     if (!where) return "?";
-    return cast<DIScope>(where.getScope())->getFilename().str() + ":" + std::to_string(where.getLine());
+    return file_of(where) + ":" + std::to_string(where.getLine());
   }
 
   Module& module_;

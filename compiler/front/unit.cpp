@@ -5,6 +5,7 @@
 #include "llvm/IR/Dominators.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/IntrinsicInst.h"
+#include "llvm/Support/Path.h"
 #include "llvm/Support/raw_ostream.h"
 #include "passes.h"
 
@@ -16,8 +17,7 @@ namespace {
 
 void print_message(const Unit& unit, const char* kind, const DebugLoc& where, const Twine& text) {
   if (where) {
-    auto* scope = cast<DIScope>(where.getScope());
-    errs() << scope->getFilename() << ":" << where.getLine() << ":" << where.getCol() << ": ";
+    errs() << file_of(where) << ":" << where.getLine() << ":" << where.getCol() << ": ";
   } else {
     errs() << unit.options.input << ": ";
   }
@@ -28,6 +28,17 @@ void print_message(const Unit& unit, const char* kind, const DebugLoc& where, co
 bool is_variable(const Value* pointer) { return isa<AllocaInst>(pointer) || isa<GlobalVariable>(pointer); }
 
 }  // namespace
+
+// clang names a file from the folder that it shares with the unit's
+std::string file_of(const DebugLoc& where) {
+  const auto* scope = cast<DILocalScope>(where.getScope());
+  const StringRef name = scope->getFilename(), folder = scope->getDirectory();
+  if (folder == scope->getSubprogram()->getUnit()->getDirectory() || sys::path::is_absolute(name))
+    return name.str();
+  SmallString<128> whole(folder);
+  sys::path::append(whole, name);
+  return whole.str().str();
+}
 
 void Unit::error(const DebugLoc& where, const Twine& text) {
   print_message(*this, "error", where, text);

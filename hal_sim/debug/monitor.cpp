@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <fstream>
+#include <limits>
 
 #include "dspic30/asm/expression.h"
 
@@ -42,6 +44,19 @@ std::string first_word(const std::string& line, std::string& rest) {
   const std::size_t space = line.find_first_of(" \t");
   rest = space == std::string::npos ? "" : trimmed(line.substr(space));
   return line.substr(0, space);
+}
+
+/// The number of `what` that a command takes; none given: `usual`. -1: it is none from 1 to `most`, and
+/// `problem` says so.
+int number_of(const std::string& command, const std::string& given, const char* what, int usual, int most,
+              std::string& problem) {
+  int number = given.empty() ? usual : 0;
+  const char* const end = given.data() + given.size();
+  const auto [read, wrong] = std::from_chars(given.data(), end, number);
+  const bool is_read = given.empty() || (wrong == std::errc() && read == end);
+  if (is_read && number >= 1 && number <= most) return number;
+  problem = fmt::format("{}: got '{}', expected {} from 1 to {}\n", command, given, what, most);
+  return -1;
 }
 
 /// "WHERE if EXPR"
@@ -82,7 +97,7 @@ std::string Monitor::execute(const std::string& given) {
                                           {"rsi", Plan::BackInstruction},
                                           {"rc", Plan::BackContinue}};
   // Commands that let the program run; an empty line does them once more.
-  if (const auto plan = plans.find(word); plan != plans.end()) return run(plan->second, rest);
+  if (const auto plan = plans.find(word); plan != plans.end()) return run(word, plan->second, rest);
   last_ = word == "x" || word == "list" || word == "dis" ? line : "";  // the others are not worth repeating
   if (word == "help" || word == "h") return kHelp;
   if (word == "break" || word == "b" || word == "tbreak") return set_break(rest, word == "tbreak");
@@ -105,16 +120,22 @@ std::string Monitor::execute(const std::string& given) {
       while (!session_.breakpoints().empty()) session_.remove(session_.breakpoints().front().id);
       return "";
     }
-    return session_.remove(std::atoi(rest.c_str())) ? "" : "there is no breakpoint " + rest + "\n";
+    std::string problem;
+    const int id =
+        number_of(word, rest, "a breakpoint's number", 0, std::numeric_limits<int>::max(), problem);
+    return session_.remove(id) ? "" : "there is no breakpoint " + rest + "\n";
   }
   return "unknown command '" + word + "'; help lists them\n";
 }
 
 // --- running
 
-std::string Monitor::run(Plan plan, const std::string& times) {
+std::string Monitor::run(const std::string& command, Plan plan, const std::string& times) {
   Stop stop;
-  for (int n = std::clamp(times.empty() ? 1 : std::atoi(times.c_str()), 1, 1'000'000); n > 0; --n) {
+  std::string problem;
+  const int wanted = number_of(command, times, "a number of times", 1, 1'000'000, problem);
+  if (wanted < 0) return problem;
+  for (int n = wanted; n > 0; --n) {
     stop = session_.run(plan, idle_);
     const bool is_continued = plan == Plan::Continue || plan == Plan::BackContinue;
     const bool goes_on = stop.why == Stop::Why::Step || (is_continued && stop.why == Stop::Why::Breakpoint);
@@ -140,14 +161,13 @@ std::string Monitor::trace(const std::string& rest) {
   constexpr int kMost = 10'000'000, kUsual = 10'000;
   std::string count;
   const std::string name = first_word(rest, count);
-  const bool is_number = count.size() < 10 && count.find_first_not_of("0123456789") == std::string::npos;
-  const int wanted = count.empty() ? kUsual : is_number ? std::stoi(count) : 0;
-  std::ofstream out;
+  std::string problem;
+  const int wanted = number_of("trace", count, "a number of instructions", kUsual, kMost, problem);
+  if (wanted < 0) return problem;
   // what is in the file goes only once all else is right
-  if (!name.empty() && wanted >= 1 && wanted <= kMost) out.open(name);
-  if (!out.is_open())
-    return fmt::format("got '{}', expected a file that can be written, and a number from 1 to {}\n", rest,
-                       kMost);
+  std::ofstream out;
+  if (!name.empty()) out.open(name);
+  if (!out.is_open()) return fmt::format("trace: got '{}', expected a file that can be written\n", name);
   int n = 0;
   for (; n < wanted && !session_.has_ended(); ++n) {
     std::uint32_t next = 0;
@@ -254,7 +274,8 @@ std::string Monitor::memory(const std::string& rest) {
   std::int64_t address = 0;
   std::string error;
   if (!session_.values().evaluate(at, address, error)) return error + "\n";
-  const int words = std::clamp(count.empty() ? 8 : std::atoi(count.c_str()), 1, 4096);
+  const int words = number_of("x", count, "a number of words", 8, 4096, error);
+  if (words < 0) return error;
   std::string text;
   for (int i = 0; i < words; ++i) {
     const Address here = static_cast<Address>(address + 2 * i) & kAddressMask & ~Address{1};
@@ -298,17 +319,20 @@ std::string Monitor::source_line(const std::string& file, int line) {
 std::string Monitor::list(const std::string& rest) {
   const auto* here = session_.file().code.line_at(session_.pc());
   if (!here) return "no source line is known here; dis shows instructions\n";
-  const int middle = rest.empty() ? here->line : std::atoi(rest.c_str());
-  std::string text;
+  std::string text, problem;
+  const int middle = number_of("list", rest, "a line", here->line, 1'000'000, problem);
+  if (middle < 0) return problem;
   for (int n = middle - 5; n <= middle + 5; ++n)
     text += source_line(session_.file().code.lines().files[here->file], n);
   return text;
 }
 
 std::string Monitor::disassemble(const std::string& rest) {
-  std::string text;
+  std::string text, problem;
   std::uint32_t a = session_.pc();
-  for (int n = std::clamp(rest.empty() ? 10 : std::atoi(rest.c_str()), 1, 1000); n > 0; --n) {
+  const int wanted = number_of("dis", rest, "a number of instructions", 10, 1000, problem);
+  if (wanted < 0) return problem;
+  for (int n = wanted; n > 0; --n) {
     std::uint32_t next = 0;
     const std::string instruction = session_.machine().instruction(a, next);
     if (instruction.empty()) break;

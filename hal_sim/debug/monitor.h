@@ -22,7 +22,7 @@ class Monitor {
   bool wants_end() const { return quits_; }
 
  private:
-  std::string run(Plan plan, const std::string& times);
+  std::string run(const std::string& command, Plan plan, const std::string& times);
   std::string told(const Stop& stop);
   std::string set_break(const std::string& rest, bool once);
   std::string watch(const std::string& rest);

@@ -170,6 +170,39 @@ TEST(lint, finds_plain_flags_and_timer_conflicts) {
                     "main.c), expected one; the later one silences the other"));
 }
 
+// clang names a file from the folder that it shares with the one where it runs
+TEST(build, messages_name_files_wherever_the_build_runs) {
+  Folder folder;
+  const std::string mistake = "  register int s asm(\"A\");\n  s = __builtin_clr();\n  return s + 1;\n}\n",
+                    told =
+                        ":4:12: error: accumulator A is used like a number; only built-in functions of the "
+                        "DSP unit take it, __builtin_sac() and __builtin_sacr() give its value";
+  folder.file("prog/main.c", "int main(void) {\n" + mistake + "#include \"beside.h\"\n");
+  folder.file("headers/beside.h", "int beside(void) {\n" + mistake);
+  std::filesystem::create_directories(folder.path / "elsewhere");
+  cc::BuildOptions options;
+  options.include_dirs = {(folder.path / "headers").string()};
+  options.cache_dir = folder.path / "cache";
+  options.output = folder.path / "program.elf";
+  struct Case {
+    std::string from, source, main;
+  };
+  const std::string whole = (folder.path / "prog").string();
+  const std::filesystem::path before = std::filesystem::current_path();
+  for (const Case& c :
+       {Case{"/", whole, "@/prog"}, Case{"elsewhere", whole, "@/prog"}, Case{"prog", whole, "@/prog"},
+        Case{"elsewhere", "../prog", "../prog"}, Case{"", "prog", "prog"}}) {
+    std::filesystem::current_path(folder.path / c.from);
+    options.source_dir = c.source;
+    std::string text = text_of(cc::build_image(options));
+    // what lies below the folder may be told from there
+    const std::string header = c.from.empty() ? "headers" : "@/headers";
+    EXPECT_TRUE(reads(folder, text, c.main + "/main.c" + told + "\n" + header + "/beside.h" + told))
+        << c.from;
+  }
+  std::filesystem::current_path(before);
+}
+
 // a handler of the program's own beside the library's: the robot's linker refuses it
 TEST(build, two_owners_of_a_vector_are_refused_with_both_named) {
   Folder folder;
