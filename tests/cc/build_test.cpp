@@ -175,7 +175,7 @@ TEST(build, messages_name_files_wherever_the_build_runs) {
   Folder folder;
   const std::string mistake = "  register int s asm(\"A\");\n  s = __builtin_clr();\n  return s + 1;\n}\n",
                     told =
-                        ":4:12: error: accumulator A is used like a number; only built-in functions of the "
+                        ":4:10: error: accumulator A is used like a number; only built-in functions of the "
                         "DSP unit take it, __builtin_sac() and __builtin_sacr() give its value";
   folder.file("prog/main.c", "int main(void) {\n" + mistake + "#include \"beside.h\"\n");
   folder.file("headers/beside.h", "int beside(void) {\n" + mistake);
