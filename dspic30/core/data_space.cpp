@@ -142,7 +142,10 @@ unsigned DataSpace::read_elsewhere(unsigned ea, unsigned bits) {
     return bits == 16 ? load(ea - kRamStart) : ram[ea - kRamStart];
   }
   const Cycle t = true_now() + at->lead;
-  if (!(ea & 1) && !watching && parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
+  if (!(ea & 1) && !watching && bits == 16) {
+    if (parts.is_result(ea, bits, t)) return parts.read_result(ea, t);
+    if (const std::uint16_t* const word = parts.idle_word(ea)) return *word;
+  }
   return read_other(ea, bits, t);
 }
 
@@ -209,7 +212,9 @@ void DataSpace::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsi
   const Cycle t = true_now() + at->lead;
   // flags and latches change in one step, so what the hardware sets meanwhile survives
   const bool are_flags = parts.are_flags(word, t);
-  if ((!are_flags && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
+  const bool is_converter = parts.is_converter(word);
+  if ((!are_flags && !is_converter && !parts.is_latch(word)) || (bits == 16 && (ea & 1)) ||
+      (is_converter && (memory_check || watching)))
     return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
   note_effect();
   const int shift = bits == 8 && (ea & 1) ? 8 : 0;
@@ -217,8 +222,9 @@ void DataSpace::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsi
   const auto kept = static_cast<std::uint16_t>(keep << shift | ~lanes),
              flipped = static_cast<std::uint16_t>(flip << shift & lanes);
   if (are_flags && flipped == 0 && parts.lower_flags(word, kept, t)) return;
-  hurry_to(are_flags ? parts.modify_flags(word, kept, flipped, t)
-                     : parts.modify_latch(word, kept, flipped, t));
+  hurry_to(are_flags      ? parts.modify_flags(word, kept, flipped, t)
+           : is_converter ? parts.modify_converter(kept, flipped, static_cast<std::uint16_t>(lanes), t)
+                          : parts.modify_latch(word, kept, flipped, t));
 }
 
 void DataSpace::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
@@ -227,6 +233,15 @@ void DataSpace::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
     return bits == 16 ? store(ea - kRamStart, value)
                       : static_cast<void>(ram[ea - kRamStart] = static_cast<std::uint8_t>(value));
   }
+  if (bits == 16 && parts.write_idle(ea, static_cast<std::uint16_t>(value))) {
+    if (memory_check) memory_check->writes(whole(), ea, bits);
+    return note_effect();
+  }
+  write_other(ea, value, bits);
+}
+
+// all but registers of a converter that is off
+void DataSpace::write_other(unsigned ea, unsigned value, unsigned bits) {
   if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
   if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();

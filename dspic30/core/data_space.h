@@ -215,6 +215,7 @@ class DataSpace : public CodeWords, public HostSide, public RoundNotes {
   unsigned read_elsewhere(unsigned ea, unsigned bits);
   __attribute__((noinline)) unsigned read_other(unsigned ea, unsigned bits, Cycle t);
   void write_elsewhere(unsigned ea, unsigned value, unsigned bits);
+  __attribute__((noinline)) void write_other(unsigned ea, unsigned value, unsigned bits);
   unsigned read_psv(unsigned ea, unsigned bits);
   /// Is it RAM that somebody looks after, and nobody notes?
   bool is_checked(unsigned ea, unsigned bits) const {

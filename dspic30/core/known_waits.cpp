@@ -69,15 +69,14 @@ void CoreState::put_flags(Cpu& c) const {
 }
 
 bool CoreState::is_of_round(const Cpu& c, unsigned registers, bool sets_flags) const {
-  const std::uint64_t flags = sets_flags ? kDc | kZ | kC | kOv | kN : kDc;
+  // one decision for all words: that they are alike is what is asked nearly always
+  std::uint64_t other = (words[5] ^ state_word(c, 5)) & ~(sets_flags ? kDc | kZ | kC | kOv | kN : kDc);
 #pragma GCC unroll 11
-  for (std::size_t i = 0; i < words.size(); ++i) {
-    const std::uint64_t counts = i < 4    ? lanes(registers >> 4 * i & 0xF)
-                                 : i == 5 ? ~flags
-                                          : ~std::uint64_t{0};
-    if ((words[i] ^ state_word(c, i)) & counts) return false;
-  }
-  return true;
+  for (std::size_t i = 4; i < words.size(); ++i)
+    if (i != 5) other |= words[i] ^ state_word(c, i);
+  for (std::size_t i = 0; registers != 0; ++i, registers >>= 4)
+    if (registers & 0xF) other |= (words[i] ^ four(&c.w[4 * i])) & lanes(registers & 0xF);
+  return other == 0;
 }
 
 bool CoreState::is_of(const Cpu& c) const {

@@ -110,6 +110,26 @@ struct ChipParts {
     return adc.read_result(static_cast<int>((address - Adc::kBuffer) / 2), now);
   }
 
+  // registers of a converter that is off, as handlers set it up between two sequences: read() and write(),
+  // where nothing else comes of it
+  /// Null: read() it.
+  const std::uint16_t* idle_word(unsigned address) const {
+    const std::uint16_t* const word = adc.idle_word(address);
+    return word && bus.reader(address) == &adc && !events.is_watched() ? word : nullptr;
+  }
+  /// False: nothing has happened.
+  bool write_idle(unsigned address, std::uint16_t value) {
+    if (!idle_word(address) || !bus.keeps(address, value)) return false;
+    adc.write_idle(address, bus.accept_plain(address, value));
+    return true;
+  }
+  /// Can modify_converter() do it?
+  bool is_converter(unsigned address) const {
+    return address == kAdcon1 && bus.reader(address) == &adc && !events.is_watched();
+  }
+  /// Of ADCON1, as modify_latch(); `lanes`: of what is written.
+  Cycle modify_converter(std::uint16_t keep, std::uint16_t flip, std::uint16_t lanes, Cycle now);
+
   Cycle write(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
     begin_write(now);
     store(address, value, bits, now);

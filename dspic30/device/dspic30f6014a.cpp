@@ -124,6 +124,20 @@ Cycle ChipParts::modify_latch(unsigned address, std::uint16_t keep, std::uint16_
   return end_write();
 }
 
+Cycle ChipParts::modify_converter(std::uint16_t keep, std::uint16_t flip, std::uint16_t lanes, Cycle now) {
+  begin_write(now);
+  const std::uint16_t old = lanes == 0xFF00 ? adc.upper_control() : adc.read(kAdcon1, now);
+  const auto value = static_cast<std::uint16_t>((old & keep) ^ flip);
+  if (!bus.keeps(kAdcon1, value)) {
+    store(lanes == 0xFF00 ? kAdcon1 + 1 : kAdcon1, lanes == 0xFF00 ? value >> 8 : value,
+          lanes == 0xFFFF ? 16 : 8, now);
+    return end_write();
+  }
+  adc.write(kAdcon1, bus.accept_plain(kAdcon1, value), lanes, now);
+  external.converter_changed(now);
+  return end_write();
+}
+
 void ChipParts::write_beyond(unsigned address, std::uint16_t value, unsigned bits, Cycle now) {
   const unsigned word = address & ~1u;
   const SfrBus::Store store = bus.accept(address, value, bits, now);

@@ -80,6 +80,11 @@ class SfrBus {
     if (!was_written(address)) note_written(address);
     return value & implemented(slots_[address / 2], address);
   }
+  /// Is nothing told of it when a register that was written takes this value?
+  bool keeps(unsigned address, std::uint16_t value) const {
+    const unsigned u = slots_[address / 2] >> kUnmodelledShift;
+    return u == 0 || !(value & unmodelled_[u - 1]);
+  }
   /// Since power-on; or it was told that it is read before.
   bool was_written(unsigned address) const {
     return (is_written_[address / 128] >> (address / 2 & 63) & 1) != 0;

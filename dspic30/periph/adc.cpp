@@ -11,7 +11,7 @@ namespace {
 constexpr unsigned kCon1 = sfr("ADCON1"), kCon2 = sfr("ADCON2"), kCon3 = sfr("ADCON3"), kChs = sfr("ADCHS"),
                    kCssl = sfr("ADCSSL");
 constexpr std::uint16_t kDone = sfr_bits("ADCON1", "DONE"), kSamp = sfr_bits("ADCON1", "SAMP"),
-                        kAdon = sfr_bits("ADCON1", "ADON"), kBufs = sfr_bits("ADCON2", "BUFS"),
+                        kAdon = sfr_bits("ADCON1", "ADON"),
                         kCscna = sfr_bits("ADCON2", "CSCNA"), kAlts = sfr_bits("ADCON2", "ALTS"),
                         kBufm = sfr_bits("ADCON2", "BUFM"), kAdrc = sfr_bits("ADCON3", "ADRC");
 constexpr SfrBits kForm = sfr_field("ADCON1", "FORM"), kAdcs = sfr_field("ADCON3", "ADCS"),
@@ -320,7 +320,10 @@ void Adc::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycl
         restart_sequence();
         break;
       }
-      if (!(before & kAdon)) restart_sequence();
+      if (!(before & kAdon)) {
+        set_times();
+        restart_sequence();
+      }
       // SAMP begins to sample; with the software trigger, clearing it begins the conversion.
       const bool asked = (wanted & kSamp) && !(before & kSamp);
       if (!sampling_ && !converting_ && (asked || asam()))

@@ -45,6 +45,30 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   bool is_cruising() const { return cruising_; }
   /// read() of ADCBUF`slot`, when all events up to `now` have happened.
   std::uint16_t read_result(int slot, Cycle now);
+  /// Bits 8 to 15 of ADCON1, which it does not change by itself; others are 0.
+  std::uint16_t upper_control() const { return con1_ & 0xFF00; }
+  /// Off, nothing goes by its registers until it is switched on. What is read of one of them then, ADCON1
+  /// apart; null: it is on, or this is another.
+  const std::uint16_t* idle_word(unsigned address) const {
+    if (on()) return nullptr;
+    switch (address) {
+      case sfr("ADCON2"):
+        return &con2_;
+      case sfr("ADCON3"):
+        return &con3_;
+      case sfr("ADCHS"):
+        return &chs_;
+      case sfr("ADCSSL"):
+        return &cssl_;
+      default:
+        return nullptr;
+    }
+  }
+  /// write() of all bits of an idle_word().
+  void write_idle(unsigned address, std::uint16_t value) {
+    auto* const word = const_cast<std::uint16_t*>(idle_word(address));
+    *word = word == &con2_ ? static_cast<std::uint16_t>(value & ~kBufs) : value;
+  }
   std::uint16_t read(unsigned address, Cycle now) override;
   void write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cycle now) override;
   std::uint16_t peek(unsigned address, Cycle now) const override;
@@ -58,7 +82,8 @@ class Adc final : public SfrOwner, public EventOwner, public TimerListener {
   static Cycle up(Half h) { return (h + 1) >> 1; }
   void set_times();
   static constexpr SfrBits kSsrc = sfr_field("ADCON1", "SSRC"), kSmpi = sfr_field("ADCON2", "SMPI");
-  static constexpr std::uint16_t kAsam = sfr_bits("ADCON1", "ASAM"), kOn = sfr_bits("ADCON1", "ADON");
+  static constexpr std::uint16_t kAsam = sfr_bits("ADCON1", "ASAM"), kOn = sfr_bits("ADCON1", "ADON"),
+                                 kBufs = sfr_bits("ADCON2", "BUFS");
   int ssrc() const { return static_cast<int>(kSsrc.of(con1_)); }
   bool asam() const { return (con1_ & kAsam) != 0; }
   bool on() const { return (con1_ & kOn) != 0; }

@@ -250,7 +250,9 @@ TEST_F(LabClass, a_line_that_failed_has_the_command_that_shows_its_run) {
                   "I1:obstacle:1: not kept: standstill 120 s, wall touch 0 s; needs standstill at most 5 s"))
       << shown.text;
   EXPECT_EQ(read(path("I1.png")).substr(1, 3), "PNG");
-  if (has_page) EXPECT_TRUE(has(read(path("I1.html")), "<html"));
+  if (has_page) {
+    EXPECT_TRUE(has(read(path("I1.html")), "<html"));
+  }
   // the very run
   const std::string runs = read(path("r.csv")),
                     row_of_it = runs.substr(runs.find("I1,obstacle,obstacle,,1,0"));

@@ -33,9 +33,6 @@ class Lab : public CommandTest {
   }
 };
 
-/// What of the project's own goes into the place of a student's program.
-fs::path solution(const char* name) { return fs::path(TWINPUCK_SOURCE_DIR) / "firmware/lab" / name; }
-
 /// Names in `worlds = [...]` of the lab's table, and those of chapter 2.2. Not soccer, whose supervisor sets
 /// variables of its players: no other program runs there.
 std::set<std::string> worlds_of_the_lab() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The converter with the e-puck library's settings and the modes that others use.
 // TAD = (ADCS + 1) / 2 cycles, 14 of them a conversion. ADON written in cycle 9: sampling begins at 10.
-#include "tests/dspic30/bench.h"
+#include "tests/dspic30/core_bench.h"
 
 namespace {
 
@@ -129,6 +129,18 @@ TEST(Adc, int0_triggers_a_conversion) {
   EXPECT_EQ(b.flag_rises(irq::Adc, 6001), 15000 + 2 + 140 + 1);
 }
 
+// ... also when one instruction of a program switches it on
+TEST(Adc, int0_triggers_what_a_program_switched_on) {
+  bench::CoreBench b(
+      "mov #19, w0\n mov w0, ADCON3\n mov #0x24, w0\n mov w0, ADCON1\n bset ADCON1, #15\nend: bra end\n");
+  b.outside.clock({Port::F, 6}, 5000, 10000, 100, 1);
+  const auto flag = [&] { return b.sfr("IFS0") >> irq::Adc & 1; };
+  b.run(5000 + 2 + 140 - 2);  // ends with an instruction, up to two cycles later
+  EXPECT_EQ(flag(), 0u);
+  b.run(5000 + 2 + 140 + 1);
+  EXPECT_EQ(flag(), 1u);
+}
+
 TEST(Adc, buffer_halves_take_turns) {
   Bench b;
   b.write("ADCON2", 0x0402 | 1 << 2, 0);  // scan, BUFM, two conversions
@@ -228,6 +240,73 @@ TEST(Adc, slow_handler_misses_scans) {
   b.chip.run_to(10 + 5 * 900 + 1);
   EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::Adc), 4);
   EXPECT_EQ(b.notes.count(dspic::Cause::MissedInterrupt), 1);
+}
+
+// Whoever draws registers over time sees each access; for others the registers of a converter that is off
+// are words, and ADCON1 is changed in one step. It is the same.
+struct Onlooker : dspic::EventWatch {
+  void about_to_change(Cycle) override {}
+};
+
+/// Instructions on the converter's registers by chance, in ones and bytes, on and off, and with its module
+/// switched off.
+std::string instructions(unsigned seed) {
+  const char* registers[] = {"ADCON1", "ADCON2", "ADCON3", "ADCHS", "ADCSSL", "ADCBUF0", "ADPCFG"};
+  bench::Draw draw{seed};
+  std::string text = "mov #0x1000, w12\n mov #0x00E4, w0\n mov w0, ADCON1\n";
+  for (int i = 0; i < 300; ++i) {
+    const std::string name = registers[draw(7)], bit = std::to_string(draw(16)),
+                      low = std::to_string(draw(8));
+    switch (draw(9)) {
+      case 0:
+      case 1:
+        text += "mov #" + std::to_string(draw(0x10000)) + ", w1\n mov w1, " + name + "\n";
+        break;
+      case 2:
+        text += "mov " + name + ", w2\n mov w2, [w12++]\n";
+        break;
+      case 3:
+        text += "bset " + name + ", #" + bit + "\n";
+        break;
+      case 4:
+        text += "bclr " + name + ", #" + bit + "\n";
+        break;
+      case 5:
+        text += "mov.b #" + std::to_string(draw(0x100)) + ", w0\n mov.b wreg, " + name + "+1\n";
+        break;
+      case 6:
+        text += std::string(draw(2) ? "bset" : "bclr") + " ADCON1, #15\n bclr ADCON2, #1\n";
+        break;
+      case 7:
+        text += "repeat #" + std::to_string(draw(2000)) + "\n nop\n";
+        break;
+      default:
+        if (draw(8) == 0) text += std::string(draw(3) ? "bclr" : "bset") + " PMD1, #0\n";
+        text += "bset.b " + name + "+1, #" + low + "\n";
+    }
+  }
+  return text + "end: bra end\n";
+}
+
+TEST(Adc, registers_are_alike_when_they_are_words_and_when_each_access_is_seen) {
+  int converted = 0, told = 0;
+  for (unsigned seed = 1; seed <= 40; ++seed) {
+    const std::string text = instructions(seed);
+    bench::CoreBench quick(text), seen(text);
+    Onlooker onlooker;
+    seen.chip->watch(&onlooker);
+    for (bench::CoreBench* b : {&quick, &seen}) ASSERT_TRUE(b->run_to("end")) << seed;
+    ASSERT_EQ(quick.cpu->now(), seen.cpu->now()) << seed;
+    EXPECT_EQ(quick.cpu->state_hash(), seen.cpu->state_hash()) << seed;
+    EXPECT_EQ(quick.chip->state_hash(quick.cpu->now()), seen.chip->state_hash(seen.cpu->now())) << seed;
+    ASSERT_EQ(quick.notes.all.size(), seen.notes.all.size()) << seed;
+    for (std::size_t i = 0; i < quick.notes.all.size(); ++i)
+      EXPECT_EQ(quick.notes.all[i].message, seen.notes.all[i].message) << seed;
+    converted += static_cast<int>(quick.outside.held.size());
+    told += static_cast<int>(quick.notes.all.size());
+  }
+  EXPECT_GT(converted, 1000);
+  EXPECT_GT(told, 100);
 }
 
 }  // namespace

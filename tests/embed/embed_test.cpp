@@ -229,7 +229,9 @@ TEST_F(Embed, what_is_wrong_is_refused_in_words) {
   };
   for (const auto& [act, expected] : rows) {
     const std::string said = refused(act);
-    if (!expected.empty()) EXPECT_EQ(said, expected);
+    if (!expected.empty()) {
+      EXPECT_EQ(said, expected);
+    }
     EXPECT_NE(said, "nothing");
   }
   settings.hal = "dspic";

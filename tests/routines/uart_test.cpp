@@ -217,7 +217,9 @@ TEST(UartByHeart, waits_go_on_over_handlers_as_if_they_were_found_again) {
     expect_same_words(by_heart, plain);
     EXPECT_GT(plain.outside.sent.size(), 1000u);
     EXPECT_GT(plain.word(file, "turns"), 20u);
-    if (waiting.is_of_memory) EXPECT_GT(plain.cpu->idle(until), until / 2);
+    if (waiting.is_of_memory) {
+      EXPECT_GT(plain.cpu->idle(until), until / 2);
+    }
   }
 }
 

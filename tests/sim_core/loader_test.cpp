@@ -231,7 +231,9 @@ a = 1
     ASSERT_EQ(tree_told(kept, text), expected) << text;
     alike += expected.front() == 'a' || expected.front() == 'b';
     // and back again
-    if (i % 16 == 0) ASSERT_EQ(tree_told(kept, begin), tree_told(fresh, begin)) << text;
+    if (i % 16 == 0) {
+      ASSERT_EQ(tree_told(kept, begin), tree_told(fresh, begin)) << text;
+    }
   }
   EXPECT_GT(alike, 2000) << "most texts were none at all";
 }
