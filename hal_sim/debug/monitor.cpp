@@ -34,7 +34,8 @@ set NAME = EXPR         a variable or register
 x EXPR [WORDS]          words of data from an address
 regs                    the processor's registers; info interrupts: what is enabled or pending;
                         info world: the robots, and the digest of the run so far
-list [LINE]  dis [N]    source, the chip's instructions from here
+list [LINE]             source around a line
+dis [WHERE] [N]         the chip's instructions from there, or here
 why                     what is waited for, who could set it, what is pending but held off
 trace FILE [N]          the next N instructions (10,000; at most 10,000,000) with cycles, as text
 help, quit
@@ -328,9 +329,14 @@ std::string Monitor::list(const std::string& rest) {
 }
 
 std::string Monitor::disassemble(const std::string& rest) {
-  std::string text, problem;
+  std::string text, problem, count = rest;
   std::uint32_t a = session_.pc();
-  const int wanted = number_of("dis", rest, "a number of instructions", 10, 1000, problem);
+  if (rest.find_first_not_of("0123456789") != std::string::npos) {
+    const auto code = session_.find_code(first_word(rest, count), problem);
+    if (code.addresses.empty()) return "dis: " + problem + "\n";
+    a = code.addresses[0];
+  }
+  const int wanted = number_of("dis", count, "a number of instructions", 10, 1000, problem);
   if (wanted < 0) return problem;
   for (int n = wanted; n > 0; --n) {
     std::uint32_t next = 0;

@@ -428,9 +428,8 @@ bool Session::watch_hit() {
   return hit;
 }
 
-const Breakpoint* Session::add_breakpoint(const std::string& where, const std::string& condition,
-                                          std::string& error) {
-  Breakpoint b;
+Session::CodePlace Session::find_code(const std::string& where, std::string& error) const {
+  CodePlace code;
   const dspic::CodeMap& map = file().code;
   const std::size_t colon = where.rfind(':');
   const std::string number = where.substr(colon == std::string::npos ? 0 : colon + 1);
@@ -443,33 +442,42 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
                                                           : "";
     int found = 0;
     const std::vector<std::size_t> files = files_meant(source);
-    b.addresses = map.addresses_of(files, std::stoi(number), found);
-    if (b.addresses.empty())
+    code.addresses = map.addresses_of(files, std::stoi(number), found);
+    if (code.addresses.empty())
       error = "got '" + where + "', expected a line with code in a file of the program" +
               (map.lines().rows.empty() ? "; this image has no lines"
                : files.empty()          ? "; it has no such file"
                                         : "");
     else
-      b.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
+      code.what = source.substr(source.rfind('/') + 1) + ":" + std::to_string(found);
   } else if (const auto label = file().functions.find(where); label != file().functions.end()) {
-    b.addresses = chip::copies_of(file(), where);
-    b.addresses.insert(b.addresses.begin(), label->second);
-    b.what = where;
+    code.addresses = chip::copies_of(file(), where);
+    code.addresses.insert(code.addresses.begin(), label->second);
+    code.what = where;
   } else if (const auto copies = chip::copies_of(file(), where); !copies.empty()) {
-    b.addresses = copies;
-    b.what = where;
+    code.addresses = copies;
+    code.what = where;
   } else {
     std::int64_t address = 0;
     const bool is_address = where.rfind("0x", 0) == 0 || where.rfind('*', 0) == 0;
     if (is_address && values().evaluate(where.substr(where[0] == '*'), address, error) && address >= 0 &&
         address < machine_->code_end() && machine_->is_code(static_cast<std::uint32_t>(address))) {
-      b.addresses = {static_cast<std::uint32_t>(address)};
-      b.what = where;
+      code.addresses = {static_cast<std::uint32_t>(address)};
+      code.what = where;
     } else {
       error = "got '" + where + "', expected a function, file:line, or an address of code such as 0x1a0";
       if (!is_address) error += "; as a function, it " + chip::why_no_code(file(), where);
     }
   }
+  return code;
+}
+
+const Breakpoint* Session::add_breakpoint(const std::string& where, const std::string& condition,
+                                          std::string& error) {
+  Breakpoint b;
+  CodePlace code = find_code(where, error);
+  b.addresses = std::move(code.addresses);
+  b.what = std::move(code.what);
   // A condition has to make sense at the breakpoint, or there is none.
   std::int64_t value = 0;
   std::string wrong;

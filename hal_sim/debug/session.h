@@ -104,7 +104,14 @@ class Session final : private chip::StepWatch {
   bool write(const Data& data, std::uint64_t value);
 
   // --- breakpoints
-  /// `where`: a function or label, file:line, line (of the current file), 0x-address. Null with `error`.
+  /// Where code begins, at each of its copies, and how it is called.
+  struct CodePlace {
+    std::vector<std::uint32_t> addresses;  ///< none: `error` says why
+    std::string what;
+  };
+  /// `where`: a function or label, file:line, line (of the current file), 0x-address.
+  CodePlace find_code(const std::string& where, std::string& error) const;
+  /// At find_code(). Null with `error`.
   const Breakpoint* add_breakpoint(const std::string& where, const std::string& condition,
                                    std::string& error);
   /// What is to be said of it: "weight() is part of main(); to measure it alone, ..."; empty: nothing.

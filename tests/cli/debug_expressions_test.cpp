@@ -244,7 +244,15 @@ TEST_P(DebugExpressions, mistakes_are_named) {
       {"trace t.txt 99999999999",
        "trace: got '99999999999', expected a number of instructions from 1 to 10000000"},
       {"trace t.txt 10000001", "trace: got '10000001', expected a number of instructions from 1 to 10000000"},
-      {"dis main", "dis: got 'main', expected a number of instructions from 1 to 1000"},
+      {"dis nosuch",
+       "dis: got 'nosuch', expected a function, file:line, or an address of code such as 0x1a0; as a "
+       "function, it is "
+       "not in the program"},
+      {"dis 3x",
+       "dis: got '3x', expected a function, file:line, or an address of code such as 0x1a0; as a function, "
+       "it is "
+       "not in the program"},
+      {"dis main 0", "dis: got '0', expected a number of instructions from 1 to 1000"},
       {"dis 0", "dis: got '0', expected a number of instructions from 1 to 1000"},
       {"dis 1001", "dis: got '1001', expected a number of instructions from 1 to 1000"},
       {"list main", "list: got 'main', expected a line from 1 to 1000000"},

@@ -126,9 +126,10 @@ std::vector<std::string> answer(const std::string& text, const std::string& comm
 }
 
 TEST_P(Debug, what_is_shown_is_as_much_as_was_asked_for) {
-  const std::string text =
-      debug("break work\nc\nlist\nlist 3\nlist 36\nx 0x800 4\nx 0x800\nx 0x800 10\ndis\ndis 3\nhelp\n",
-            "--for 0.01");
+  const std::string text = debug(
+      "break work\nc\nlist\nlist 3\nlist 36\nx 0x800 4\nx 0x800\nx 0x800 10\ndis\ndis 3\ndis main 2\ndis "
+      "main.c:20\nhelp\n",
+      "--for 0.01");
   std::vector<std::string> source;
   std::istringstream in(cli_test::kProgram);
   for (std::string line; std::getline(in, line);)
@@ -157,6 +158,13 @@ TEST_P(Debug, what_is_shown_is_as_much_as_was_asked_for) {
   const auto code = answer(text, "dis 3");
   ASSERT_EQ(code.size(), 3u);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(code[i].substr(0, 3), i == 0 ? "=> " : "   ") << code[i];
+  const auto of_main = answer(text, "dis main 2");
+  ASSERT_EQ(of_main.size(), 2u);
+  EXPECT_EQ(of_main[0].substr(0, 3), "   ");
+  EXPECT_NE(of_main[0].find("; main()"), std::string::npos) << of_main[0];
+  const auto of_line = answer(text, "dis main.c:20");
+  ASSERT_EQ(of_line.size(), 10u);
+  EXPECT_NE(of_line[0].find("main.c:20)"), std::string::npos) << of_line[0];
   EXPECT_GT(answer(text, "help").size(), 20u);
 }
 
