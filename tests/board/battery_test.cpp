@@ -73,6 +73,28 @@ TEST(Battery, tells_the_cycle_at_which_it_falls_below_a_voltage) {
   EXPECT_EQ(battery.below(3.6, 0), board::kNever);  // is already
 }
 
+// to the cycle, from anywhere and however near
+TEST(Battery, falls_below_a_voltage_in_that_cycle_and_not_before) {
+  std::uint64_t state = 1;
+  const auto draw = [&state](double least, double most) {
+    state = state * 6364136223846793005u + 1442695040888963407u;
+    return least + (most - least) * static_cast<double>(state >> 40) / (1 << 24);
+  };
+  int found = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Battery battery(draw(0.001, 5), draw(3.2, 4.1), draw(0.01, 2));
+    const auto from = static_cast<Cycle>(draw(0, 20 * kSecond));
+    const double now = battery.voltage(from), volts = i % 2 ? draw(3.1, 4.0) : now - draw(0, 1e-9);
+    if (now < 3.1 || now < volts) continue;  // it is empty, or is below already
+    const Cycle low = battery.below(volts, from);
+    ++found;
+    ASSERT_GT(low, from) << i;
+    EXPECT_LT(battery.voltage(low), volts) << i;
+    EXPECT_GE(battery.voltage(low - 1), volts) << i;
+  }
+  EXPECT_GT(found, 1000);
+}
+
 // --- what draws
 
 TEST(Power, starts_with_the_electronics_and_the_voltage_that_was_asked_for) {

@@ -241,6 +241,17 @@ TEST(ChipLinker, formatted_output_of_xc16_is_the_librarys) {
     EXPECT_NE(run.status, 0);
     EXPECT_TRUE(wording::reads(run.output, expected));
   }
+  // each of them, and a letter that is no conversion
+  const std::string told = ": got no definition, expected one in the program or the library";
+  for (const std::string name : {"fprintf", "fscanf", "printf", "scanf", "snprintf", "sprintf", "sscanf",
+                                 "vfprintf", "vprintf", "vsnprintf", "vsprintf"})
+    for (const auto& [called, expected] :
+         {std::pair{"__" + name + "_cdeEfFgGinopsuxXaA0", name}, {"__" + name + "_dq", "_" + name + "_dq"}}) {
+      const auto run = link(object(kHandleInData, called.c_str()),
+                            fs::path(TWINPUCK_BUILD_DIR) / "tests" / "vendor_printf");
+      EXPECT_TRUE(wording::reads(
+          run.output, "…/vendor_printf/theirs.o: error: theirs() calls " + expected + "()" + told));
+    }
 }
 
 TEST(ChipLinker, compiler_called_by_hand_finds_its_headers) {

@@ -66,6 +66,17 @@ TEST_F(BadLuck, very_long_comments_are_built_and_endless_files_refused) {
   const Said bad = twinpuck("build " + path("longer") + " -o " + path("x.so"));
   EXPECT_EQ(bad.exit_code, 1) << bad.text;
   EXPECT_TRUE(reads(bad.text, "@/longer/main.c: source: got 3000033 bytes, expected at most 2097152"));
+  for (const std::string name : {"main.c", "beside.h", "project.mcp", "configurations.xml"}) {
+    const auto built = [&](const std::string& folder, std::size_t bytes) {
+      write(folder + "/main.c", end);
+      write(folder + "/" + name, end + "//" + std::string(bytes - end.size() - 2, 'x'));
+      return twinpuck("build " + path(folder) + " -o " + path("x.so"));
+    };
+    const std::string at = "longest_" + name;
+    EXPECT_EQ(built("as_long_" + name, 2'097'152).text.find("expected at most"), std::string::npos) << name;
+    EXPECT_TRUE(reads(built(at, 2'097'153).text,
+                      "@/" + at + "/" + name + ": source: got 2097153 bytes, expected at most 2097152"));
+  }
 }
 
 // an escape sequence could hide a message or change the terminal

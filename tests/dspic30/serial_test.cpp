@@ -187,6 +187,27 @@ TEST_F(Dci, received_words_and_status) {
   EXPECT_EQ(b.read("DCISTAT", full + 2 * 8192) & 0xF, 0xFu);
 }
 
+TEST_F(Dci, nothing_of_before_is_left_behind_a_reset) {
+  b.outside.codec_answer = [](std::uint16_t) { return std::uint16_t{0x3333}; };
+  start(99);
+  for (unsigned i = 0; i < 4; ++i) b.write("TXBUF" + std::to_string(i), 0x2000 + i, 200 + i);
+  const Cycle reset = 108 + 8192 + 3000;  // in the middle of the second period
+  b.chip.run_to(reset);
+  b.chip.reset(dspic::ResetKind::Instruction, reset);
+  for (const std::string name :
+       {"DCICON1", "DCICON2", "DCICON3", "DCISTAT", "TSCON", "RSCON", "RXBUF0", "RXBUF1", "RXBUF2", "RXBUF3"})
+    EXPECT_EQ(b.read(name, reset + 1) & (name == "DCISTAT" ? 0xF0Eu : 0xFFFFu), 0u) << name;
+  const std::size_t sent = b.outside.codec.size();
+  b.write("DCICON2", 3 << 10 | 15 << 5 | 15, reset + 2);
+  b.write("DCICON3", 3, reset + 2);
+  b.write("TSCON", 1, reset + 2);
+  b.write("DCICON1", 0x80A0, reset + 10);  // DJST, UNFM: the last words, of which there are none
+  b.chip.run_to(reset + 10 + 9 + 4 * 2048 + 200);
+  ASSERT_GE(b.outside.codec.size(), sent + 4);
+  for (std::size_t i = sent; i < b.outside.codec.size(); ++i) EXPECT_EQ(b.outside.codec[i].first, 0u) << i;
+  EXPECT_EQ(b.outside.codec[sent].second, reset + 10 + 1 + 8 + 128);
+}
+
 TEST_F(Dci, underrun_sends_zeros_or_the_last_words) {
   for (const unsigned unfm : {0x00u, 0x80u}) {
     Bench fresh;
