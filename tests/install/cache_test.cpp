@@ -108,9 +108,11 @@ TEST_F(Cache, is_bounded_by_what_the_environment_says) {
   const std::string before = std::getenv("XDG_CACHE_HOME") ? std::getenv("XDG_CACHE_HOME") : "";
   setenv("XDG_CACHE_HOME", folder.c_str(), 1);
   setenv("TWINPUCK_CACHE_MB", "1", 1);
-  const fs::path old = file("twinpuck/objects/a.o", 2 << 20, kHour);
+  const fs::path old = file("twinpuck/objects/a.o", 2 << 20, kHour),
+                 small = file("twinpuck/objects/b.o", 100, 0);
   places::keep_caches_within_bound();
   EXPECT_FALSE(fs::exists(old));
+  EXPECT_TRUE(fs::exists(small)) << "a megabyte is left";
   const fs::path next = file("twinpuck/objects/a.o", 2 << 20, kHour);
   places::keep_caches_within_bound();
   EXPECT_TRUE(fs::exists(next)) << "once a minute is enough";

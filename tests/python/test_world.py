@@ -3,6 +3,8 @@
 import gc
 import json
 import os
+import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -347,3 +349,21 @@ def test_a_robot_that_is_named_has_its_own_program_wherever_the_others_stand(pro
         with twinpuck.World(table, firmware=firmware) as world:
             world.run(0.1)
             assert [robot.variable("who") for robot in world.robots] == [1, 2]
+
+
+def test_a_copy_of_the_module_elsewhere_belongs_to_the_command_on_path(tmp_path):
+    shutil.copytree(pathlib.Path(twinpuck.__file__).parent, tmp_path / "library" / "twinpuck")
+    (tmp_path / "other").mkdir()
+    (tmp_path / "other" / "twinpuck").write_text("a file that is no program\n")
+    program = "import twinpuck; w = twinpuck.World('maze', firmware='blink'); w.run(1); print(w.time_s)"
+    beside = pathlib.Path(os.environ["TWINPUCK"]).parent
+
+    def said(path):
+        return subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=600, check=False,
+                              env={**os.environ, "PATH": path, "PYTHONPATH": str(tmp_path / "library")}, cwd=tmp_path)
+
+    found = said(f":{tmp_path / 'nosuch'}::{tmp_path / 'other'}:{beside}")
+    assert (found.stdout, found.stderr) == ("1.0\n", "")
+    alone = said(f"{tmp_path / 'other'}:")
+    assert alone.returncode == 1
+    assert alone.stderr.splitlines()[-1].startswith("twinpuck.WorldError: maze: world: got a name that is neither a file")

@@ -26,6 +26,7 @@ struct End : PacketPort {
     packet.infra_red = infra_red;
     packet.bytes.assign(text.begin(), text.end());
     packet.at = at;
+    packet.emitter = emitter;
     packet.baud_rate_bit_s = baud_rate_bit_s;
     send(packet);
   }
@@ -34,6 +35,7 @@ struct End : PacketPort {
   std::size_t left = 0;
   Clicks at = 0;
   double baud_rate_bit_s = -1;
+  int emitter = 0;
   std::vector<ReceivedPacket> got;
 };
 
@@ -181,6 +183,27 @@ TEST_F(PacketMediumTest, a_baud_rate_delays_packets_one_after_the_other) {
   exchange(0.022);
   ASSERT_EQ(b.got.size(), 2u);
   EXPECT_EQ(b.text(1), "9876543210");
+}
+
+TEST_F(PacketMediumTest, emitters_of_one_robot_do_not_wait_for_each_other) {
+  a.at = from_seconds(0.001);
+  a.baud_rate_bit_s = 800;
+  a.say("slow", 1);  // 40 ms
+  a.emitter = 1;
+  a.baud_rate_bit_s = 80000;
+  a.say("fast", 1);
+  exchange(0.003);
+  ASSERT_EQ(b.got.size(), 1u);
+  EXPECT_EQ(b.text(0), "fast");
+  a.emitter = 0;
+  a.baud_rate_bit_s = 80000;
+  a.say("next", 1);  // behind what its own emitter has not sent yet
+  exchange(0.005);
+  EXPECT_EQ(b.got.size(), 1u);
+  exchange(0.050);
+  ASSERT_EQ(b.got.size(), 3u);
+  EXPECT_EQ(b.text(1), "slow");
+  EXPECT_EQ(b.text(2), "next");
 }
 
 }  // namespace
