@@ -11,9 +11,9 @@ namespace {
 constexpr unsigned kCon1 = sfr("ADCON1"), kCon2 = sfr("ADCON2"), kCon3 = sfr("ADCON3"), kChs = sfr("ADCHS"),
                    kCssl = sfr("ADCSSL");
 constexpr std::uint16_t kDone = sfr_bits("ADCON1", "DONE"), kSamp = sfr_bits("ADCON1", "SAMP"),
-                        kAdon = sfr_bits("ADCON1", "ADON"),
-                        kCscna = sfr_bits("ADCON2", "CSCNA"), kAlts = sfr_bits("ADCON2", "ALTS"),
-                        kBufm = sfr_bits("ADCON2", "BUFM"), kAdrc = sfr_bits("ADCON3", "ADRC");
+                        kAdon = sfr_bits("ADCON1", "ADON"), kCscna = sfr_bits("ADCON2", "CSCNA"),
+                        kAlts = sfr_bits("ADCON2", "ALTS"), kBufm = sfr_bits("ADCON2", "BUFM"),
+                        kAdrc = sfr_bits("ADCON3", "ADRC");
 constexpr SfrBits kForm = sfr_field("ADCON1", "FORM"), kAdcs = sfr_field("ADCON3", "ADCS"),
                   kSamc = sfr_field("ADCON3", "SAMC"), kCh0sa = sfr_field("ADCHS", "CH0SA"),
                   kCh0sb = sfr_field("ADCHS", "CH0SB");

@@ -160,7 +160,8 @@ int HostLibrary::vector(int handler) const {
 
 // while its functions run, a tick finds them running, and the handler begins anew
 Cycle HostLibrary::due() const {
-  return agendas().ticks().is_walking() ? agendas().ticks().after(handler_began_) : agendas().ticks().next_interrupt();
+  return agendas().ticks().is_walking() ? agendas().ticks().after(handler_began_)
+                                        : agendas().ticks().next_interrupt();
 }
 
 Cycle HostLibrary::source_event(int handler, Cycle after) const {
@@ -174,7 +175,8 @@ Cycle HostLibrary::pending_cycles() const {
 
 std::uint64_t HostLibrary::share_q32() const {
   std::uint64_t share = 0;
-  if (!(held_ >> kAgendaHandler & 1)) share += agendas().shares().share_q32() - agendas().shares().calling_share_q32();
+  if (!(held_ >> kAgendaHandler & 1))
+    share += agendas().shares().share_q32() - agendas().shares().calling_share_q32();
   if (!(held_ >> kScanHandler & 1)) share += variables_.share_q32();
   return share;
 }

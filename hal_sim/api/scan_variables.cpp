@@ -169,7 +169,8 @@ std::uint16_t ScanVariables::value(unsigned address, Cycle at, bool keep) const 
   }
 }
 
-__attribute__((noinline)) int ScanVariables::written_dark_less_lit(unsigned sensor, Cycle dark_at, Cycle lit_at) const {
+__attribute__((noinline)) int ScanVariables::written_dark_less_lit(unsigned sensor, Cycle dark_at,
+                                                                   Cycle lit_at) const {
   return static_cast<std::int16_t>(read(HostVariable::e_ambient_ir, sensor, dark_at) -
                                    read(HostVariable::e_ambient_and_reflected_ir, sensor, lit_at));
 }

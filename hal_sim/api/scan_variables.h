@@ -27,9 +27,9 @@ class ScanVariables {
   }
   /// A sensor's dark word at one instant less its lit one at another, the difference as a word too.
   int dark_less_lit(unsigned sensor, Cycle dark_at, Cycle lit_at) const {
-    return overlay_ ? written_dark_less_lit(sensor, dark_at, lit_at)
-                    : static_cast<std::int16_t>(
-                          scan_.dark_less_lit(static_cast<int>(sensor), dark_at, lit_at));
+    return overlay_
+               ? written_dark_less_lit(sensor, dark_at, lit_at)
+               : static_cast<std::int16_t>(scan_.dark_less_lit(static_cast<int>(sensor), dark_at, lit_at));
   }
   /// Since the last reset.
   bool was_started() const { return scan_.starts() > 0; }

@@ -154,7 +154,7 @@ std::string Monitor::go(const std::string& rest) {
   const std::string unit = trimmed(end);
   if (unit == "s") value *= static_cast<double>(board::kFcyHz);
   if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15))
-    return "got '" + rest + "', expected a time such as 1.5s, or a cycle\n";
+    return "goto: got '" + rest + "', expected a time such as 1.5s, or a cycle\n";
   return told(session_.go_to(static_cast<Cycle>(value), idle_));
 }
 

@@ -151,8 +151,8 @@ struct TiltedFrame {
 };
 
 /// The same as shoot() in space, ramps included; every ray is tried on every neighbour.
-__attribute__((noinline)) bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around,
-                      RayEnd* ends) {
+__attribute__((noinline)) bool shoot_over_ramps(const Scene& scene, int robot, const SensorOptics& s,
+                                                const Surroundings& around, RayEnd* ends) {
   const TiltedFrame frame(scene, robot, around.at);
   const Vec3 from = frame.to_world(s.fan.from);
   bool any = false;

@@ -196,6 +196,24 @@ TEST_F(Lockstep, a_reset_of_the_simulation_is_a_fresh_start) {
   }
 }
 
+// the first robot's too, whose number is 0
+TEST_F(Lockstep, a_reset_gives_custom_data_back) {
+  for (const char* name : {"a", "b"}) {
+    Robot& r =
+        add_c("", "printf(\"has %s\\n\", wb_robot_get_custom_data()); wb_robot_set_custom_data(\"mine\");",
+              "if (steps == 2) printf(\"then %s\\n\", wb_robot_get_custom_data());", 64, name);
+    r.at(name[0] == 'a' ? 0 : 0.3, 0);
+    r.settings().custom_data = std::string("given to ") + name;
+  }
+  add_supervisor_in_c("", "", "static int once; if (steps == 5 && !once++) wb_supervisor_simulation_reset();",
+                      64);
+  run_for(0.9);
+  for (int i = 0; i < 2; ++i) {
+    const std::string has = std::string("has given to ") + (i == 0 ? "a" : "b");
+    EXPECT_EQ(robot(i).console(), (std::vector<std::string>{has, "then mine", has, "then mine"})) << i;
+  }
+}
+
 TEST_F(Lockstep, a_supervisor_starts_one_robots_program_anew) {
   for (const char* name : {"a", "b"})
     add_c("", "printf(\"begins %g\\n\", wb_robot_get_time());", "", 64, name).at(name[0] == 'a' ? 0 : 0.3, 0);
