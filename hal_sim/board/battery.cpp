@@ -109,6 +109,7 @@ void Battery::begin_again(double volts, double amps, Cycle at) {
 
 Cycle Battery::below(double volts, Cycle at) const {
   if (voltage(at) < volts || amps_ <= 0) return kNever;
+  if (volts <= -drop_v_ - amps_ * resistance_ohm_) return kNever;  // an empty one is not below either
   const double left = charge(at) - charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
   const double cycles = std::floor(left * capacity_as_ / amps_ * static_cast<double>(kFcyHz));
   if (cycles >= static_cast<double>(kNever) / 2) return kNever;

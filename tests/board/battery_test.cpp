@@ -93,6 +93,11 @@ TEST(Battery, falls_below_a_voltage_in_that_cycle_and_not_before) {
     EXPECT_GE(battery.voltage(low - 1), volts) << i;
   }
   EXPECT_GT(found, 1000);
+  // empty it has nothing, less what 2 A lose in 0.2 ohm
+  Battery empty(0.001, 3.5, 2);
+  EXPECT_LT(empty.below(-0.39, 0), board::kNever);
+  EXPECT_EQ(empty.below(-0.4, 0), board::kNever);
+  EXPECT_EQ(empty.below(-1, 3600 * kSecond), board::kNever);
 }
 
 // --- what draws
