@@ -203,10 +203,10 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
                        const ObjectFolders& folders, BuildInputs& inputs) {
   CompileOutcome outcome;
   outcome.source = job.source;
-  // debug information and messages name the files as the compiler was given them, from where it ran
   const Names names(job);
   std::string key = names.told(job.source.string()) + "\n" + job.salt + "\n" + salt;
-  // from the top folder, so that no name in debug information or a message is relative to where this runs
+  // debug information and messages name the files as the compiler was given them: whole names from the top folder,
+  // so that none is relative to where this runs
   const std::string folder = job.source.is_relative() ? fs::current_path().string() : "/";
   key += "\n" + folder;
   for (const auto& f : job.flags) key += "\n" + names.told(f);

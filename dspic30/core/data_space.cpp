@@ -213,8 +213,7 @@ void DataSpace::modify_elsewhere(unsigned ea, unsigned keep, unsigned flip, unsi
   // flags and latches change in one step, so what the hardware sets meanwhile survives
   const bool are_flags = parts.are_flags(word, t);
   const bool is_converter = parts.is_converter(word);
-  if ((!are_flags && !is_converter && !parts.is_latch(word)) || (bits == 16 && (ea & 1)) ||
-      (is_converter && (memory_check || watching)))
+  if ((!are_flags && !is_converter && !parts.is_latch(word)) || (bits == 16 && (ea & 1)))
     return write_elsewhere(ea, (read_elsewhere(ea, bits) & keep) ^ flip, bits);
   note_effect();
   const int shift = bits == 8 && (ea & 1) ? 8 : 0;

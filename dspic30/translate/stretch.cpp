@@ -2,8 +2,6 @@
 #include "dspic30/translate/stretch.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <string_view>
 
 namespace dspic::translate {
@@ -200,15 +198,13 @@ std::vector<Item> stretch(const Cpu& cpu, const Decoded* head) {
 }
 
 std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
-  std::string key(reinterpret_cast<const char*>(&cpu.plain_start), sizeof cpu.plain_start);
-  key.reserve(key.size() + items.size() * sizeof(Item));
-  std::array<char, sizeof(Item)> packed;  // what counts of an item, without gaps
+  std::string key;
+  key.reserve(items.size() * sizeof(Item));
+  const auto add = [&key](const auto& value) {
+    key.append(reinterpret_cast<const char*>(&value), sizeof value);
+  };
+  add(cpu.plain_start);
   for (const Item& item : items) {
-    std::size_t size = 0;
-    const auto add = [&](const auto& value) {
-      std::memcpy(&packed[size], &value, sizeof value);
-      size += sizeof value;
-    };
     add(item.place);
     add(item.word);
     add(item.decoded.lead);
@@ -224,7 +220,6 @@ std::string key_of(const Cpu& cpu, const std::vector<Item>& items) {
     add(item.way);
     add(item.routine_place);
     add(item.routine ? item.routine->code : 0);
-    key.append(packed.data(), size);
     if (item.routine) key += item.routine->name;
   }
   return key;
