@@ -45,7 +45,10 @@ failures = []  # names of those that failed, said once more at the end: a long l
 def run(build, name, tests):
     """Runs the given tests of a program, all of them if `tests` is None. Returns how many passed and failed."""
     command = [f"{build}/tests/{name}"] + ([] if tests is None else ["--gtest_filter=" + ":".join(tests)])
+    # libasan 12 takes a library's thread-local block at the second 16 bytes of a page for one of an old glibc and
+    # crashes in its search for leaks, one run in 256; unwatched, such blocks are found as what threads point to
     environment = dict(os.environ, GTEST_COLOR="no", XDG_CACHE_HOME=os.path.abspath(f"{build}/cache"),
+                       ASAN_OPTIONS="intercept_tls_get_addr=0",
                        LSAN_OPTIONS=f"suppressions={os.getcwd()}/scripts/lsan.supp:print_suppressions=0")
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
     passed = failed = 0
