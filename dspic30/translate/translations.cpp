@@ -28,6 +28,19 @@ constexpr std::size_t kMostKept = 4000;  // about 40 MB
 std::string name_of(std::uint64_t hash) { return hex(hash, 16).substr(2); }
 std::uint64_t hash_of(const std::string& text) { return std::hash<std::string>{}(text); }
 
+// The first 16 bits of a translation's name are of its opening, two words, and tell at once of most places that
+// there is none.
+constexpr unsigned kOpeningAt = 48;
+unsigned opening_of(const Cpu& cpu, const Decoded* head) {
+  constexpr std::uint64_t kMix = 0x9E3779B97F4A7C15u;
+  const unsigned address = cpu.address_of(head);
+  const std::uint64_t words = std::uint64_t{cpu.program.read(address + 2)} << 24 | cpu.program.read(address);
+  return static_cast<unsigned>(words * kMix >> kOpeningAt);
+}
+std::uint64_t hash_of(unsigned opening, const std::string& key) {
+  return std::uint64_t{opening} << kOpeningAt | hash_of(key) >> (64 - kOpeningAt);
+}
+
 /// What the files of a folder are named by, in order. There may be thousands, and each run looks.
 std::vector<std::uint64_t> hashes_in(const fs::path& folder) {
   std::vector<std::uint64_t> hashes;
@@ -87,17 +100,24 @@ void Translations::open() {
   }
   fs::create_directories(folder_, failed);
   if (failed) folder_.clear();
+  note_openings(kept_);
+  note_openings(warm_);
+}
+
+void Translations::note_openings(const std::vector<std::uint64_t>& names) {
+  for (const std::uint64_t name : names) openings_.set(name >> kOpeningAt);
 }
 
 Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool only_ready) {
   const std::lock_guard lock(mutex_);
   if (!is_open_) open();
-  if (only_ready && kept_.empty() && known_.empty() && warm_.empty()) return {};
+  const unsigned opening = opening_of(cpu, head);
+  if (only_ready && !openings_.test(opening)) return {};
   const std::vector<Item> items = stretch(cpu, head);
   if (items.empty()) return {};
   const std::string key = key_of(cpu, items);
   if (const auto known = known_.find(key); known != known_.end()) return known->second;
-  const std::uint64_t hash = hash_of(key);
+  const std::uint64_t hash = hash_of(opening, key);
   const std::string name = name_of(hash);
   const bool is_kept = std::binary_search(kept_.begin(), kept_.end(), hash);
   if (only_ready && !is_kept && !std::binary_search(warm_.begin(), warm_.end(), hash)) return {};
@@ -114,6 +134,7 @@ Translation Translations::translate(const Cpu& cpu, const Decoded* head, bool on
     made.first = std::min(made.first, item.place);
     made.last = std::max(made.last, item.place);
   }
+  openings_.set(opening);
   return known_[key] = made;
 }
 
@@ -121,9 +142,14 @@ void Translations::note_warm(const Cpu& cpu, const Decoded* head) {
   const std::lock_guard lock(mutex_);
   if (!is_open_) open();
   const std::vector<Item> items = stretch(cpu, head);
-  if (items.empty() || folder_.empty()) return;
-  std::ofstream(folder_ / kWarmFile, std::ios::app) << name_of(hash_of(key_of(cpu, items))) + "\n"
-                                                    << std::flush;
+  if (items.empty()) return;
+  const unsigned opening = opening_of(cpu, head);
+  const std::uint64_t hash = hash_of(opening, key_of(cpu, items));
+  // another world of this run may come there, too
+  openings_.set(opening);
+  warm_.insert(std::lower_bound(warm_.begin(), warm_.end(), hash), hash);
+  if (!folder_.empty())
+    std::ofstream(folder_ / kWarmFile, std::ios::app) << name_of(hash) + "\n" << std::flush;
 }
 
 bool Translations::has_compiler() {

@@ -2,6 +2,7 @@
 // The translator's front door: one for all robots of a process. Robots that run the same program share its
 // code, and what was translated once is kept in files for later runs.
 #pragma once
+#include <bitset>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -28,6 +29,7 @@ class Translations final : public Translator {
 
  private:
   void open();
+  void note_openings(const std::vector<std::uint64_t>& names);
   bool has_compiler();
   void keep(const std::filesystem::path& file, const std::string& text) const;
 
@@ -40,6 +42,8 @@ class Translations final : public Translator {
   std::map<std::string, Translation> known_;
   std::vector<std::uint64_t> kept_;  // what the files are named by, in order
   std::vector<std::uint64_t> warm_;  // noted by earlier runs, in order
+  // what all of these begin with, and all known ones: nearly every place that is only asked for is in none
+  std::bitset<1 << 16> openings_;
   int compiled_ = 0;
 };
 
