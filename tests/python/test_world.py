@@ -362,7 +362,7 @@ def test_a_copy_of_the_module_elsewhere_belongs_to_the_command_on_path(tmp_path)
         return subprocess.run([sys.executable, "-c", program], text=True, capture_output=True, timeout=600, check=False,
                               env={**os.environ, "PATH": path, "PYTHONPATH": str(tmp_path / "library")}, cwd=tmp_path)
 
-    found = said(f":{tmp_path / 'nosuch'}::{tmp_path / 'other'}:{beside}")
+    found = said(f":{tmp_path / 'nosuch'}::{tmp_path / 'other'}:{beside}:{tmp_path}")
     assert (found.stdout, found.stderr) == ("1.0\n", "")
     alone = said(f"{tmp_path / 'other'}:")
     assert alone.returncode == 1

@@ -65,7 +65,6 @@ TEST(Camera, red_cylinder_covers_its_angle) {
   EXPECT_FLOAT_EQ(image[0].r, 0.72f);
 }
 
-// 20 mm to the left at 0.2 m: tan = 0.1, 0.1 * 716.5 / 8 = 8.96 columns left of the middle
 // a box 0.2 m from the lens meets the floor 0.028 / 0.2 * 716.5 / 8 = 12.54 rows below the middle; from 10 mm
 // higher 17.02
 TEST(Camera, the_eye_is_as_high_as_its_robot) {
@@ -81,6 +80,7 @@ TEST(Camera, the_eye_is_as_high_as_its_robot) {
   }
 }
 
+// 20 mm to the left at 0.2 m: tan = 0.1, 0.1 * 716.5 / 8 = 8.96 columns left of the middle
 TEST(Camera, left_is_left) {
   Eye eye(std::string("twinpuck = 1\n[[box]]\nposition = [0.23, 0.02]\nsize = [0.002, 0.002, 0.2]\ncolour = "
                       "[0, 0, 1]\n") +
@@ -221,6 +221,24 @@ TEST(Camera, picture_equals_one_ray_per_pixel) {
       }
   }
   EXPECT_EQ(pixels, 16000);
+}
+
+// at 0.8 m the picture is 0.36 m wide: a robot passes from beyond one edge to beyond the other
+TEST(Camera, other_robots_are_seen_from_edge_to_edge) {
+  Eye eye(std::string("twinpuck = 1\n[floor]\ncolour = [1, 1, 1]\n") + kOneRobot +
+          "[[robot]]\nname = \"other\"\nposition = [0.5, 0]\n");
+  const std::vector<double> right = tangents(40, 8, false);
+  int seen = 0;
+  for (double y = -0.3; y < 0.31; y += 0.02) {
+    eye.simulation().move(1, {0.83, y, 0}, 0);
+    const std::vector<Light> image = eye.look();
+    for (std::size_t column = 0; column < 40; ++column) {
+      const Light want = plain_pixel(eye.scene(), 0, right[column], -4 / kFocalPx);
+      EXPECT_NEAR(image[20 * 40 + column].g, want.g, 1e-5) << y << ' ' << column;
+      seen += want.g < 0.9;
+    }
+  }
+  EXPECT_GT(seen, 100);
 }
 
 TEST(Camera, any_subset_of_the_grid_gives_the_same_pixels) {
