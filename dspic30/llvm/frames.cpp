@@ -112,6 +112,12 @@ bool DSPICFrameLowering::hasFP(const MachineFunction& mf) const {
          frame.isFrameAddressTaken();
 }
 
+StackOffset DSPICFrameLowering::getFrameIndexReference(const MachineFunction& mf, int object,
+                                                       Register& base) const {
+  base = DSPIC::W14;
+  return StackOffset::getFixed(mf.getFrameInfo().getObjectOffset(object) - kSavedFrame);
+}
+
 void DSPICFrameLowering::emitPrologue(MachineFunction& mf, MachineBasicBlock& mbb) const {
   constexpr int64_t kLargestFrame = 16382;  // LNK #lit14
   const auto& ii = instructions_of(mf);

@@ -12,10 +12,17 @@
 
 namespace llvm {
 
+/// LNK pushes W14 before it sets it; objects are counted from before that.
+inline constexpr int kSavedFrame = 2;
+
 class DSPICFrameLowering : public TargetFrameLowering {
  public:
-  // objects are counted from W15 at entry; W14 is pushed there first, so locals begin 2 above
-  DSPICFrameLowering() : TargetFrameLowering(StackGrowsUp, Align(2), 2) {}
+  // objects are counted from W15 at entry; W14 is pushed there first, so locals begin 2 above. W15 is even and
+  // no more: what asks for a wider alignment gets none.
+  DSPICFrameLowering()
+      : TargetFrameLowering(StackGrowsUp, Align(2), kSavedFrame, Align(1), /*StackReal=*/false) {}
+  /// Of an object, from W14 on, for passes and the debugger.
+  StackOffset getFrameIndexReference(const MachineFunction& mf, int object, Register& base) const override;
   bool hasFP(const MachineFunction& mf) const override;
   bool canSimplifyCallFramePseudos(const MachineFunction&) const override { return true; }
   bool hasReservedCallFrame(const MachineFunction&) const override { return false; }

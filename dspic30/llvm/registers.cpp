@@ -66,7 +66,6 @@ void split_pair(MachineInstr& mi, const DSPICRegisterInfo& registers) {
 
 void DSPICRegisterInfo::eliminateFrameIndex(MachineBasicBlock::iterator it, int, unsigned operand,
                                             RegScavenger*) const {
-  constexpr int kSavedFrame = 2;  // LNK pushes W14 before it sets it; objects are counted from before that
   MachineInstr& mi = *it;
   auto& mbb = *mi.getParent();
   auto& mf = *mbb.getParent();

@@ -62,6 +62,14 @@ std::vector<std::uint32_t> CodeMap::addresses_of(const std::vector<std::size_t>&
   return addresses;
 }
 
+std::uint32_t CodeMap::body_of(std::uint32_t begin) const {
+  const Function* const function = function_at(begin);
+  if (!function || function->begin != begin) return begin;
+  for (const Line& l : lines().rows)
+    if (l.is_body && l.address >= begin && l.address < function->end) return l.address;
+  return begin;
+}
+
 std::string CodeMap::describe(std::uint32_t address) const {
   const Function* function = function_at(address);
   const Line* line = line_at(address);

@@ -39,6 +39,8 @@ struct CodeMap {
   std::vector<std::uint32_t> addresses_of(const std::string& file, int line, int& found) const;
   /// The same in any of `among`: numbers of `files`.
   std::vector<std::uint32_t> addresses_of(const std::vector<std::size_t>& among, int line, int& found) const;
+  /// Where a function that begins there has its arguments in their places; where it begins, if nothing tells.
+  std::uint32_t body_of(std::uint32_t begin) const;
   /// "control() (main.c:98)" as far as known, else "0x0003a6".
   std::string describe(std::uint32_t address) const;
 

@@ -46,7 +46,8 @@ class LineProgram {
     NegateStatement,
     Block,
     ConstAddPc,
-    FixedAdvancePc
+    FixedAdvancePc,
+    PrologueEnd
   };
   enum Extended { EndSequence = 1, SetAddress, DefineFile };
 
@@ -99,6 +100,7 @@ class LineProgram {
     row_.line = file_ - 1 < files_.size() ? std::max(0, line_) : 0;
     row_.file = row_.line ? files_[file_ - 1] : std::uint16_t{0};
     table_.rows.push_back(row_);
+    row_.is_body = false;
   }
   void advance(std::uint32_t instructions) { row_.address += instructions * shortest_; }
 
@@ -154,6 +156,9 @@ class LineProgram {
         return advance(static_cast<std::uint32_t>((255 - opcode_base_) / line_range_));
       case FixedAdvancePc:
         row_.address += unit_.number(2);
+        return;
+      case PrologueEnd:
+        row_.is_body = true;
         return;
       default:
         for (int i = 0; i < operands_[code - 1u]; ++i) unit_.leb();

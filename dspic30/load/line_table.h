@@ -21,7 +21,8 @@ struct LineTable {
     std::uint16_t file = 0;  ///< of `files`
     int line = 0;            ///< 0: code that stands in no source line
     bool is_statement = false;
-    bool is_end = false;  ///< nothing is known from here on
+    bool is_end = false;   ///< nothing is known from here on
+    bool is_body = false;  ///< a function has made its frame and put its arguments there
   };
   std::vector<Row> rows;  ///< by address
   /// Rows of what the linker left out, in the order of the file; each function ends with is_end.

@@ -58,6 +58,13 @@ bool Machine::repeats(const chip::Step& step) const {
 
 // --- code
 
+std::uint32_t Machine::body_of(std::uint32_t begin) const {
+  const auto known = runner_.image()->code()->known();
+  const bool is_answered =
+      dspic::is_host_place(chip::goto_target(file(), begin)) || (known && known->find(begin));
+  return is_answered ? begin : file().code.body_of(begin);
+}
+
 std::string Machine::instruction(std::uint32_t address, std::uint32_t& next) const {
   const auto& words = file().words;
   const auto first = words.find(address), second = words.find(address + 2);

@@ -50,6 +50,9 @@ class Machine {
   // --- its code
   bool is_code(std::uint32_t address) const { return address < dspic::kFlashEnd && address % 2 == 0; }
   static constexpr std::uint32_t code_end() { return dspic::kFlashEnd; }
+  /// Where a function that begins there has its arguments in their places; one that is answered for the program
+  /// goes nowhere else.
+  std::uint32_t body_of(std::uint32_t begin) const;
   /// The instruction at an address as text; empty: there is none. `next`: the one behind it.
   std::string instruction(std::uint32_t address, std::uint32_t& next) const;
 

@@ -454,6 +454,7 @@ Session::CodePlace Session::find_code(const std::string& where, std::string& err
     code.addresses = chip::copies_of(file(), where);
     code.addresses.insert(code.addresses.begin(), label->second);
     code.what = where;
+    code.is_function = true;
   } else if (const auto copies = chip::copies_of(file(), where); !copies.empty()) {
     code.addresses = copies;
     code.what = where;
@@ -477,6 +478,9 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   Breakpoint b;
   CodePlace code = find_code(where, error);
   b.addresses = std::move(code.addresses);
+  // of a function, where conditions see its arguments
+  if (code.is_function)
+    for (std::uint32_t& address : b.addresses) address = machine_->body_of(address);
   b.what = std::move(code.what);
   // A condition has to make sense at the breakpoint, or there is none.
   std::int64_t value = 0;

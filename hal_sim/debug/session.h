@@ -108,6 +108,7 @@ class Session final : private chip::StepWatch {
   struct CodePlace {
     std::vector<std::uint32_t> addresses;  ///< none: `error` says why
     std::string what;
+    bool is_function = false;  ///< named by its name
   };
   /// `where`: a function or label, file:line, line (of the current file), 0x-address.
   CodePlace find_code(const std::string& where, std::string& error) const;

@@ -55,6 +55,47 @@ TEST_P(DebugValues, variables_have_types_and_functions_have_locals) {
   EXPECT_NE(vcd.find("b100101100 "), std::string::npos) << vcd;  // 300
 }
 
+// what has no register lies in the frame, with arguments that found none; a function's breakpoint is behind
+// what puts them there, so that its condition sees them
+constexpr const char* kFrames = R"(#include <p30F6014A.h>
+struct pair { long wide; char narrow; };
+__attribute__((noinline)) void fill(int *p, struct pair *of, int n) {
+  for (int i = 0; i < 4; i++) p[i] = 11 * (i + n);
+  of->wide = 100000L * n;
+  of->narrow = -n;
+}
+__attribute__((noinline)) int sum(long a, long b, long c, long d, int last) {
+  int many[4];
+  struct pair both;
+  fill(many, &both, last);
+  LATA = many[3] + both.narrow + (int)(a + b + c + d);
+  return LATB;
+}
+int main(void) {
+  int rounds[3] = {0, 0, 0};
+  while (1) {
+    rounds[1]++;
+    rounds[2] = sum(1, 2, 3, 4, rounds[1]);
+    rounds[0] = rounds[1] + rounds[2];
+  }
+}
+)";
+
+TEST_P(DebugValues, what_lies_in_frames_is_found_at_every_level) {
+  for (const std::string level : {"-O0", "-O1", "-Os"}) {
+    write("mine/main.c", kFrames);
+    const auto built = twinpuck("build '" + path("mine") + "' --hal " + hal() + " --opt " + level + " -o '" +
+                                program() + "'");
+    ASSERT_EQ(built.exit_code, 0) << built.text;
+    expect_in_order(
+        debug("break sum if last == 3\nc\nprint last\nbreak main.c:13\nc\nprint many\nprint both\n"
+              "set many[1] = 7\nprint many[1]\nprint last\nfinish\n"),
+        {"last = 3 (0x3)", "many = {33 (0x21), 44 (0x2c), 55 (0x37), 66 (0x42)}",
+         "both = {wide = 300000 (0x493e0), narrow = -3 (0xfd)}", "many[1] = 7 (0x7)", "many[1] = 7 (0x7)",
+         "last = 3 (0x3)"});
+  }
+}
+
 constexpr const char* kPointers = R"(#include <p30F6014A.h>
 struct node { int value; struct node *next; const char *name; };
 struct node nodes[3] = {{5, &nodes[1], "ab"}, {-7, &nodes[2], "cd"}, {9, 0, "ef"}};
