@@ -138,6 +138,7 @@ int compile_for_chip(Unit& unit) {
   if (!lower_for_chip(unit)) return kUsersFault;
   if (unit.options.sanitize && !unit.options.library) prepare_checks(unit);
   optimise_for_chip(unit, *machine);
+  stop_where_undefined(m);
   add_underscores(m);
   if (verifyModule(m, &errs())) {
     errs() << unit.options.input << ": internal error: malformed code after the pipeline\n";

@@ -278,7 +278,26 @@ StringRef note_in(const Value* text) {
   return note.consume_front(kNote) ? note : "";
 }
 
+/// What clang takes and the chip has nothing for.
+void refuse_what_is_missing(Unit& unit) {
+  for (Function& f : unit.module)
+    for (Instruction& i : instructions(f)) {
+      const auto* const call = dyn_cast<IntrinsicInst>(&i);
+      const Intrinsic::ID id = call ? call->getIntrinsicID() : Intrinsic::not_intrinsic;
+      if (id == Intrinsic::read_register || id == Intrinsic::write_register ||
+          id == Intrinsic::read_volatile_register)
+        unit.error(i.getDebugLoc(),
+                   "got a global variable in a working register, expected one in memory");
+      if (isa<AtomicCmpXchgInst>(i) || isa<AtomicRMWInst>(i))
+        unit.error(i.getDebugLoc(),
+                   "got an atomic operation that reads and writes, expected a plain one between "
+                   "__builtin_disi(0x3FFF) and __builtin_disi(0)");
+    }
+}
+
 bool lower_for_chip(Unit& unit) {
+  refuse_what_is_missing(unit);
+  if (unit.failed) return false;
   keep_dynamic_arrays(unit.module);
   Module& m = unit.module;
   lower_accumulators(unit);

@@ -41,6 +41,12 @@ struct KeepDivisionsPass : llvm::PassInfoMixin<KeepDivisionsPass> {
 struct KeepPlainDivisionsPass : llvm::PassInfoMixin<KeepPlainDivisionsPass> {
   llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
 };
+/// A store to a constant is done, and traps.
+struct KeepConstantStoresPass : llvm::PassInfoMixin<KeepConstantStoresPass> {
+  llvm::PreservedAnalyses run(llvm::Function& f, llvm::FunctionAnalysisManager& analyses);
+};
+/// Behind the optimiser: where LLVM concludes that no course comes, the program stops.
+void stop_where_undefined(llvm::Module& m);
 struct KeepZeroArgumentsPass : llvm::PassInfoMixin<KeepZeroArgumentsPass> {
   llvm::PreservedAnalyses run(llvm::Module& m, llvm::ModuleAnalysisManager& analyses);
 };

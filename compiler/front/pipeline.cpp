@@ -119,6 +119,7 @@ struct MergeFieldReadsPass : PassInfoMixin<MergeFieldReadsPass> {
 void add_tidying(FunctionPassManager& passes, bool memory) {
   passes.addPass(SROAPass());
   passes.addPass(KeepDivisionsPass());
+  passes.addPass(KeepConstantStoresPass());
   passes.addPass(EarlyCSEPass(true));
   passes.addPass(PlainCfgPass());
   passes.addPass(InstCombinePass());

@@ -68,7 +68,9 @@ class DSPICAsmPrinter : public AsmPrinter {
       return out << 'w' << number_of(op) + 1, false;
     }
     if (op.isReg()) return out << 'w' << number_of(op), false;
-    if (op.isImm()) return out << '#' << op.getImm(), false;
+    // "disi #%0" and "disi %0" are both written
+    const bool has_sign = static_cast<raw_svector_ostream&>(out).str().endswith("#");
+    if (op.isImm()) return out << (has_sign ? "" : "#") << op.getImm(), false;
     MCOperand address;
     if (!(op.isGlobal() || op.isBlockAddress() || op.isSymbol()) || !lower(op, address)) return true;
     return address.getExpr()->print(out, MAI), false;

@@ -5,6 +5,7 @@
 #include "dspic30/llvm/machine.h"
 #include "dspic30/llvm/small_variables.h"
 #include "llvm/CodeGen/SelectionDAGISel.h"
+#include "llvm/IR/DiagnosticInfo.h"
 
 namespace llvm {
 
@@ -135,6 +136,10 @@ class Selection : public SelectionDAGISel {
         break;
       case DSPICISD::COPY:
         return select_copy(n);
+      case ISD::INLINEASM:
+      case ISD::INLINEASM_BR:
+        if (pair_operands(n)) return;
+        break;
       case DSPICISD::SELECT2: {
         SmallVector<SDValue, 6> ops(n->op_begin(), n->op_end());
         return ReplaceNode(n, machine_node(DSPIC::SELECT2, SDLoc(n), {MVT::i16, MVT::i16}, ops));
@@ -183,6 +188,95 @@ class Selection : public SelectionDAGISel {
     ReplaceUses(SDValue(n, 0), SDValue(made, 2));
     CurDAG->RemoveDeadNode(n);
   }
+
+  /// A long operand of inline assembler is a pair, of which the text names the first word, %0, and the second,
+  /// %d0. LLVM hands over two registers that lie anywhere; where they are not fixed, a pair takes their place.
+  /// False: there are none.
+  bool pair_operands(SDNode* n) {
+    const SDLoc where(n);
+    const bool is_glued = n->getGluedNode() != nullptr;
+    const unsigned count = n->getNumOperands() - (is_glued ? 1 : 0);
+    SmallVector<SDValue, 16> operands(n->op_begin(), n->op_begin() + InlineAsm::Op_FirstOperand);
+    SDValue glue = is_glued ? n->getOperand(count) : SDValue();
+    SmallVector<const TargetRegisterClass*, 8> pairs;  // of each operand; null: it is none
+    bool any = false;
+    for (unsigned at = InlineAsm::Op_FirstOperand; at < count;) {
+      // An operand is a word that says what follows, and that.
+      unsigned flag = cast<ConstantSDNode>(n->getOperand(at))->getZExtValue();
+      const unsigned kind = InlineAsm::getKind(flag), words = InlineAsm::getNumOperandRegisters(flag);
+      unsigned class_id = 0, tied = 0;
+      const bool is_use = kind == InlineAsm::Kind_RegUse;
+      const bool is_register =
+          is_use || kind == InlineAsm::Kind_RegDef || kind == InlineAsm::Kind_RegDefEarlyClobber;
+      const TargetRegisterClass* of = nullptr;
+      if (is_register && words == 2) {
+        if (InlineAsm::isUseOperandTiedToDef(flag, tied))
+          of = tied < pairs.size() ? pairs[tied] : nullptr;
+        else if (InlineAsm::hasRegClassConstraint(flag, class_id))
+          of = registers().getMatchingSuperRegClass(&DSPIC::WPRegClass, registers().getRegClass(class_id),
+                                                    DSPIC::sub_lo);
+      }
+      if (is_register && words > 2 && InlineAsm::hasRegClassConstraint(flag, class_id))
+        CurDAG->getContext()->diagnose(DiagnosticInfoUnsupported(
+            MF->getFunction(), "hands asm an operand of " + Twine(16 * words) + " bits, expected at most 32",
+            DiagnosticLocation(where.getDebugLoc())));
+      pairs.push_back(of);
+      if (!of) {
+        for (unsigned i = 0; i <= words; ++i) operands.push_back(n->getOperand(at + i));
+        at += 1 + words;
+        continue;
+      }
+      // The two registers' values go to the pair before, or come from it behind.
+      any = true;
+      const Register low = cast<RegisterSDNode>(n->getOperand(at + 1))->getReg(),
+                     high = cast<RegisterSDNode>(n->getOperand(at + 2))->getReg();
+      const Register pair = MF->getRegInfo().createVirtualRegister(of);
+      if (is_use)
+        fill_pair(pair, low, high, of, operands[InlineAsm::Op_InputChain], glue, where);
+      else
+        empty_pair(pair, low, high, n, where);
+      const bool is_tied = InlineAsm::isUseOperandTiedToDef(flag, tied);
+      flag = InlineAsm::getFlagWord(kind, 1);
+      flag = is_tied ? InlineAsm::getFlagWordForMatchingOp(flag, tied)
+                     : InlineAsm::getFlagWordForRegClass(flag, of->getID());
+      operands.push_back(CurDAG->getTargetConstant(flag, where, MVT::i32));
+      operands.push_back(CurDAG->getRegister(pair, MVT::Untyped));
+      at += 3;
+    }
+    if (!any) return false;
+    if (glue.getNode()) operands.push_back(glue);
+    SDValue made = CurDAG->getNode(n->getOpcode(), where, CurDAG->getVTList(MVT::Other, MVT::Glue), operands);
+    made->setNodeId(-1);
+    ReplaceNode(n, made.getNode());
+    return true;
+  }
+  void fill_pair(Register pair, Register low, Register high, const TargetRegisterClass* of, SDValue& chain,
+                 SDValue& glue, const SDLoc& where) {
+    SDValue first = CurDAG->getCopyFromReg(chain, where, low, MVT::i16, glue);
+    SDValue second = CurDAG->getCopyFromReg(first.getValue(1), where, high, MVT::i16, first.getValue(2));
+    SDValue both(machine_node(TargetOpcode::REG_SEQUENCE, where, {MVT::Untyped},
+                              {CurDAG->getTargetConstant(of->getID(), where, MVT::i32), first,
+                               CurDAG->getTargetConstant(DSPIC::sub_lo, where, MVT::i32), second,
+                               CurDAG->getTargetConstant(DSPIC::sub_hi, where, MVT::i32)}),
+                 0);
+    // not glued to the copies before: the pair is made in between
+    chain = CurDAG->getCopyToReg(second.getValue(1), where, pair, both, SDValue());
+    glue = chain.getValue(1);
+  }
+  void empty_pair(Register pair, Register low, Register high, SDNode* from, const SDLoc& where) {
+    // whoever was glued to the text, for its results, is glued to the copies
+    SDNode* const user = from->getGluedUser();
+    SDValue both = CurDAG->getCopyFromReg(SDValue(from, 0), where, pair, MVT::Untyped, SDValue(from, 1));
+    const auto half = [&](unsigned i) { return CurDAG->getTargetExtractSubreg(i, where, MVT::i16, both); };
+    SDValue first = CurDAG->getCopyToReg(both.getValue(1), where, low, half(DSPIC::sub_lo), SDValue());
+    SDValue second = CurDAG->getCopyToReg(first, where, high, half(DSPIC::sub_hi), SDValue());
+    if (!user) return;
+    SmallVector<SDValue, 8> operands(user->op_begin(), user->op_end() - 1);
+    operands.push_back(second.getValue(1));
+    CurDAG->UpdateNodeOperands(user, operands);
+  }
+  const TargetRegisterInfo& registers() const { return *MF->getSubtarget().getRegisterInfo(); }
+
   void select_post_increment(SDNode* n) {
     auto* load = cast<LoadSDNode>(n);
     const unsigned opcode = load->getMemoryVT() == MVT::i16             ? DSPIC::MOVldpi

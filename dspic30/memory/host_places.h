@@ -35,4 +35,7 @@ inline constexpr const char* kLocalFunction = "tp_checked_local";
 inline constexpr const char* kCheckedPrefix = "tp_checked_";
 inline constexpr unsigned kLocalGap = 4;
 
+/// Stands where the compiler has concluded that no course can come: an illegal opcode.
+inline constexpr unsigned kUndefinedWord = 0x0A0000;
+
 }  // namespace dspic

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/memory/host_places.h"
 #include "sim_core/base/did_you_mean.h"
 
 namespace chip {
@@ -74,13 +75,16 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
       return of_trap(noted_.trap,
                      "a second trap came before the first one's handler, so the processor resets");
     case dspic::ResetKind::IllegalOpcode: {
-      // the chip takes both for an illegal opcode; what stands there tells them apart
-      const bool is_pointer = dspic::find_row(program_.read(here)) != nullptr;
-      return Ending{host::kTrapIllegal, "Reset",
-                    is_pointer
-                        ? "an address in a register that was never written resets the processor"
-                        : "an illegal opcode resets the processor: the program ran into what is no code",
-                    places_.own(here)};
+      // the chip takes all for an illegal opcode; what stands there tells them apart
+      const std::uint32_t word = program_.read(here);
+      const char* const why =
+          word == dspic::kUndefinedWord
+              ? "an illegal opcode resets the processor: the compiler put it where the program does what C "
+                "leaves undefined, such as to use a pointer that was never set"
+          : dspic::find_row(word)
+              ? "an address in a register that was never written resets the processor"
+              : "an illegal opcode resets the processor: the program ran into what is no code";
+      return Ending{host::kTrapIllegal, "Reset", why, places_.own(here)};
     }
     case dspic::ResetKind::Watchdog:
       return Ending{0, "Reset", "the watchdog was not cleared in time, so it resets the processor",

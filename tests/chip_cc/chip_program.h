@@ -40,6 +40,10 @@ class ChipProgram {
   void run_until(const std::string& variable, dspic::Cycle most = 20'000'000);
 
   void run_for(dspic::Cycle cycles) { step(cpu_->now() + cycles); }
+  /// So long, or to a reset: which.
+  std::optional<dspic::ResetKind> run_to_reset(dspic::Cycle cycles) {
+    return cpu_->run(cpu_->now() + cycles);
+  }
 
   unsigned address_of(const std::string& variable) const;
   std::uint64_t peek(unsigned address, unsigned bytes) const;

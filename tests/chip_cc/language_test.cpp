@@ -245,6 +245,49 @@ long bench_run(void) {
   }
   return wrong;
 })"},
+    {"a long in assembler is a pair of registers, wherever it is handed over", R"(
+volatile unsigned long num = 100003UL;
+volatile long wide = 0x12345678L;
+volatile unsigned one = 1;
+__attribute__((noinline)) static unsigned high(unsigned long v) { unsigned h; asm("mov %d1, %0" : "=r"(h) : "r"(v)); return h; }
+__attribute__((noinline)) static long product(unsigned a, unsigned b) { unsigned long p; asm("mul.uu %1, %2, %0" : "=r"(p) : "r"(a), "r"(b)); return p; }
+__attribute__((noinline)) static unsigned long more(unsigned long v) { asm("add %0, #1, %0\n addc %d0, #0, %d0" : "+r"(v)); return v; }
+__attribute__((noinline)) static unsigned long swapped(unsigned long v) { unsigned long s; asm("mov %d1, %0\n mov %1, %d0" : "=&r"(s) : "r"(v)); return s; }
+long bench_run(void) {
+  unsigned long n = num * one, sum;
+  unsigned q, m;
+  float f = 1.5f * one;
+  unsigned f_high;
+  asm("repeat #17\n div.ud %2, %3" : "=a"(q), "=b"(m) : "r"(n), "e"(7));
+  if (q != 14286 || m != 1) return 1;
+  if (high(wide) != 0x1234 || high(wide + wide) != 0x2468) return 2;
+  if (product(50000u, 50001u) != 50000UL * 50001UL) return 3;
+  if (more(0x1FFFFUL * one) != 0x20000UL) return 4;
+  if (swapped(wide) != 0x56781234UL) return 5;
+  asm("add %1, %2, %0\n addc %d1, %d2, %d0" : "=&r"(sum) : "r"(n), "r"(wide));
+  if (sum != 100003UL + 0x12345678UL) return 6;
+  asm("mov %d1, %0" : "=r"(f_high) : "r"(f));
+  return f_high != 0x3FC0;
+})"},
+    {"numbers in assembler, with # and without", R"(
+long bench_run(void) {
+  int a, b;
+  asm("mov #%1, %0" : "=r"(a) : "i"(500));
+  asm("mov %1, %0" : "=r"(b) : "i"(-7));
+  return a != 500 || b != -7;
+})"},
+    {"variables that ask for a wider alignment than the stack has", R"(
+__attribute__((noinline)) static void set(char *p) { int i; for (i = 0; i < 8; i++) p[i] = i; }
+__attribute__((noinline)) static int of_long(void) { long v[2] __attribute__((aligned(4))) = {0}; set((char *)v); return (int)(v[1] >> 16); }
+__attribute__((noinline)) static int of_chars(void) {
+  char a[24] __attribute__((aligned(8))) = {0};
+  int i, sum = 0;
+  set(a + 4);
+  for (i = 4; i < 12; i++) sum += a[i];
+  return sum;
+}
+__attribute__((noinline)) static int deeper(volatile int odd) { int sum = of_long() == 0x0706 ? of_chars() : 0; return odd ? sum : 0; }
+long bench_run(void) { return of_long() != 0x0706 || of_chars() != 28 || deeper(1) != 28; })"},
     {"what the program defines takes the place of the libc's", R"(
 #include <stdlib.h>
 static int called;
@@ -270,7 +313,15 @@ TEST(ChipLanguage, mistakes_are_named_and_stop_no_compiler) {
        "main.c:2:37: error: function definition is not allowed here"},
       {"void g(char*);\nlong bench_run(void) { char a[20000]; g(a); return a[0]; }\nvoid g(char* a) { a[1] = "
        "0; }",
-       "main.c:3: error: bench_run() needs 20002 bytes of stack, which the chip does not have"}};
+       "main.c:3: error: bench_run() needs 20002 bytes of stack, which the chip does not have"},
+      {"volatile long long x;\nlong bench_run(void) { int h;\n  asm(\"mov %1, %0\" : \"=r\"(h) : \"r\"(x)); "
+       "return h; }",
+       "main.c:4: error: bench_run() hands asm an operand of 64 bits, expected at most 32"},
+      {"register int kept asm(\"w8\");\nlong bench_run(void) { return kept; }",
+       "main.c:3:31: error: got a global variable in a working register, expected one in memory"},
+      {"int x;\nlong bench_run(void) { return __sync_bool_compare_and_swap(&x, 1, 2); }",
+       "main.c:3:31: error: got an atomic operation that reads and writes, expected a plain one between "
+       "__builtin_disi(0x3FFF) and __builtin_disi(0)"}};
   for (const auto& [source, message] : cases) {
     const ChipProgram program("mistake", source, "-O0");
     EXPECT_FALSE(program.is_whole()) << source;

@@ -69,6 +69,40 @@ long bench_run(void) {
   }
 }
 
+// LLVM takes what C leaves undefined for something that never happens; XC16 compiles it as written
+TEST(TrapProgram, what_is_undefined_stops_the_program_there) {
+  const struct {
+    const char* source;
+    bool is_illegal;  // an illegal opcode; else an address error
+  } cases[] = {
+      {"long bench_run(void) { int *p; *p = 5; told = 1; return 0; }", true},
+      {"__attribute__((noinline)) static void store(void) { int *p; *p = 5; }\n"
+       "long bench_run(void) { store(); told = 1; return 0; }",
+       true},
+      {"long bench_run(void) { void (*f)(void); f(); told = 1; return 0; }", true},
+      {"long bench_run(void) { char *p = \"abc\"; p[1] = 'x'; told = p[1]; return 0; }", false},
+      {"static const int five = 5;\nlong bench_run(void) { *(int *)&five = 6; told = five; return 0; }",
+       false},
+      {"static void put(char *p, char c) { *p = c; }\n"
+       "long bench_run(void) { put(\"abc\", 'x'); told = 1; return 0; }",
+       false}};
+  for (const auto& c : cases)
+    for (const char* level : {"-O1", "-O2", "-Os"}) {
+      SCOPED_TRACE(std::string(level) + ": " + c.source);
+      ChipProgram p(
+          "undefined",
+          "#include <p30F6014A.h>\nvolatile int told, wrong;\n"
+          "void __attribute__((interrupt, no_auto_psv)) _AddressError(void) { wrong = 1; for (;;) ; }\n" +
+              std::string(c.source) + "\n",
+          level);
+      ASSERT_TRUE(p.is_whole()) << p.error();
+      const auto reset = p.run_to_reset(20'000);
+      EXPECT_EQ(reset, c.is_illegal ? std::optional(dspic::ResetKind::IllegalOpcode) : std::nullopt);
+      EXPECT_EQ(p.peek(p.address_of("told"), 2), 0u);
+      EXPECT_EQ(p.peek(p.address_of("wrong"), 2), c.is_illegal ? 0u : 1u);
+    }
+}
+
 /// Of `bytes` of locals: once, or without end.
 std::string recursion(unsigned bytes, bool without_end) {
   return "#include <p30F6014A.h>\n"
