@@ -120,6 +120,7 @@ class Reader {
         return types_[offset] = type_of(entry, depth + 1);
       case DW_TAG_base_type: {
         const unsigned encoding = number(entry, DW_AT_encoding).value_or(0);
+        type.is_truth = encoding == DW_ATE_boolean;
         type.kind = encoding == DW_ATE_float                                      ? DebugInfo::Kind::Float
                     : encoding == DW_ATE_signed || encoding == DW_ATE_signed_char ? DebugInfo::Kind::Signed
                                                                                   : DebugInfo::Kind::Unsigned;

@@ -25,6 +25,7 @@ struct DebugInfo {
   };
   struct Type {
     Kind kind = Kind::Unknown;
+    bool is_truth = false;  ///< _Bool: Unsigned, and 0 or 1
     unsigned bytes = 0;
     int element = 0;     ///< of an array, or what a pointer points to
     unsigned count = 0;  ///< its elements

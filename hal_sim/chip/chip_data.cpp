@@ -46,7 +46,7 @@ const host::Variable* ChipData::find_variable(const std::string& expression, std
   const std::string scope = colon == std::string::npos ? "" : expression.substr(0, colon);
   const std::string plain_name = colon == std::string::npos ? expression : expression.substr(colon + 1);
   const auto is_in_scope = [&](const dspic::DebugInfo::Variable& v) {
-    return scope.empty() || p_.places.is_of(scope, v);
+    return scope.empty() || ProgramPlaces::is_of(p_.file, scope, v);
   };
   dspic::DebugInfo::Found found;
   if (!p_.file.debug.value().find(plain_name, 0, found, error, is_in_scope)) {

@@ -34,16 +34,17 @@ std::string handler_of(int vector) {
   return std::string("_") + dspic::vector_name(vector) + (vector < dspic::kFirstIrqVector ? "" : "Interrupt");
 }
 
-bool ProgramPlaces::is_of(const std::string& scope, const dspic::DebugInfo::Variable& v) const {
+bool ProgramPlaces::is_of(const dspic::FirmwareFile& file, const std::string& scope,
+                          const dspic::DebugInfo::Variable& v) {
   const std::size_t length = scope.size();
   if (v.file == scope ||
       (v.file.size() > length && v.file.compare(v.file.size() - length - 1, length + 1, "/" + scope) == 0))
     return true;
-  if (const auto* function = v.end > v.begin ? file_.code.function_at(v.begin) : nullptr)
+  if (const auto* function = v.end > v.begin ? file.code.function_at(v.begin) : nullptr)
     return function->name == scope;
   // of a function that is inlined wherever it is called, the symbol alone knows
-  const auto object = file_.objects.find(scope + "." + v.name);
-  return object != file_.objects.end() && !v.places.empty() &&
+  const auto object = file.objects.find(scope + "." + v.name);
+  return object != file.objects.end() && !v.places.empty() &&
          object->second == static_cast<unsigned>(v.places[0].value);
 }
 

@@ -31,8 +31,9 @@ class ProgramPlaces final {
   unsigned caller() const;
   bool is_own(unsigned address) const { return is_own(file_, address); }
   static bool is_own(const dspic::FirmwareFile& file, unsigned address);
-  /// Is it a static of the file or function of that name?
-  bool is_of(const std::string& scope, const dspic::DebugInfo::Variable& variable) const;
+  /// Is it of the file, or a static of the function, of that name?
+  static bool is_of(const dspic::FirmwareFile& file, const std::string& scope,
+                    const dspic::DebugInfo::Variable& variable);
   /// What many vectors of an image lead to: the default handler; 0: nothing.
   static unsigned shared_handler(const dspic::FirmwareFile& file, const dspic::ProgramMemory& program);
   /// Where a vector leads.

@@ -83,6 +83,7 @@ CType type_of(const dspic::DebugInfo& debug, int index) {
       break;
     case Held::Unsigned:
       type.kind = CType::Kind::Unsigned;
+      type.is_truth = known->is_truth;
       break;
     case Held::Float:
       type.kind = CType::Kind::Float;
@@ -112,6 +113,7 @@ CValue converted(const CValue& value, const CType& to) {
                               : static_cast<double>(value.raw);
     return real_number(to, number);
   }
+  if (to.is_truth) return integer(to, value.is_true() ? 1 : 0);
   return integer(to, static_cast<std::uint64_t>(value.whole()));
 }
 

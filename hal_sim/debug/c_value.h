@@ -13,9 +13,10 @@ namespace debug {
 struct CType {
   enum class Kind : std::uint8_t { Signed, Unsigned, Float, Image, Unknown };
   Kind kind = Kind::Signed;
-  unsigned bits = 16;  ///< of a number
-  int index = 0;       ///< Image: an array or struct among the image's types
-  int stars = 0;       ///< "char **": 2
+  unsigned bits = 16;     ///< of a number
+  int index = 0;          ///< Image: an array or struct among the image's types
+  int stars = 0;          ///< "char **": 2
+  bool is_truth = false;  ///< _Bool: whatever is not 0 becomes 1
 
   bool is_integer() const { return stars == 0 && (kind == Kind::Signed || kind == Kind::Unsigned); }
   bool is_float() const { return stars == 0 && kind == Kind::Float; }

@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 
 #include "sim_core/base/did_you_mean.h"
 
@@ -189,13 +190,14 @@ class Expression {
     if (std::isdigit(static_cast<unsigned char>(*at_)) ||
         (*at_ == '.' && std::isdigit(static_cast<unsigned char>(at_[1]))))
       return number();
+    CValue value;
+    Part part;
+    if (takes_scoped(part)) return of_part(part);
     const std::string name = word_here();
     if (name.empty()) return fail(std::string("unexpected '") + at_ + "'");
     at_ += name.size();
-    CValue value;
-    Part part;
     // A name: a variable, a constant of an enumeration, a register or a field of one.
-    if (names_.find_variable(name, part)) return of_part(part);
+    if (names_.find_variable("", name, part)) return of_part(part);
     if (const auto constant = info().enumerators.find(name); constant != info().enumerators.end())
       return constant_of(static_cast<std::uint64_t>(constant->second), constant->second < 0);
     // a field of a register goes by its whole name
@@ -209,11 +211,31 @@ class Expression {
       at_ = dot;
     }
     if (names_.find_other(name, value)) return value;
-    // Nothing has this name: the nearest that something has is told.
+    // Nothing has this name here: who has it, or the nearest that something has, is told.
+    if (const std::string function = names_.function_of(name); !function.empty())
+      return fail("unknown symbol '" + name +
+                  "' here, expected one that is known where the program stands; " + function + "() has one");
     std::vector<std::string> known;
     for (const auto& variable : names_.debug_info().variables) known.push_back(variable.name);
     return fail("unknown symbol '" + name + "', expected a variable of the image that is known here" +
                 sim::did_you_mean_tail(name, known));
+  }
+
+  /// "main.c:count", "tick:count": of a file or a static of a function. Without spaces, unlike ? and : mostly.
+  bool takes_scoped(Part& part) {
+    const char* colon = at_;
+    while (std::isalnum(static_cast<unsigned char>(*colon)) || (*colon && std::strchr("_$./-", *colon)))
+      ++colon;
+    if (*colon != ':' || colon == at_) return false;
+    const std::string scope(at_, colon);
+    const char* const before = std::exchange(at_, colon + 1);
+    const std::string name = *at_ == ' ' ? "" : word_here();
+    if (!name.empty() && names_.find_variable(scope, name, part)) {
+      at_ += name.size();
+      return true;
+    }
+    at_ = before;
+    return false;
   }
 
   // --- constants
@@ -310,7 +332,8 @@ class Expression {
 
   bool reads_type(CType& type) {
     int longs = 0, shorts = 0, chars = 0, ints = 0, floats = 0, doubles = 0;
-    bool is_unsigned = false, is_signed = false, is_named = false, is_void = false, is_any = false;
+    bool is_unsigned = false, is_signed = false, is_truth = false, is_named = false, is_void = false,
+         is_any = false;
     // Words in any order, as in C, up to the first that belongs to no type.
     for (std::string word; !(word = word_here()).empty();) {
       Part variable;
@@ -334,10 +357,10 @@ class Expression {
       } else if (word == "void") {
         is_void = true;
       } else if (word == "_Bool") {
-        chars = 1, is_unsigned = true;
+        chars = 1, is_unsigned = is_truth = true;
       } else if (!is_any && !is_named) {
         const bool is_tag = word == "struct" || word == "union" || word == "enum";
-        if (!is_tag && names_.find_variable(word, variable)) return false;
+        if (!is_tag && names_.find_variable("", word, variable)) return false;
         if (is_tag) {
           at_ += word.size();
           word = word_here();
@@ -364,6 +387,7 @@ class Expression {
                                  : CType{whole, longs > 1 ? 64u
                                                 : longs   ? 32u
                                                           : 16u};
+      type.is_truth = is_truth;
     }
     // A star for each level of pointers.
     while (takes("*")) {

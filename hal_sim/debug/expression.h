@@ -18,8 +18,10 @@ class Names {
  public:
   virtual ~Names() = default;
   virtual const dspic::DebugInfo& debug_info() const = 0;
-  /// A variable that is known where the program stands, or would.
-  virtual bool find_variable(const std::string& name, Part& part) const = 0;
+  /// A variable that is known where the program stands, or would; `scope`: of that file or function, empty: any.
+  virtual bool find_variable(const std::string& scope, const std::string& name, Part& part) const = 0;
+  /// The function that has a local variable of that name; empty: none has.
+  virtual std::string function_of(const std::string& local) const = 0;
   /// A register, a symbol without a type, the debugger's own numbers; functions as addresses.
   virtual bool find_other(const std::string& name, CValue& value) const = 0;
   virtual std::optional<Address> address_of(const Part& part) const = 0;

@@ -542,7 +542,11 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
   std::int64_t value = 0;
   if (const auto data = values().find_data(what)) {
     b.data = *data;
-    b.data.bytes = std::min(data->bytes, 8u);
+    if (data->bytes > 8) {
+      error = "got '" + what + "' of " + std::to_string(data->bytes) +
+              " bytes, expected at most 8; watch a part of it";
+      return nullptr;
+    }
   } else if (!what.empty() && what[0] == '*') {  // a word at an address
     if (!values().evaluate(what.substr(1), value, error)) return nullptr;
     b.data = {static_cast<Address>(value) & kAddressMask, 2};

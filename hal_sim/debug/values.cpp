@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "dspic30/asm/expression.h"
+#include "hal_sim/chip/program_places.h"
 #include "hal_sim/debug/machine.h"
 
 namespace debug {
@@ -53,10 +54,21 @@ std::string number_text(const CValue& value) {
 
 }  // namespace
 
-bool Values::find_variable(const std::string& name, Part& part) const {
+bool Values::find_variable(const std::string& scope, const std::string& name, Part& part) const {
   std::string none;
   part = {{}, {}, pc_};
-  return debug_info().find(name, pc_, part.found, none);
+  const auto is_of_scope = [&](const dspic::DebugInfo::Variable& v) {
+    return scope.empty() || chip::ProgramPlaces::is_of(runner_.image()->file(), scope, v);
+  };
+  return debug_info().find(name, pc_, part.found, none, is_of_scope);
+}
+
+std::string Values::function_of(const std::string& local) const {
+  for (const auto& v : debug_info().variables)
+    if (const auto* function =
+            v.name == local && v.end > 0 ? runner_.image()->file().code.function_at(v.begin) : nullptr)
+      return function->name;
+  return "";
 }
 
 bool Values::find_other(const std::string& name, CValue& value) const {

@@ -45,7 +45,8 @@ class Values final : public Names {
 
   // --- Names
   const dspic::DebugInfo& debug_info() const override { return runner_.image()->file().debug.value(); }
-  bool find_variable(const std::string& name, Part& part) const override;
+  bool find_variable(const std::string& scope, const std::string& name, Part& part) const override;
+  std::string function_of(const std::string& local) const override;
   bool find_other(const std::string& name, CValue& value) const override;
   std::optional<Address> address_of(const Part& part) const override;
   std::optional<std::uint64_t> raw_value(const Part& part) const override;

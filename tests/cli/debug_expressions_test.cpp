@@ -171,6 +171,34 @@ TEST_P(DebugExpressions, set_converts_as_an_assignment_does) {
        "got 'k + 1', expected a variable of up to 8 bytes"});
 }
 
+// two files and two functions have variables of one name; _Bool holds 0 or 1
+TEST_P(DebugExpressions, names_go_by_their_file_or_function) {
+  write("mine/other.c", "static volatile int count = 7;\nint other(void) { return count; }\n");
+  build(R"(#include <stdbool.h>
+static volatile int count = 3;
+volatile int zero;
+volatile bool is_set;
+struct { int a[8]; } big;
+int other(void);
+__attribute__((noinline)) int tick(void) { static volatile int count = 11; return ++count; }
+__attribute__((noinline)) int away(int local) { volatile int kept = local; return kept; }
+int main(void) { while (1) zero = 0 * (count + other() + tick() + is_set + big.a[7] + away(5)); }
+)");
+  expect_in_order(
+      debug("break main\nc\nprint main.c:count\nprint other.c:count\nprint tick:count\nprint tick:count * 2 "
+            "+ main.c:count\n"
+            "print zero?other.c:count:main.c:count\nprint nosuch.c:count\nset other.c:count = 8\nprint "
+            "other.c:count\n"
+            "set is_set = 5\nset is_set = 0.25\nset is_set = 0\nprint (_Bool)6 + 1\nprint kept\nwatch "
+            "big\nwatch big.a[7]\n"),
+      {"main.c:count = 3 (0x3)", "other.c:count = 7 (0x7)", "tick:count = 11 (0xb)",
+       "tick:count * 2 + main.c:count = 25 (0x19)", "zero?other.c:count:main.c:count = 3 (0x3)", "unknown symbol 'nosuch'",
+       "other.c:count = 8 (0x8)", "other.c:count = 8 (0x8)", "is_set = 1 (0x1)", "is_set = 1 (0x1)",
+       "is_set = 0 (0x0)", "(_Bool)6 + 1 = 2 (0x2)",
+       "unknown symbol 'kept' here, expected one that is known where the program stands; away() has one",
+       "got 'big' of 16 bytes, expected at most 8; watch a part of it", "watchpoint 2 on big.a[7]"});
+}
+
 // each command, and all that it says
 TEST_P(DebugExpressions, mistakes_are_named) {
   build(kVariables + std::string("int main(void) { while (1) LATA = k + nodes[0].value; }\n"));
