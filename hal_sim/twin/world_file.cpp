@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/twin/world_file.h"
 
+#include <filesystem>
+
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
 
@@ -15,7 +17,15 @@ std::vector<sim::RobotModel> robot_models() {
 }
 
 sim::LoadedWorld load_world(const std::string& file) {
-  return sim::load_world(file, robot_models(), board::part_kinds());
+  sim::LoadedWorld loaded = sim::load_world(file, robot_models(), board::part_kinds());
+  std::error_code none;
+  const std::filesystem::path path(file);
+  if (!loaded.world && path.extension() == ".wbt" && std::filesystem::is_regular_file(path, none))
+    loaded.problems = {{0, 0,
+                        "world: got one of Webots, expected one of ours; `twinpuck import " + file +
+                            "` makes " +
+                            std::filesystem::path(path).replace_extension(".toml").filename().string()}};
+  return loaded;
 }
 
 sim::LoadedWorld parse_world(std::string_view text, const std::string& file, sim::KnownWorld* known) {

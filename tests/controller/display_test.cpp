@@ -181,7 +181,8 @@ TEST(ControllerDisplay, a_camera_writes_its_picture) {
         FILE* png = fopen("seen.png", "rb");
         FILE* jpeg = fopen("seen.jpg", "rb");
         printf(" %02x %02x", png ? fgetc(png) : 0, jpeg ? fgetc(jpeg) : 0);
+        printf(" %d%d", wb_camera_save_image(camera, "seen.gif", 100), access("seen.gif", F_OK));
       },
       &output);
-  EXPECT_EQ(output, "00 89 ff");
+  EXPECT_EQ(output, "00 89 ff -1-1");
 }

@@ -233,7 +233,7 @@ TEST(WorldFunctions, a_node_tells_its_kind_and_how_many_fields_it_has) {
   sim.welcome(supervised());
   EXPECT_TRUE(commands(sim, {WB_SF_FLOAT, {1}, ""}).empty());
   EXPECT_EQ(sim.wait(), 0);
-  EXPECT_EQ(sim.output(), "Ball Solid 0 1 1 1 1 -1 1[]01-1 []");
+  EXPECT_EQ(sim.output(), "Ball Solid 1 1 1 1 1 -1 1[]01-1 []");
   EXPECT_TRUE(wording::reads(
       sim.errors(),
       "Warning: wb_supervisor_node_export_string(): nodes are not written as text\n"

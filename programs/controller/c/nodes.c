@@ -144,7 +144,11 @@ const char* wb_supervisor_node_get_base_type_name(WbNodeRef node) {
   node = node_known(node, "wb_supervisor_node_get_base_type_name");
   return node ? node->base : "";
 }
-bool wb_supervisor_node_is_proto(WbNodeRef node) { return (void)node_known(node, "wb_supervisor_node_is_proto"), false; }
+/* what is made of a PROTO has a type of its own */
+bool wb_supervisor_node_is_proto(WbNodeRef node) {
+  node = node_known(node, "wb_supervisor_node_is_proto");
+  return node && strcmp(node->type, node->base) != 0;
+}
 
 /* --- what is followed */
 

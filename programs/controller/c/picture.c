@@ -15,10 +15,11 @@
 
 #define MOST_SIDE 4096 /* pixels */
 
-static bool is_jpeg(const char* file) {
+static bool ends_in(const char* file, const char* ending) {
   const char* dot = strrchr(file, '.');
-  return dot && (strcasecmp(dot, ".jpg") == 0 || strcasecmp(dot, ".jpeg") == 0);
+  return dot && strcasecmp(dot, ending) == 0;
 }
+static bool is_jpeg(const char* file) { return ends_in(file, ".jpg") || ends_in(file, ".jpeg"); }
 
 /* the library would end the program */
 struct jpeg_trouble {
@@ -76,8 +77,13 @@ static bool write_png(const struct image* image, FILE* file, bool with_alpha) {
 }
 
 bool image_write(const struct image* image, const char* file, int quality, bool with_alpha, const char* function) {
-  FILE* to = file && *file ? fopen(file, "wb") : 0;
+  FILE* to;
   bool is_written;
+  if (file && *file && !is_jpeg(file) && !ends_in(file, ".png")) {
+    WARN("%s(): got '%s', expected a name that ends in .png, .jpg or .jpeg", function, file);
+    return false;
+  }
+  to = file && *file ? fopen(file, "wb") : 0;
   if (!to) {
     WARN("%s(): cannot write '%s': %s", function, file ? file : "", file && *file ? strerror(errno) : "got no name");
     return false;
