@@ -13,20 +13,16 @@ import collections.abc
 import itertools
 import os
 import pathlib
-import re
-import shlex
-import shutil
 import typing
 
 import pytest
 
-from . import _declarative, _matrix
+from . import _declarative, _failures, _matrix
 from ._errors import InvalidRun, TwinpuckError
 from ._robot import Robot
 from ._world import World
 
 _WORLDS = pytest.StashKey[list[World]]()
-_LAST_LINES = 20
 
 
 # --- options and markers
@@ -65,8 +61,18 @@ def pytest_configure(config: pytest.Config) -> None:
             axis.values(option(config, axis.option))
         except ValueError as wrong:
             raise pytest.UsageError(f"command line: {wrong}") from None
-    if not hasattr(config, "workerinput"):  # one process begins, not each of several
-        shutil.rmtree(failures_folder(config), ignore_errors=True)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop(session: pytest.Session) -> None:
+    """Tests are about to run: what failures of the last ones left goes."""
+    is_broken = session.testsfailed and not session.config.option.continue_on_collection_errors
+    if is_broken or session.config.option.collectonly or hasattr(session.config, "workerinput"):
+        return  # one process begins, not each of several
+    try:
+        _failures.clear(failures_folder(session.config))
+    except OSError as wrong:
+        raise pytest.UsageError(f"{wrong.filename}: --failures: got {wrong.strerror!r}, expected a file that can be removed") from None
 
 
 def failures_folder(config: pytest.Config) -> pathlib.Path:
@@ -253,7 +259,7 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
     for number, world in enumerate(item.stash.get(_WORLDS, [])):
         properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
         try:
-            shown, files = show(world, folder_of(item, number))
+            shown, files = _failures.show(world, failures_folder(item.config) / _failures.name_of(item.nodeid, number))
         except (TwinpuckError, OSError, RuntimeError) as wrong:  # the failure itself must be told
             shown, files = f"nothing more can be shown: {wrong}", {}
         report.sections.append((f"world {pathlib.Path(world.file).name}", shown))
@@ -263,50 +269,3 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
             [shown] + [f"[[ATTACHMENT|{file}]]" for file in files.values() if isinstance(file, pathlib.Path)]) + "\n")
         item.user_properties += [(f"twinpuck_{key}", str(value)) for key, value in properties.items()]
     report.user_properties = list(item.user_properties)
-
-
-def folder_of(item: pytest.Item, number: int) -> pathlib.Path:
-    """Where the failure of a test leaves its files; `number`: of its world."""
-    name = re.sub(r"[^\w.=\-\[\]]+", "_", item.nodeid)
-    return failures_folder(item.config) / (name if number == 0 else f"{name}-{number + 1}")
-
-
-def show(world: World, folder: pathlib.Path) -> tuple[str, dict[str, typing.Any]]:
-    """What is known of a run, as text; and the files that it leaves in `folder`, with the command that shows it again."""
-    folder.mkdir(parents=True, exist_ok=True)
-    picture, recording = folder / "picture.png", folder / "run.inputs"
-    world.picture(picture)
-    world.save_replay(recording)
-    lines = [f"at {world.time_s:.3f} s, seed {world.seed}"]
-    for robot in world.robots[:8]:
-        lines += told(robot)
-    if len(world.robots) > 8:
-        lines.append(f"... and {len(world.robots) - 8} robots more")
-    again = f"twinpuck view --replay {shlex.quote(nearby(recording))}"
-    lines += [f"picture: {nearby(picture)}", f"again:   {again}"]
-    return "\n".join(lines), {"picture": picture, "recording": recording, "again": again}
-
-
-def nearby(path: pathlib.Path) -> str:
-    """As a person here would type it."""
-    try:
-        return str(path.relative_to(pathlib.Path.cwd()))
-    except ValueError:
-        return str(path)
-
-
-def told(robot: Robot) -> list[str]:
-    """A robot's state in a few lines: where it is, where its program stands and why, its last serial lines."""
-    lines = [f"{robot.name}: at ({robot.x_m:.3f}, {robot.y_m:.3f}) m, {robot.heading_deg:.0f} deg, selector "
-             f"{robot.selector}, battery {robot.battery_v:.2f} V"]
-    if robot.hal:
-        state = "stopped in" if robot.has_stopped else "stands in"
-        lines.append(f"  its program ({robot.program}, hal {robot.hal}) {state} {robot.place}")
-        lines += [f"  {line}" for line in robot.why().rstrip().splitlines()]
-    lines += [f"  trap: {line}" for trap in robot.traps for line in str(trap).splitlines()]
-    lines += [f"  {diagnosis}" for diagnosis in robot.diagnoses]
-    for port, serial in (("uart1", robot.uart1), ("uart2", robot.uart2)):
-        if serial.lines:
-            lines.append(f"  last lines of {port}:")
-            lines += [f"    {line.encode('unicode_escape').decode()}" for line in serial.lines[-_LAST_LINES:]]
-    return lines

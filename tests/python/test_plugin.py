@@ -238,3 +238,41 @@ def test_the_page_of_test_files_is_made_of_the_table():
     page = pathlib.Path(__file__).parents[2] / "docs" / "testing.md"
     assert page.read_text() == _declarative.with_page(page.read_text()), \
         "run PYTHONPATH=build/python python3 -m twinpuck._declarative docs/testing.md"
+
+
+def test_only_what_failures_left_is_removed_and_only_when_tests_run(mine, command):
+    folder = mine("def test_dark(world):\n    assert 0\n", mine__txt="mine", **{"kept/run.inputs": "mine", "test_a.py_notes/notes.txt": "mine"})
+    left = folder / "test_mine.py_test_dark"
+    assert command("test", "--failures", ".", cwd=folder).returncode == 1
+    assert {file.name for file in left.iterdir()} == {"picture.png", "run.inputs"}
+    assert command("test", "--failures", ".", "--collect-only", cwd=folder).returncode == 0
+    assert (left / "run.inputs").exists()
+    assert command("test", "--failures", ".", "-k", "nothing", cwd=folder).returncode == 5
+    assert not left.exists()
+    for file in ("mine.txt", "kept/run.inputs", "test_a.py_notes/notes.txt", "main.c", "world.toml", "test_mine.py"):
+        assert (folder / file).exists(), file
+    # what somebody put beside ours stays
+    assert command("test", "--failures", ".", cwd=folder).returncode == 1
+    (left / "notes.txt").write_text("mine")
+    command("test", "--failures", ".", "-k", "nothing", cwd=folder)
+    assert [file.name for file in left.iterdir()] == ["notes.txt"]
+
+
+def test_each_failure_has_a_folder_of_its_own(mine, command):
+    folder = mine("import pytest\n@pytest.mark.parametrize('n', ['a/b', 'a_b', 'a b', 'a:b', 'x' * 300, 'x' * 299])\n"
+                  "def test_n(world, n):\n    assert 0\n"
+                  "class TestA:\n    def test_b(self, world):\n        assert 0\nclass TestA_test:\n    def test_b(self, world):\n        assert 0\n")
+    done = command("test", cwd=folder)
+    assert done.returncode == 1 and "nothing more can be shown" not in done.stdout, done.stdout
+    left = [place for place in (folder / ".twinpuck" / "failures").iterdir() if (place / "run.inputs").exists()]
+    assert len(left) == 8 and "test_mine.py_test_n[a_b]" in {place.name for place in left}
+
+
+def test_names_of_failures_differ():
+    from twinpuck import _failures
+
+    names = ["a.py::t[x]", "a.py::t[x y]", "a.py::t[x_y]", "a.py::T::t", "a.py::T_t", "b/a.py::t", "b_a.py::t", "a.py::t[x.py_y]",
+             "a.py_t[x.py::y]", "a.test.toml::x", "a.test.toml::x~2", "a.py::t[ä]", "a.py::t[" + "ä" * 150 + "]", "a.py::t[" + "ä" * 149 + "]"]
+    folders = [_failures.name_of(name, number) for name in names for number in range(3)]
+    assert len(set(folders)) == len(folders) and max(len(name.encode()) for name in folders) < 256
+    assert folders[0] == "a.py_t[x]"
