@@ -471,19 +471,33 @@ def _check_seed(seed: int | None) -> None:
         raise WorldError(f"World: seed: got {seed!r}, expected a whole number from 0 to 2**64 - 1")
 
 
-def _read(source: Source) -> tuple[str, str]:
-    """A world's text, and the file that it is of, or would be."""
+class Text(typing.NamedTuple):
+    """A world's text, and the file that it is of, or would be: where relative names begin."""
+
+    text: str
+    file: str
+
+
+def text_in(source: typing.Any, folder: str | os.PathLike[str]) -> typing.Any:
+    """A dict or text so that relative names in it begin in `folder`; anything else as it is."""
     if isinstance(source, collections.abc.Mapping):
-        return toml_text(source), os.path.join(os.getcwd(), "world.toml")
+        source = toml_text(source)
+    elif not isinstance(source, str) or "\n" not in source:
+        return source
+    return Text(source, os.path.join(os.path.abspath(folder), "world.toml"))
+
+
+def _read(source: Source) -> Text:
+    source = text_in(source, os.getcwd())
+    if isinstance(source, Text):
+        return source
     name = os.fspath(source)
-    if isinstance(source, str) and "\n" in source:
-        return source, os.path.join(os.getcwd(), "world.toml")
     try:
         path = _core.find_world(name)
     except ValueError as wrong:
         raise WorldError(str(wrong)) from None
     try:
-        return _core.read_world(path), os.path.abspath(path)
+        return Text(_core.read_world(path), os.path.abspath(path))
     except ValueError as wrong:
         raise OSError(str(wrong)) from None
 

@@ -20,7 +20,7 @@ import pytest
 from . import _declarative, _failures, _matrix
 from ._errors import InvalidRun, TwinpuckError
 from ._robot import Robot
-from ._world import World
+from ._world import World, text_in
 
 _WORLDS = pytest.StashKey[list[World]]()
 
@@ -170,12 +170,25 @@ def robot(request: pytest.FixtureRequest, world: World) -> Robot:
 def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
                firmware: typing.Any = None, **options: typing.Any) -> World:
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
-    if isinstance(source, (str, pathlib.Path)) and "\n" not in str(source) and (folder / source).is_file():
-        source = folder / source
+    source = text_in(source, folder)
+    if isinstance(source, (str, os.PathLike)):
+        source = next((file for file in (folder / source, folder / f"{source}.toml") if file.is_file()), source)
+
+    def here(program: typing.Any) -> typing.Any:
+        return folder / program if isinstance(program, (str, os.PathLike)) and (folder / program).exists() else program
+
+    def supervisor(given: str) -> str:
+        name, equals, program = given.rpartition("=")
+        return f"{name}{equals}{here(program)}"
+
     if option(config, "firmware"):
         firmware = pathlib.Path(option(config, "firmware")).resolve()
-    elif isinstance(firmware, (str, pathlib.Path)) and (folder / firmware).exists():
-        firmware = folder / firmware
+    elif isinstance(firmware, collections.abc.Mapping):
+        firmware = {robot: here(program) for robot, program in firmware.items()}
+    else:
+        firmware = here(firmware)
+    if "supervisors" in options:
+        options["supervisors"] = [supervisor(given) for given in options["supervisors"]]
     for name in ("seed", "hal"):
         if name in chosen:
             options[name] = chosen[name]

@@ -47,6 +47,14 @@ def mine(project):
     return make
 
 
+SAYS = """from controller import Supervisor
+robot = Supervisor()
+print("WORD", flush=True)
+while robot.step(32) != -1:
+    pass
+"""
+
+
 def names(output):
     """Tests that were run, with how they ended."""
     return dict(re.findall(r"^(\S+::.+?) (PASSED|FAILED|ERROR)", output, re.M))
@@ -276,3 +284,43 @@ def test_names_of_failures_differ():
     folders = [_failures.name_of(name, number) for name in names for number in range(3)]
     assert len(set(folders)) == len(folders) and max(len(name.encode()) for name in folders) < 256
     assert folders[0] == "a.py_t[x]"
+
+
+def test_names_in_a_world_of_a_test_begin_in_the_tests_folder(mine, command, tmp_path):
+    """Also where the folder that the command is called in holds other programs."""
+    dark = MAIN.replace("e_set_led(0, 1);", "")
+    world = '{"robot": [{"name": "puck", "firmware": FW, "position": [0, 0]}]}'
+    folder = mine(main__c=dark, **{"sub/other/main.c": MAIN, "other/main.c": dark, "sub/main.c": MAIN, "sub/test_a.py": f'''
+import pytest
+from twinpuck._worldtext import toml_text
+def lit(world):
+    world.run(0.2)
+    assert world.robots[0].leds[0]
+@pytest.mark.parametrize("fw", [".", "other", "../sub"])
+def test_dict_and_text(make_world, fw):
+    lit(make_world({world.replace("FW", "fw")}))
+    lit(make_world(toml_text({world.replace("FW", "fw")})))
+    lit(make_world("empty", firmware=fw))
+    lit(make_world("empty", firmware={{"*": fw}}))
+@pytest.mark.world("mine")
+def test_name(world):
+    assert world.robots.names == ["mine"]
+@pytest.mark.world({world.replace("FW", '"."')})
+def test_marker(world):
+    lit(world)
+def test_supervisor(make_world):
+    world = make_world({{**{world.replace("FW", '"."')}, "supervisor": [{{"name": "s", "program": "says.py"}}]}})
+    world.run(0.2)
+    assert world.supervisor_lines == ["s: right"]
+    world = make_world({world.replace("FW", '"."')}, supervisors=["s=says.py"])
+    world.run(0.2)
+    assert world.supervisor_lines == ["s: right"]
+''', "sub/says.py": SAYS.replace("WORD", "right"), "says.py": SAYS.replace("WORD", "wrong"),
+        "sub/mine.toml": WORLD.replace("puck\"", "mine\""), "mine.toml": WORLD,
+        "sub/b.test.toml": 'world = "empty"\nfirmware = "."\nat_most_s = 0.2\n[[finally]]\nthat = "led0"\n'})
+    done = command("test", "-v", "sub", cwd=folder)
+    assert done.returncode == 0, done.stdout
+    # a script's begin where it is called
+    script = f'import twinpuck\nw = twinpuck.World({world.replace("FW", repr("."))})\nw.run(0.2)\nassert not w.robots[0].leds[0]\n'
+    (folder / "sub" / "script.py").write_text(script)
+    subprocess.run([sys.executable, "sub/script.py"], cwd=folder, check=True, timeout=600)
