@@ -68,8 +68,9 @@ class Handle {
    private:
     Handle& handle_;
   };
-  void close() {
-    if (!world_) return;
+  /// What was lost, a line each.
+  std::string close() {
+    if (!world_) return "";
     const Running running(*this);
     std::vector<std::string> problems;
     {
@@ -77,7 +78,7 @@ class Handle {
       world_->finish(problems);
     }
     world_.reset();
-    if (!problems.empty()) throw std::runtime_error(joined(problems));
+    return joined(problems);
   }
   bool is_open() const { return world_ != nullptr; }
 
@@ -504,6 +505,16 @@ PYBIND11_MODULE(_core, module) {
     const twin::FoundWorld found = twin::find_world(name, problems);
     if (!problems.empty()) throw std::invalid_argument(joined(problems));
     return found.file;
+  });
+  // what is wrong with a world's text, with the name of a program; empty: nothing
+  module.def("check_world", [](const std::string& text, const std::string& file) {
+    const sim::LoadedWorld loaded = twin::parse_world(text, file);
+    return loaded.world ? std::string() : loaded.report(file);
+  });
+  module.def("check_firmware", [](const std::string& name, const std::string& from_folder) {
+    std::vector<std::string> problems;
+    twin::find_firmware(name, from_folder, problems);
+    return joined(problems);
   });
   module.def("project_root", [] { return places::share_root().string(); });
   module.def("command_file", [] { return places::command_file().string(); });

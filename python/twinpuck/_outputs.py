@@ -63,16 +63,16 @@ def _identity(path: pathlib.Path) -> typing.Any:
 
 def _unwritable(path: str, option: str) -> str:
     try:
+        if not os.path.exists(path):  # it is not made: another process may write it meanwhile
+            folder = os.path.dirname(path) or "."
+            os.stat(os.path.join(folder, ""))  # says what is wrong with it
+            why = "" if os.access(folder, os.W_OK | os.X_OK) else "Permission denied"
         # one that the shell made is open already; opening another would wait for its reader
-        if not path.startswith("/dev/") and os.path.exists(path) and stat.S_ISFIFO(os.stat(path).st_mode):
+        elif not path.startswith("/dev/") and stat.S_ISFIFO(os.stat(path).st_mode):
             why = "a pipe"
         else:
-            existed = os.path.exists(path)
             with open(path, "ab"):
-                pass
-            if not existed:
-                os.unlink(path)
-            return ""
+                why = ""
     except OSError as wrong:
         why = wrong.strerror
-    return f"{path}: {option}: got '{why}', expected a file that can be written"
+    return f"{path}: {option}: got '{why}', expected a file that can be written" if why else ""

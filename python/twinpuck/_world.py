@@ -15,7 +15,7 @@ import types
 import typing
 
 from . import _core
-from ._errors import FirmwareFault, InvalidRun, WorldError
+from ._errors import FirmwareFault, InvalidRun, OutputLost, WorldError
 from ._faults import Fault
 from ._records import Recording
 from ._robot import Robot, Trap
@@ -186,7 +186,7 @@ class World:
             raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
         _check_seed(seed)
         __tracebackhide__ = True
-        self._text, self._file = _read(source)
+        self._text, self._file = read(source)
         self._options: dict[str, typing.Any] = {
             "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
             "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
@@ -292,15 +292,16 @@ class World:
         if seed is not None:
             _check_seed(seed)
             self._options["seed"] = seed
-        self._core.close()
+        self.close()
         self._open()
         for robot in self.robots:
             robot._searched.clear()
             robot._looked_at.clear()
 
     def close(self) -> None:
-        """Ends programs of the PC and writes coverage. What is asked or run later raises RuntimeError."""
-        self._core.close()
+        """Ends programs of the PC and writes coverage; raises OutputLost. What is asked or run later raises RuntimeError."""
+        if problems := self._core.close():
+            raise OutputLost(problems)
 
     def __enter__(self) -> World:
         return self
@@ -487,7 +488,8 @@ def text_in(source: typing.Any, folder: str | os.PathLike[str]) -> typing.Any:
     return Text(source, os.path.join(os.path.abspath(folder), "world.toml"))
 
 
-def _read(source: Source) -> Text:
+def read(source: Source) -> Text:
+    """What World opens."""
     source = text_in(source, os.getcwd())
     if isinstance(source, Text):
         return source

@@ -10,19 +10,22 @@
 from __future__ import annotations
 
 import collections.abc
+import difflib
 import itertools
 import os
 import pathlib
+import re
 import typing
 
 import pytest
 
-from . import _declarative, _failures, _matrix
-from ._errors import InvalidRun, TwinpuckError
+from . import _core, _declarative, _failures, _matrix, _outputs
+from ._errors import InvalidRun, OutputLost, TwinpuckError
 from ._robot import Robot
-from ._world import World, text_in
+from ._world import World, read, text_in
 
 _WORLDS = pytest.StashKey[list[World]]()
+_LOST = pytest.StashKey[list[str]]()  # outputs, a line each
 
 
 # --- options and markers
@@ -49,18 +52,43 @@ def option(config: pytest.Config, name: str) -> typing.Any:
     return config.getoption(f"twinpuck_{name}")
 
 
+_MARKERS = {
+    "world": "world(source, **options): the world of the fixture `world`, as twinpuck.World",
+    "robot": "robot(name): the robot of the fixture `robot`; else the world's first",
+    "points": "points(n): what passing is worth in `twinpuck grade`; else 1",
+    "seeds": "seeds(1..50): run with each of these seeds",
+    "hals": "hals(sim, dspic): run with programs linked with each of these HALs",
+    "selectors": "selectors(0..15): run with each of these positions of the selector",
+}
+
+
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "world(source, **options): the world of the fixture `world`, as twinpuck.World")
-    config.addinivalue_line("markers", "robot(name): the robot of the fixture `robot`; else the world's first")
-    config.addinivalue_line("markers", "points(n): what passing is worth in `twinpuck grade`; else 1")
-    config.addinivalue_line("markers", "seeds(1..50): run with each of these seeds")
-    config.addinivalue_line("markers", "hals(sim, dspic): run with programs linked with each of these HALs")
-    config.addinivalue_line("markers", "selectors(0..15): run with each of these positions of the selector")
+    for line in _MARKERS.values():
+        config.addinivalue_line("markers", line)
+    config.stash[_LOST] = []
+    if wrong := wrong_options(config):
+        raise pytest.UsageError("\n".join(wrong))
+
+
+def wrong_options(config: pytest.Config) -> list[str]:
+    """What is wrong with the command line's options."""
     for axis in _matrix.AXES:
         try:
             axis.values(option(config, axis.option))
         except ValueError as wrong:
-            raise pytest.UsageError(f"command line: {wrong}") from None
+            return [f"command line: {wrong}"]
+    firmware, coverage, failures = (option(config, name) for name in ("firmware", "coverage", "failures"))
+    if firmware and not pathlib.Path(firmware).exists():
+        return [f"{firmware}: --firmware: got nothing, expected a folder of C files, an image or a program of the PC"]
+    if hasattr(config, "workerinput"):  # one process asks, not each of several
+        return []
+    junit = getattr(config.option, "xmlpath", None)
+    problems = _outputs.conflicts([(coverage, "--coverage"), (junit, "--junitxml"), (failures, "--failures")])
+    if junit and os.path.dirname(junit):  # pytest makes it
+        problems += filter(None, [_outputs.wrong_folder(os.path.dirname(junit), "--junitxml")])
+    if failures and os.path.exists(failures):
+        problems += filter(None, [_outputs.wrong_folder(failures, "--failures")])
+    return problems or _outputs.unwritable([(coverage, "--coverage"), (junit, "--junitxml")])
 
 
 @pytest.hookimpl(tryfirst=True)
@@ -80,16 +108,35 @@ def failures_folder(config: pytest.Config) -> pathlib.Path:
     return pathlib.Path(option(config, "failures") or config.rootpath / ".twinpuck" / "failures")
 
 
+def wrong_marker(marker: pytest.Mark, known: set[str]) -> str:
+    """What is wrong with a marker at a test; empty: nothing. known: those that somebody has registered."""
+    if marker.name not in known:
+        near = difflib.get_close_matches(marker.name, _MARKERS, 1, 0.75)
+        return f"unknown marker '{marker.name}'; did you mean '{near[0]}'?" if near else ""
+    arguments = [*marker.args, *marker.kwargs.values()]
+    if marker.name == "world" and not marker.args and "source" not in marker.kwargs:
+        return "world: got no source, expected a file, a name, a text or a dict"
+    if marker.name == "robot" and not (len(arguments) == 1 and isinstance(arguments[0], (str, int))):
+        return f"robot: got {arguments}, expected a name or a number"
+    if marker.name == "points" and not (len(marker.args) == 1 == len(arguments) and _declarative.is_points(marker.args[0])):
+        return f"points: got {', '.join(map(repr, arguments)) or 'none'}, expected a number from 0 to 1e6"
+    return ""
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    known = {re.split(r"[(:]", line)[0].strip() for line in metafunc.config.getini("markers")}
+    for each in metafunc.definition.iter_markers():
+        if wrong := wrong_marker(each, known):
+            raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {wrong}")
     if not {"world", "make_world"} & set(metafunc.fixturenames):
         return
     for axis in _matrix.AXES:
         marker = metafunc.definition.get_closest_marker(axis.marker)
         try:
             values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
-        except ValueError as wrong:
-            said = str(wrong).replace(f"--{axis.option}", axis.marker, 1)
-            raise pytest.UsageError(f"{metafunc.definition.nodeid}: {said}") from None
+        except ValueError as no_value:
+            said = str(no_value).replace(f"--{axis.option}", axis.marker, 1)
+            raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {said}") from None
         if values:
             metafunc.fixturenames.append(axis.fixture)
             metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)
@@ -143,8 +190,16 @@ def make_world(request: pytest.FixtureRequest, _chosen: dict[str, typing.Any]) -
         return world
 
     yield make
+    close(request.config, worlds)
+
+
+def close(config: pytest.Config, worlds: list[World]) -> None:
+    """Closes a test's worlds. That coverage was lost is no test's failure: it is told at the end."""
     for world in worlds:
-        world.close()
+        try:
+            world.close()
+        except OutputLost as wrong:
+            config.stash[_LOST] += str(wrong).splitlines()
 
 
 @pytest.fixture
@@ -167,12 +222,18 @@ def robot(request: pytest.FixtureRequest, world: World) -> Robot:
     return world.robots[marker.args[0] if marker else 0]
 
 
+def place_of(source: typing.Any, folder: pathlib.Path) -> typing.Any:
+    """A world's source as it is meant in a test's folder."""
+    source = text_in(source, folder)
+    if isinstance(source, (str, os.PathLike)):
+        return next((file for file in (folder / source, folder / f"{source}.toml") if file.is_file()), source)
+    return source
+
+
 def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
                firmware: typing.Any = None, **options: typing.Any) -> World:
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
-    source = text_in(source, folder)
-    if isinstance(source, (str, os.PathLike)):
-        source = next((file for file in (folder / source, folder / f"{source}.toml") if file.is_file()), source)
+    source = place_of(source, folder)
 
     def here(program: typing.Any) -> typing.Any:
         return folder / program if isinstance(program, (str, os.PathLike)) and (folder / program).exists() else program
@@ -211,11 +272,26 @@ def pytest_collect_file(file_path: pathlib.Path, parent: pytest.Collector) -> py
     return DeclarativeFile.from_parent(parent, path=file_path)
 
 
+def wrong_places(file: _declarative.TestFile, firmware: str | None) -> str:
+    """What is wrong with the world and the program that a file names, of which `firmware` takes the place."""
+    try:
+        world = read(place_of(file.table["world"], file.path.parent))
+    except (TwinpuckError, OSError) as wrong:
+        return f"{file.path}: test.world: {wrong}"
+    problems = _core.check_world(*world)
+    if not firmware and "firmware" in file.table:
+        wrong_name = _core.check_firmware(file.table["firmware"], str(file.path.parent))
+        problems += f"{file.path}: test.firmware: {wrong_name}" if wrong_name else ""
+    return problems
+
+
 class DeclarativeFile(pytest.File):
     """A *.test.toml file: a test for each seed, HAL and selector."""
 
     def collect(self) -> collections.abc.Iterator[pytest.Item]:
         file = _declarative.TestFile(self.path)
+        if wrong := wrong_places(file, option(self.config, "firmware")):
+            raise _declarative.TestFileError(wrong)
         axes = [[(axis.name, value) for value in axis.values(option(self.config, axis.option)) or file.values(axis)]
                 for axis in _matrix.AXES]
         for chosen in itertools.product(*(values for values in axes if values)):
@@ -242,8 +318,7 @@ class DeclarativeTest(pytest.Item):
         _declarative.Run(self.file, world).run()
 
     def teardown(self) -> None:
-        for world in self.stash.get(_WORLDS, []):
-            world.close()
+        close(self.config, self.stash.get(_WORLDS, []))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
         return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
@@ -269,6 +344,8 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
         return
     if call.excinfo is not None and isinstance(call.excinfo.value, InvalidRun):
         item.user_properties.append(("twinpuck_invalid", str(call.excinfo.value)))
+    if call.excinfo is not None and isinstance(call.excinfo.value, _declarative.TestFileError):
+        item.user_properties.append(("twinpuck_bad_input", str(call.excinfo.value)))
     for number, world in enumerate(item.stash.get(_WORLDS, [])):
         properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
         try:
@@ -282,3 +359,34 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
             [shown] + [f"[[ATTACHMENT|{file}]]" for file in files.values() if isinstance(file, pathlib.Path)]) + "\n")
         item.user_properties += [(f"twinpuck_{key}", str(value)) for key, value in properties.items()]
     report.user_properties = list(item.user_properties)
+
+
+# --- outputs that are lost
+
+@pytest.hookimpl(hookwrapper=True, trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> collections.abc.Iterator[None]:
+    outcome = yield
+    lost = session.config.stash[_LOST]
+    junit = getattr(session.config.option, "xmlpath", None)
+    try:
+        outcome.get_result()
+    except OSError as wrong:
+        if not junit:
+            raise
+        lost.append(_outputs.lost(f"{junit}: --junitxml", wrong))
+        outcome.force_result(None)
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["twinpuck_lost"] = lost
+    elif lost:
+        session.exitstatus = 7
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: typing.Any) -> None:
+    """Of the processes of -n."""
+    node.config.stash[_LOST] += getattr(node, "workeroutput", {}).get("twinpuck_lost", [])
+
+
+def pytest_terminal_summary(terminalreporter: typing.Any, config: pytest.Config) -> None:
+    for line in dict.fromkeys(config.stash[_LOST]):
+        terminalreporter.write_line(line, red=True)

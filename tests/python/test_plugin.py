@@ -146,7 +146,7 @@ def test_firmware_of_the_command_line_goes_before(mine, command, programs):
     folder = mine("def test_dark(world, robot):\n    world.run(0.1)\n    assert not robot.leds[0]\n")
     assert command("test", cwd=folder).returncode == 1
     assert command("test", "--firmware", programs("int main(void) { while (1) ; }"), cwd=folder).returncode == 0
-    assert command("test", "--firmware", "nowhere", cwd=folder).returncode == 1
+    assert command("test", "--firmware", "nowhere", cwd=folder).returncode == 2
 
 
 def test_coverage_and_sanitize(mine, command):
@@ -324,3 +324,70 @@ def test_supervisor(make_world):
     script = f'import twinpuck\nw = twinpuck.World({world.replace("FW", repr("."))})\nw.run(0.2)\nassert not w.robots[0].leds[0]\n'
     (folder / "sub" / "script.py").write_text(script)
     subprocess.run([sys.executable, "sub/script.py"], cwd=folder, check=True, timeout=600)
+
+
+#: words, exit code, what is said in one line of its own, behind "ERROR: " where nothing has run
+OUTPUTS = [
+    (["--junitxml", "/dev/full"], 7, "/dev/full: --junitxml: cannot be written: No space left on device"),
+    (["--junitxml", "/dev/full", "-n", "2"], 7, "/dev/full: --junitxml: cannot be written: No space left on device"),
+    (["--coverage", "/dev/full"], 7, "/dev/full: --coverage: cannot be written: No space left on device"),
+    (["--coverage", "/dev/full", "-n", "2"], 7, "/dev/full: --coverage: cannot be written: No space left on device"),
+    (["--junitxml", "main.c/x.xml"], 2, "ERROR: main.c: --junitxml: got 'File exists', expected a folder, or a place where one can be made"),
+    (["--coverage", "no/c.info"], 2, "ERROR: no/c.info: --coverage: got 'No such file or directory', expected a file that can be written"),
+    (["--coverage", "main.c/c.info"], 2, "ERROR: main.c/c.info: --coverage: got 'Not a directory', expected a file that can be written"),
+    (["--coverage", "pipe"], 2, "ERROR: pipe: --coverage: got 'a pipe', expected a file that can be written"),
+    (["--coverage", "x", "--junitxml", "./x"], 2, "…/x: --junitxml: got the file of --coverage, expected another; give them different names"),
+    (["--failures", "main.c"], 2, "ERROR: main.c: --failures: got 'File exists', expected a folder, or a place where one can be made"),
+    (["--firmware", "no"], 2, "ERROR: no: --firmware: got nothing, expected a folder of C files, an image or a program of the PC"),
+]
+
+
+@pytest.mark.parametrize("words, code, says", OUTPUTS, ids=range(len(OUTPUTS)))
+def test_outputs_that_cannot_be_written(mine, command, words, code, says):
+    import os
+
+    folder = mine("def test_a(world): world.run(0.1)\ndef test_b(world): world.run(0.1)\n")
+    os.mkfifo(folder / "pipe")
+    done = command("test", *words, cwd=folder, timeout=120)
+    said = done.stdout + done.stderr
+    assert done.returncode == code and "Traceback" not in said and "INTERNALERROR" not in said, said
+    assert said.count(says.removeprefix("…")) == 1 and ("2 passed" in said) == (code == 7), said
+
+
+FILES = [
+    ('world = "nope"\n', 2, "a.test.toml: test.world: nope: world: got a name that is neither"),
+    ('world = "bad.toml"\n', 2, "bad.toml:1:1: unknown key 'x'"),
+    ('world = "world.toml"\nfirmware = "nope"\n', 2, "a.test.toml: test.firmware: nope: firmware: got a name"),
+    ('world = "world.toml"\n[[always]]\nthat = "lde0"\n', 2, "a.test.toml:2: always: condition 'lde0': got 'lde0'"),
+    ('world = "world.toml"\n[[step]]\nset = "nosuch = 3"\n', 2, "a.test.toml:2: step.set: nosuch: got"),
+    ('world = "world.toml"\n[[step]]\nexpect = "("\n', 2, "a.test.toml:2: step.expect: got '('"),
+    ('world = "world.toml"\nat_most_s = 0.1\n[[always]]\nthat = "x_m > 9"\nfrom_s = 50\n', 7, "a.test.toml:3: always: never looked at"),
+    ('world = "world.toml"\nat_most_s = 0.1\n[[finally]]\nthat = "x_m > 9"\n', 1, "a.test.toml:3: finally: expected"),
+]
+
+
+@pytest.mark.parametrize("text, code, says", FILES, ids=range(len(FILES)))
+def test_what_is_wrong_with_a_test_file_is_no_failure(mine, command, text, code, says):
+    done = command("test", cwd=mine(a__test__toml=text, bad__toml="x = 1\n"))
+    assert done.returncode == code and says in done.stdout and "Traceback" not in done.stdout, done.stdout
+
+
+MARKERS = [
+    ("points(-1)", "points: got -1, expected a number from 0 to 1e6"), ("points(float('nan'))", "points: got nan, expected a number from"),
+    ("points('x')", "points: got 'x', expected a number"), ("points()", "points: got none, expected a number"),
+    ("seeds()", "seeds: got none, expected one or more"), ("seeds([])", "seeds: got none, expected one or more"),
+    ("seeds('x')", "seeds: got 'x', expected numbers from"), ("hals()", "hal: got none, expected one or more"),
+    ("world()", "world: got no source, expected a file, a name, a text or a dict"), ("robot()", "robot: got [], expected a name or a number"),
+    ("wrold('maze')", "unknown marker 'wrold'; did you mean 'world'?"), ("seed(1)", "unknown marker 'seed'; did you mean 'seeds'?")]
+
+
+@pytest.mark.parametrize("marker, says", MARKERS, ids=range(len(MARKERS)))
+def test_markers_that_mean_nothing_are_bad_input(mine, command, marker, says):
+    done = command("test", cwd=mine(f"import pytest\n@pytest.mark.{marker}\ndef test_a(world): pass\n"))
+    assert done.returncode == 2 and "test_mine.py::test_a: " + says.replace("hal:", "hals:") in done.stdout and "Traceback" not in done.stdout, done.stdout
+
+
+def test_markers_of_somebody_else_are_theirs(mine, command):
+    folder = mine("import pytest\n@pytest.mark.slow\n@pytest.mark.point\n@pytest.mark.points(2.5)\ndef test_a(world): pass\n",
+                  pytest__ini="[pytest]\nmarkers =\n  point: mine\n")
+    assert command("test", cwd=folder).returncode == 0
