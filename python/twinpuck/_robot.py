@@ -130,15 +130,26 @@ class CameraPicture:
     rgb: numpy.ndarray
 
 
+@dataclasses.dataclass
+class LineState:
+    """How far expect() has come on a line; what was looked for last, and whether it was there. The world keeps it."""
+
+    searched: int = 0
+    looked_at: tuple[typing.Any, int, int] | None = None
+    found: bool = False
+
+
 class SerialLine:
     """One of a robot's serial lines: UART 1, which is its Bluetooth module's, or UART 2. Times are the baud rate's."""
 
+    __slots__ = ("_robot", "_port")
+
     def __init__(self, robot: Robot, port: int) -> None:
-        self._robot, self._port, self._found = robot, port, False
+        self._robot, self._port = robot, port
 
     @property
-    def _searched(self) -> int:
-        return self._robot._searched.get(self._port, 0)
+    def _state(self) -> LineState:
+        return self._robot.world._lines.setdefault((self._robot.index, self._port), LineState())
 
     @property
     def data(self) -> bytes:
@@ -177,24 +188,24 @@ class SerialLine:
             raise ExpectTimeout(self.missing(compiled, at_most))
         found = self._match(compiled)
         assert found is not None
-        self._robot._searched[self._port] = found.end()
+        self._state.searched = found.end()
         return found
 
     def has(self, pattern: Pattern) -> bool:
         """Would expect() find the pattern at once? Looks at what came since it was asked last."""
         compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
-        state = (compiled, self._searched, self._robot._core.heard_bytes(self._robot.index, self._port))
-        if state != self._robot._looked_at.get(self._port):
-            self._robot._looked_at[self._port] = state
-            self._found = self._match(compiled) is not None
-        return self._found
+        state = self._state
+        looked_at = (compiled, state.searched, self._robot._core.heard_bytes(self._robot.index, self._port))
+        if looked_at != state.looked_at:
+            state.looked_at, state.found = looked_at, self._match(compiled) is not None
+        return state.found
 
     def _match(self, compiled: re.Pattern[typing.Any]) -> re.Match[typing.Any] | None:
-        return compiled.search(self.data if isinstance(compiled.pattern, bytes) else self.text, self._searched)
+        return compiled.search(self.data if isinstance(compiled.pattern, bytes) else self.text, self._state.searched)
 
     def missing(self, pattern: re.Pattern[typing.Any], at_most: float) -> str:
         """What expect() says when it has waited in vain."""
-        rest = self.text[self._searched:]
+        rest = self.text[self._state.searched:]
         came = f"got {rest[-400:]!r} behind the last match" if rest else "nothing came"
         return (f"robot '{self._robot.name}' uart{self._port}: expected {pattern.pattern!r} within {at_most:g} s, {came}; "
                 f"at {self._robot.world.time_s:.3f} s the program stands in {self._robot.place}")
@@ -206,11 +217,21 @@ class SerialLine:
 class Robot:
     """One robot of a world. It is asked, and touched, between ticks; nothing that is asked changes its course."""
 
+    # it keeps its world, which keeps no robot: a world ends when nobody uses it or a robot of it any more
+    __slots__ = ("world", "index", "name", "__weakref__")
+
     def __init__(self, world: World, index: int, name: str) -> None:
         self.world, self.index, self.name = world, index, name
-        self._searched: dict[int, int] = {}  # by line, as the next: behind the last match; what was looked at last
-        self._looked_at: dict[int, tuple[typing.Any, int, int]] = {}
-        self.uart1, self.uart2 = SerialLine(self, 1), SerialLine(self, 2)
+
+    @property
+    def uart1(self) -> SerialLine:
+        """Its line to the Bluetooth module."""
+        return SerialLine(self, 1)
+
+    @property
+    def uart2(self) -> SerialLine:
+        """Its RS232 line."""
+        return SerialLine(self, 2)
 
     def __repr__(self) -> str:
         return f"<Robot {self.name!r} at ({self.x_m:.3f}, {self.y_m:.3f}) m, {self.heading_deg:.0f} deg>"

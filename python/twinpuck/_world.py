@@ -13,12 +13,13 @@ import re
 import tempfile
 import types
 import typing
+import weakref
 
 from . import _core
 from ._errors import FirmwareFault, InvalidRun, OutputLost, WorldError
 from ._faults import Fault
 from ._records import Recording
-from ._robot import Robot, Trap
+from ._robot import LineState, Robot, Trap
 from ._worldtext import toml_text, toml_value
 
 if typing.TYPE_CHECKING:
@@ -35,14 +36,15 @@ _OPTIONS = {"fw": "firmware", "uart": "uart1"}  # of World, by the command's
 class Robots(collections.abc.Sequence):
     """The robots of a world, in its order: by name or number, to go through, to count."""
 
-    def __init__(self, robots: list[Robot]) -> None:
-        self._robots = robots
-        self._by_name = {robot.name: robot for robot in robots}
+    __slots__ = ("_world",)
+
+    def __init__(self, world: World) -> None:
+        self._world = world
 
     @property
     def names(self) -> list[str]:
         """Their names, in order."""
-        return [robot.name for robot in self._robots]
+        return list(self._world._names)
 
     @typing.overload
     def __getitem__(self, key: int | str) -> Robot: ...
@@ -52,17 +54,18 @@ class Robots(collections.abc.Sequence):
         """robots["left"], robots[0], robots[1:]. Raises KeyError or IndexError."""
         if isinstance(key, int) and not -len(self) <= key < len(self):
             raise IndexError(f"robot: got {key}, " + (f"expected {-len(self)} to {len(self) - 1}" if self else "the world has none"))
-        if not isinstance(key, str):
-            return self._robots[key]
-        if key in self._by_name:
-            return self._by_name[key]
-        raise KeyError(_no_such("robot", key, self._by_name))
+        if isinstance(key, str):
+            if key not in self._world._by_name:
+                raise KeyError(_no_such("robot", key, self._world._by_name))
+            return self._world._robot(self._world._by_name[key])
+        found = range(len(self))[key]
+        return self._world._robot(found) if isinstance(found, int) else [self._world._robot(index) for index in found]
 
     def __len__(self) -> int:
-        return len(self._robots)
+        return len(self._world._names)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._by_name or name in self._robots
+        return name in self._world._by_name if isinstance(name, str) else isinstance(name, Robot) and name.world is self._world
 
     def __repr__(self) -> str:
         return f"<{len(self)} robots: {', '.join(self.names[:10])}{' ...' if len(self) > 10 else ''}>"
@@ -88,6 +91,8 @@ class _Things(dict[str, _Thing]):
 class Body:
     """A movable thing of the world: a box, a cylinder, a ball."""
 
+    __slots__ = ("_world", "_index", "name")
+
     def __init__(self, world: World, index: int, name: str) -> None:
         self._world, self._index, self.name = world, index, name
 
@@ -109,6 +114,8 @@ class Body:
 class Lamp:
     """A lamp of the world."""
 
+    __slots__ = ("_world", "_index", "name")
+
     def __init__(self, world: World, index: int, name: str) -> None:
         self._world, self._index, self.name = world, index, name
 
@@ -121,6 +128,8 @@ class Lamp:
 class Condition:
     """A condition over named signals (`twinpuck list signals`): "abs(x_m) < 0.3 && led0", "left.x_m > right.x_m",
     "$state == 3" for a variable of the program. Called, it says whether it holds now; value is the number behind it."""
+
+    __slots__ = ("_world", "text", "_robot", "_bound_to", "_watch")
 
     def __init__(self, world: World, text: str, robot: Robot | None) -> None:
         self._world, self.text, self._robot = world, text, robot
@@ -167,8 +176,11 @@ class World:
     traps: "raise": run() and all that runs raise FirmwareFault when a program traps; "report": they do not
 
     Raises WorldError when anything is wrong with the file, a program or an option; OSError when a file cannot be read.
-    A world is closed by close(), by `with`, or when nothing refers to it any more.
+    A world is closed by close(), by `with`, or when nothing refers to it or a robot of it any more.
     """
+
+    __slots__ = ("_text", "_file", "_options", "_traps", "_callables", "_core", "_arrays", "_lines", "_robots", "_names",
+                 "_by_name", "__weakref__")
 
     def __init__(self, source: Source, firmware: Firmware = None, *, seed: int | None = None, hal: str = "",
                  optimise: str = "", sanitize: bool = False, measured: collections.abc.Iterable[str] = (),
@@ -176,8 +188,7 @@ class World:
                  uart1: collections.abc.Mapping[str, str] | None = None,
                  uart2: collections.abc.Mapping[str, str] | None = None,
                  supervisors: collections.abc.Iterable[str] = (), traps: str = "raise") -> None:
-        if traps not in ("raise", "report"):
-            raise WorldError(f"World: traps: got {traps!r}, expected 'raise' or 'report'")
+        self.traps = traps
         if hal not in ("", "sim", "dspic"):
             raise WorldError(f"World: hal: got {hal!r}, expected 'sim' or 'dspic'")
         if optimise not in ("", "-O0", "-O1", "-O2", "-Os"):
@@ -192,11 +203,13 @@ class World:
             "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
             "uart1": _by_robot(uart1 or {}), "uart2": _by_robot(uart2 or {}),
             "firmware": _choices(firmware, pathlib.Path(self._file).parent)}
-        self.traps = traps
         self._callables: list[collections.abc.Callable[[World], object]] = []
         self._core: typing.Any = None
+        self._lines: dict[tuple[int, int], LineState] = {}  # by robot and UART
+        self._robots: weakref.WeakValueDictionary[int, Robot] = weakref.WeakValueDictionary()
         self._open()
-        self.robots = Robots([Robot(self, i, name) for i, name in enumerate(self._core.names)])
+        self._names: list[str] = self._core.names
+        self._by_name = {name: i for i, name in enumerate(self._names)}
 
     def _open(self) -> None:
         __tracebackhide__ = True
@@ -206,6 +219,28 @@ class World:
             raise WorldError(re.sub(r"^command line: --(\w+)", lambda m: "World: " + _OPTIONS.get(m[1], m[1]), str(wrong),
                                     flags=re.M)) from None
         self._arrays = _core.Arrays(len(self._core.names))
+
+    @property
+    def traps(self) -> str:
+        """"raise" or "report", as it was opened with; it can be set."""
+        return self._traps
+
+    @traps.setter
+    def traps(self, traps: str) -> None:
+        if traps not in ("raise", "report"):
+            raise WorldError(f"World: traps: got {traps!r}, expected 'raise' or 'report'")
+        self._traps = traps
+
+    @property
+    def robots(self) -> Robots:
+        """Its robots."""
+        return Robots(self)
+
+    def _robot(self, index: int) -> Robot:
+        robot = self._robots.get(index)
+        if robot is None:
+            robot = self._robots[index] = Robot(self, index, self._names[index])
+        return robot
 
     def _apply(self, what: dict[str, typing.Any]) -> None:
         for key, value in what.items():
@@ -294,9 +329,7 @@ class World:
             self._options["seed"] = seed
         self.close()
         self._open()
-        for robot in self.robots:
-            robot._searched.clear()
-            robot._looked_at.clear()
+        self._lines.clear()
 
     def close(self) -> None:
         """Ends programs of the PC and writes coverage; raises OutputLost. What is asked or run later raises RuntimeError."""
