@@ -437,10 +437,14 @@ void bind_robots(py::class_<Handle>& world) {
              return py::make_tuple(report.left_steps, report.right_steps, report.leds);
            })
       .def("pin",
-           [](Handle& h, int r, char port, int bit) {
-             host::FirmwareMind& mind = h.world().mind(h.robot(r));
-             return (mind.board().pins().read(port, board::Pins::Register::Port, mind.now()) >> bit & 1) != 0;
+           [](Handle& h, int r, const std::string& name) {
+             h.robot(r);
+             return refusing(h, [&](World& world) {
+               return signals::find_pin(world.twin(), r, name).value(world.twin()) != 0;
+             });
            })
+      .def("is_register",
+           [](Handle&, const std::string& name) { return debug::Machine::find_register(name).has_value(); })
       .def("proximity",
            [](Handle& h, int r, int sensor) {
              return h.world().mind(h.robot(r)).proximity_counts(h.world().simulation().scene(), sensor);

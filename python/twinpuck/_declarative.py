@@ -16,7 +16,7 @@ from . import _matrix
 from ._errors import InvalidRun, TwinpuckError
 from ._robot import Robot
 from ._world import Condition, World
-from ._worldtext import toml_value
+from ._worldtext import toml_key, toml_value
 
 
 @dataclasses.dataclass(frozen=True)
@@ -258,7 +258,7 @@ class Run:
 
         for kind in _FAULTS:
             for number, table in enumerate(file.tables(kind)):
-                text = "".join(f"{key} = {toml_value(value, key)}\n" for key, value in table.items())
+                text = "".join(f"{toml_key(key)} = {toml_value(value, key)}\n" for key, value in table.items())
                 try:
                     world._add_faults(f"[[{kind}]]\n{text}")
                 except ValueError as wrong:

@@ -7,6 +7,7 @@ import math
 import re
 import typing
 
+from ._arguments import checked
 from ._errors import ExpectTimeout, TwinpuckError, WorldError
 
 if typing.TYPE_CHECKING:
@@ -139,6 +140,7 @@ class LineState:
     found: bool = False
 
 
+@checked
 class SerialLine:
     """One of a robot's serial lines: UART 1, which is its Bluetooth module's, or UART 2. Times are the baud rate's."""
 
@@ -167,12 +169,13 @@ class SerialLine:
         return [line for line in re.split(r"[\r\n]+", self.text) if line]
 
     def send(self, data: str | bytes) -> None:
-        """Sends bytes to the robot; they arrive at the line's rate. Of text each character is a byte, up to U+00FF.
+        """Sends bytes to the robot, also an array of them; they arrive at the line's rate. Of text each character is a byte, up
+        to U+00FF.
 
         Most programs want a line to end with "\\r". Raises ValueError for other characters, or where the line's other
         end is taken (uart1="pty").
         """
-        text = data.decode("latin-1") if isinstance(data, (bytes, bytearray)) else data
+        text = data.decode("latin-1") if isinstance(data, bytes) else data
         self._robot._apply("type", port=self._port, bytes=text)
 
     def expect(self, pattern: Pattern, at_most: float = 1.0) -> re.Match[typing.Any]:
@@ -183,7 +186,7 @@ class SerialLine:
         ExpectTimeout is raised, with the last lines and where the program stands. re.escape() makes text a pattern.
         """
         __tracebackhide__ = True  # a test's failure shows the test's line
-        compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
+        compiled = typing.cast("re.Pattern[typing.Any]", pattern)
         if not self._robot.world.run_until(lambda: self.has(compiled), at_most):
             raise ExpectTimeout(self.missing(compiled, at_most))
         found = self._match(compiled)
@@ -193,7 +196,7 @@ class SerialLine:
 
     def has(self, pattern: Pattern) -> bool:
         """Would expect() find the pattern at once? Looks at what came since it was asked last."""
-        compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
+        compiled = typing.cast("re.Pattern[typing.Any]", pattern)
         state = self._state
         looked_at = (compiled, state.searched, self._robot._core.heard_bytes(self._robot.index, self._port))
         if looked_at != state.looked_at:
@@ -214,6 +217,7 @@ class SerialLine:
         return f"<uart{self._port} of {self._robot.name}, {len(self.data)} bytes>"
 
 
+@checked
 class Robot:
     """One robot of a world. It is asked, and touched, between ticks; nothing that is asked changes its course."""
 
@@ -313,10 +317,10 @@ class Robot:
 
     def pin(self, name: str) -> bool:
         """Level of a pin of the processor, such as "D3". Raises ValueError for another name."""
-        match = re.fullmatch(r"([A-DFG])(\d{1,2})", name)
-        if not match or int(match[2]) > 15:
-            raise ValueError(f"pin: got {name!r}, expected a port and a bit, such as 'D3'")
-        return self._core.pin(self.index, match[1], int(match[2]))
+        try:
+            return self._core.pin(self.index, name)
+        except ValueError as wrong:
+            raise ValueError(f"robot '{self.name}': {wrong}") from None
 
     # --- what it senses
     @property
@@ -354,6 +358,8 @@ class Robot:
 
     def define_sensor(self, name: str, value: float) -> None:
         """Defines a virtual sensor, as a supervisor does; programs read it with twinpuck_virtual_sensor()."""
+        if not name:
+            raise ValueError("define_sensor: name: got '', expected a name")
         self._apply("sensor", name=name, value=float(value))
 
     def press_reset(self) -> None:
@@ -413,6 +419,8 @@ class Robot:
 
     def register(self, name: str) -> int:
         """A register of the chip or the processor by its name in the data sheet: "T1CON", "LATA", "w0"."""
+        if name != "pc" and not self._core.is_register(name):
+            raise ValueError(f"register: got {name!r}, expected a register, such as 'T1CON' or 'w0'")
         return self._value("register", name)
 
     @property

@@ -15,12 +15,13 @@ import types
 import typing
 import weakref
 
-from . import _core
+from . import _arguments, _core, _outputs
+from ._arguments import checked
 from ._errors import FirmwareFault, InvalidRun, OutputLost, WorldError
 from ._faults import Fault
 from ._records import Recording
 from ._robot import LineState, Robot, Trap
-from ._worldtext import toml_text, toml_value
+from ._worldtext import toml_key, toml_text, toml_value
 
 if typing.TYPE_CHECKING:
     import numpy
@@ -31,6 +32,25 @@ Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[
 
 
 _OPTIONS = {"fw": "firmware", "uart": "uart1"}  # of World, by the command's
+
+
+def _program(value: typing.Any) -> Firmware:
+    if isinstance(value, collections.abc.Mapping):
+        return {_arguments.text(robot): _arguments.path(program) for robot, program in value.items()}
+    return value if value is None else _arguments.path(value)
+
+
+def _robot_or_name(value: typing.Any) -> Robot | str:
+    if not isinstance(value, (Robot, str)):
+        raise _arguments.Unfit
+    return value
+
+
+_arguments.KINDS.update({
+    "world": (_arguments.path, "a file, the name of a world, text or a dict"),
+    "Firmware": (_program, "a folder, a file, the name of a controller, or a dict of these"),
+    "Robot | str": (_robot_or_name, "a robot or its name"),
+})
 
 
 class Robots(collections.abc.Sequence):
@@ -88,6 +108,7 @@ class _Things(dict[str, _Thing]):
         raise KeyError(_no_such(self._kind, name, self))
 
 
+@checked
 class Body:
     """A movable thing of the world: a box, a cylinder, a ball."""
 
@@ -111,6 +132,7 @@ class Body:
         return f"<Body {self.name!r} at ({self.pose[0]:.3f}, {self.pose[1]:.3f}) m>"
 
 
+@checked
 class Lamp:
     """A lamp of the world."""
 
@@ -125,6 +147,7 @@ class Lamp:
         self._world._apply({"do": "lamp", "lamp": self._index, "on": bool(on), **more})
 
 
+@checked
 class Condition:
     """A condition over named signals (`twinpuck list signals`): "abs(x_m) < 0.3 && led0", "left.x_m > right.x_m",
     "$state == 3" for a variable of the program. Called, it says whether it holds now; value is the number behind it."""
@@ -157,6 +180,7 @@ class Condition:
         return f"<Condition {self.text!r}>"
 
 
+@checked
 class World:
     """A world with its robots and their programs, at its time 0 when it is opened.
 
@@ -196,6 +220,8 @@ class World:
         if threads < 1 or threads > 256:
             raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
         _check_seed(seed)
+        if wrong := _outputs.unwritable([(coverage, "World: coverage")]):
+            raise WorldError(wrong[0])
         __tracebackhide__ = True
         self._text, self._file = read(source)
         self._options: dict[str, typing.Any] = {
@@ -242,6 +268,11 @@ class World:
             robot = self._robots[index] = Robot(self, index, self._names[index])
         return robot
 
+    def _mine(self, where: str, robot: Robot | None) -> Robot | None:
+        if robot is not None and robot.world is not self:
+            raise ValueError(f"{where}: robot: got {robot!r} of another world, expected one of this one")
+        return robot
+
     def _apply(self, what: dict[str, typing.Any]) -> None:
         for key, value in what.items():
             if isinstance(value, float) and not math.isfinite(value):
@@ -285,6 +316,8 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Runs for so many ticks."""
         __tracebackhide__ = True
+        if ticks < 0:
+            raise ValueError(f"step: ticks: got {ticks}, expected 0 or more")
         for _ in range(ticks):
             self._run(self.tick_s / 2, None)
 
@@ -347,7 +380,7 @@ class World:
     def condition(self, text: str, robot: Robot | str | None = None) -> Condition:
         """A condition over signals, to be called. robot: whose a name is that stands without a robot's; in a world of
         one robot it need not be said. Raises WorldError, with a guess for names that are near."""
-        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else robot)
+        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else self._mine("condition", robot))
 
     def signal(self, name: str) -> float:
         """A signal now, in its unit: "time_s", "puck.x_m", "puck.$speed"."""
@@ -361,9 +394,10 @@ class World:
         It begins now, at a time (s) or when a condition over signals holds, for robot `robot` (None: for each), and ends
         `for_s` later, or never. `twinpuck list faults` names kinds and their values. Raises ValueError.
         """
-        table = {"kind": kind, "robot": robot.name if isinstance(robot, Robot) else robot, "at_s": at_s, "when": when,
+        mine = self._mine("inject", robot) if isinstance(robot, Robot) else None
+        table = {"kind": kind, "robot": mine.name if mine else robot, "at_s": at_s, "when": when,
                  "for_s": for_s, **values}
-        text = "".join(f"{key} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
+        text = "".join(f"{toml_key(key)} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
         return self._add_faults("[[fault]]\n" + text)[0]
 
     def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
@@ -518,7 +552,7 @@ def text_in(source: typing.Any, folder: str | os.PathLike[str]) -> typing.Any:
         source = toml_text(source)
     elif not isinstance(source, str) or "\n" not in source:
         return source
-    return Text(source, os.path.join(os.path.abspath(folder), "world.toml"))
+    return Text(_arguments.fit("World: source", "str", source), os.path.join(os.path.abspath(folder), "world.toml"))
 
 
 def read(source: Source) -> Text:
@@ -526,7 +560,9 @@ def read(source: Source) -> Text:
     source = text_in(source, os.getcwd())
     if isinstance(source, Text):
         return source
-    name = os.fspath(source)
+    name = os.fspath(_arguments.fit("World: source", "world", source))
+    if not name:
+        raise WorldError(f"World: source: got {source!r}, expected {_arguments.KINDS['world'][1]}")
     try:
         path = _core.find_world(name)
     except ValueError as wrong:

@@ -28,9 +28,10 @@ def rows():
     return found.items()
 
 
-def opened(**options):
-    """A world of one robot "puck" that runs the folder's main.c."""
-    return twinpuck.World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": ".", "position": [0, 0]}]}, **options)
+def opened(more=None, **options):
+    """A world of one robot "puck" that runs the folder's main.c; `more`: what else is in it."""
+    return twinpuck.World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": ".", "position": [0, 0]}], **(more or {})},
+                          **options)
 
 
 def play():

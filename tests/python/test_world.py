@@ -395,7 +395,7 @@ def test_what_expect_has_found_stays_found_whoever_keeps_the_line():
 @pytest.mark.parametrize("touch", ["robot.selecter = 3", "world.robots = []", "world.sede = 1", "robot.uart1.baud = 9600", "robot.x_m = 1",
                                    "world.bodies['box'].posee = 1", "world.lamps['l'].intensity = float('nan')", "fault.at_s = 3"])
 def test_attributes_that_are_none_cannot_be_set(touch):
-    with twinpuck.World({"lamp": [{"name": "l", "position": [0, 0, 1]}], "ball": [{"name": "box", "radius": 0.05, "position": [0.3, 0.3]}],
+    with twinpuck.World({"lamp": [{"name": "l", "position": [0, 0, 1]}], "ball": [{"name": "box", "radius": 0.02, "position": [0.3, 0.3], "movable": True, "mass": 0.01}],
                          "robot": [{"name": "puck", "position": [0, 0]}]}) as world:
         fault = world.inject("wheel_stuck", wheel="left")
         with pytest.raises(AttributeError):
