@@ -8,8 +8,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include "dspic30/memory/sfr_table.h"
 #include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/debug/machine.h"
 #include "hal_sim/debug/values.h"
 #include "hal_sim/host/variables.h"
 #include "hal_sim/signals/sound_signals.h"
@@ -340,8 +340,9 @@ Named find_pin(twin::Twin& /*twin*/, int robot, const std::string& name) {
       name.size() > 1 && name.size() < 4 && name.find_first_not_of("0123456789", 1) == std::string::npos
           ? std::stoi(name.substr(1))
           : -1;
-  const dspic::SfrInfo* const port = bit < 0 ? nullptr : dspic::sfr_named(std::string("TRIS") + name[0]);
-  if (!port || bit > 15 || (port->implemented >> bit & 1) == 0)
+  // a bit that has a direction is there
+  const std::string tris = std::string("TRIS") + (name.empty() ? ' ' : name[0]);
+  if (bit < 0 || !debug::find_sfr(tris + "." + tris + std::to_string(bit)))
     throw std::runtime_error("got pin '" + name + "', expected a port and a bit of the chip's, such as D3");
   return {"", [robot, port = name[0], bit](twin::Twin& t) {
             const auto& m = mind(t, robot);

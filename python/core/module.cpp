@@ -491,13 +491,8 @@ void bind_robots(py::class_<Handle>& world) {
       });
 }
 
-}  // namespace
-
-}  // namespace python
-
-PYBIND11_MODULE(_core, module) {
-  using namespace python;
-  module.attr("CLICKS_PER_SECOND") = sim::kClicksPerSecond;
+/// What names of worlds and programs mean, without opening anything.
+void bind_names(py::module_& module) {
   module.def("read_world", [](const std::string& path) {
     std::string text;
     const std::string wrong = sim::read_input_file(path, sim::kLongestWorld, text);
@@ -520,6 +515,16 @@ PYBIND11_MODULE(_core, module) {
     twin::find_firmware(name, from_folder, problems);
     return joined(problems);
   });
+}
+
+}  // namespace
+
+}  // namespace python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace python;
+  module.attr("CLICKS_PER_SECOND") = sim::kClicksPerSecond;
+  bind_names(module);
   module.def("project_root", [] { return places::share_root().string(); });
   module.def("command_file", [] { return places::command_file().string(); });
   bind_arrays(module);

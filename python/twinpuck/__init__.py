@@ -26,7 +26,7 @@ from ._robot import CameraPicture, Cycles, Diagnosis, Interrupt, Place, Profile,
 from ._world import Body, Condition, Lamp, Robots, World
 
 __all__ = [
-    "Body", "CameraPicture", "Condition", "Cycles", "Diagnosis", "ExpectTimeout", "Fault", "FirmwareFault", "Interrupt", "InvalidRun", "Lamp",
-    "OutputLost", "Place", "Profile", "Recording", "Robot", "Robots", "SerialLine", "Trap", "TwinpuckError", "World", "WorldError",
-    "read_recording",
+    "Body", "CameraPicture", "Condition", "Cycles", "Diagnosis", "ExpectTimeout", "Fault", "FirmwareFault", "Interrupt",
+    "InvalidRun", "Lamp", "OutputLost", "Place", "Profile", "Recording", "Robot", "Robots", "SerialLine", "Trap",
+    "TwinpuckError", "World", "WorldError", "read_recording",
 ]

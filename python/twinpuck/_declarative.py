@@ -21,8 +21,8 @@ from ._worldtext import toml_key, toml_value
 
 @dataclasses.dataclass(frozen=True)
 class Key:
-    """A key of a table: its kind ("text", "number", "whole", "condition", "numbers", "list"), unit, range, meaning; of a step
-    also the actions that it goes with (none: all)."""
+    """A key of a table: its kind ("text", "number", "whole", "condition", "numbers", "list"), unit, range, meaning; of a
+    step also the actions that it goes with (none: all)."""
 
     name: str
     kind: str
@@ -265,8 +265,8 @@ class Run:
                     raise TestFileError(re.sub("^inject", file.where(kind, number), str(wrong), flags=re.M)) from None
 
     def run(self) -> None:
-        """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps; InvalidRun when an
-        [[always]] or [[never]] was looked at at no tick."""
+        """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps; InvalidRun when
+        an [[always]] or [[never]] was looked at at no tick."""
         __tracebackhide__ = True
         steps = self._file.tables("step")
         limit_s = self._file.table.get("at_most_s", 60)

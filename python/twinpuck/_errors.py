@@ -53,7 +53,7 @@ class OutputLost(TwinpuckError, RuntimeError):
 
 
 class InvalidRun(TwinpuckError):
-    """A fault or stimulus of the run never took effect, or a condition was never looked at, so the run shows nothing; a line for
-    each."""
+    """A fault or stimulus of the run never took effect, or a condition was never looked at, so the run shows nothing; a line
+    for each."""
 
     __module__ = "twinpuck"

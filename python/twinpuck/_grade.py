@@ -300,8 +300,8 @@ def write_junit(path: str, grades: list[Grade]) -> None:
     root = ElementTree.Element("testsuites")
     for g in grades:
         failures = sum(case.outcome == "failed" for case in g.cases)
-        suite = ElementTree.SubElement(root, "testsuite", name=printable(g.name), tests=str(len(g.cases)), failures=str(failures),
-                                       errors="1" if g.problem else "0")
+        suite = ElementTree.SubElement(root, "testsuite", name=printable(g.name), tests=str(len(g.cases)),
+                                       failures=str(failures), errors="1" if g.problem else "0")
         for case in g.cases:
             element = ElementTree.SubElement(suite, "testcase", classname=printable(g.name), name=printable(case.name),
                                             time=f"{case.seconds:.3f}")

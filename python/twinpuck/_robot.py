@@ -169,8 +169,8 @@ class SerialLine:
         return [line for line in re.split(r"[\r\n]+", self.text) if line]
 
     def send(self, data: str | bytes) -> None:
-        """Sends bytes to the robot, also an array of them; they arrive at the line's rate. Of text each character is a byte, up
-        to U+00FF.
+        """Sends bytes to the robot, also an array of them; they arrive at the line's rate. Of text each character is a byte,
+        up to U+00FF.
 
         Most programs want a line to end with "\\r". Raises ValueError for other characters, or where the line's other
         end is taken (uart1="pty").

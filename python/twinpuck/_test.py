@@ -8,8 +8,8 @@ import sys
 
 
 def main(arguments: list[str]) -> int:
-    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal
-    error, 7 an output was lost, or all that failed did so because a fault never took effect, 130 interrupted."""
+    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6
+    internal error, 7 an output was lost, or all that failed did so because a fault never took effect, 130 interrupted."""
     missing = [name for name in ("numpy", "pytest") if importlib.util.find_spec(name) is None]
     if missing:
         print(f"twinpuck test: got no Python package '{missing[0]}', expected numpy and pytest (Debian: "

@@ -85,7 +85,9 @@ class Robots(collections.abc.Sequence):
         return len(self._world._names)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._world._by_name if isinstance(name, str) else isinstance(name, Robot) and name.world is self._world
+        if isinstance(name, Robot):
+            return name.world is self._world
+        return name in self._world._by_name
 
     def __repr__(self) -> str:
         return f"<{len(self)} robots: {', '.join(self.names[:10])}{' ...' if len(self) > 10 else ''}>"

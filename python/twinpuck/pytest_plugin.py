@@ -100,7 +100,8 @@ def pytest_runtestloop(session: pytest.Session) -> None:
     try:
         _failures.clear(failures_folder(session.config))
     except OSError as wrong:
-        raise pytest.UsageError(f"{wrong.filename}: --failures: got {wrong.strerror!r}, expected a file that can be removed") from None
+        raise pytest.UsageError(f"{wrong.filename}: --failures: got {wrong.strerror!r}, expected a file that can be "
+                                "removed") from None
 
 
 def failures_folder(config: pytest.Config) -> pathlib.Path:
@@ -120,6 +121,11 @@ def wrong_marker(marker: pytest.Mark, known: set[str]) -> str:
         return f"robot: got {arguments}, expected a name or a number"
     if marker.name == "points" and not (len(marker.args) == 1 == len(arguments) and _declarative.is_points(marker.args[0])):
         return f"points: got {', '.join(map(repr, arguments)) or 'none'}, expected a number from 0 to 1e6"
+    for axis in (axis for axis in _matrix.AXES if axis.marker == marker.name):
+        try:
+            axis.marked(marker.args)
+        except ValueError as wrong:
+            return str(wrong).replace(f"--{axis.option}", axis.marker, 1)
     return ""
 
 
@@ -132,11 +138,7 @@ def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
         return
     for axis in _matrix.AXES:
         marker = metafunc.definition.get_closest_marker(axis.marker)
-        try:
-            values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
-        except ValueError as no_value:
-            said = str(no_value).replace(f"--{axis.option}", axis.marker, 1)
-            raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {said}") from None
+        values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
         if values:
             metafunc.fixturenames.append(axis.fixture)
             metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)

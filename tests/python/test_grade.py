@@ -294,8 +294,12 @@ TABLES = ["--csv", "g.csv", "--html", "g.html", "--junitxml", "g.xml"]
 
 
 def test_an_output_that_is_lost_takes_no_other_with_it(small, command):
-    done = command("grade", "tests", "--submissions", "class", *TABLES, "--keep", "kept", cwd=small)
-    assert done.returncode == 0, done.stderr
+    (small / "class" / "none").mkdir()
+    for name in ("good", "bad"):
+        (small / "class" / name / "p").mkdir()
+        (small / "class" / name / "main.c").rename(small / "class" / name / "p" / "main.c")
+    done = command("grade", "tests", "--submissions", "class", *TABLES, "--keep", "kept", "--program", "p", cwd=small)
+    assert done.returncode == 0 and "\nnone: got no folder 'p', expected the program there" in done.stdout, done.stderr
     assert [place.name for place in (small / "kept").iterdir()] == ["bad"] and len(list((small / "kept").rglob("run.inputs"))) == 1
     for file in TABLES[1::2]:
         assert (small / file).stat().st_size > 0
@@ -304,7 +308,7 @@ def test_an_output_that_is_lost_takes_no_other_with_it(small, command):
     (small / "kept" / "bad").write_text("a file")
     with open("/dev/full", "w") as full:
         lost = subprocess.run([TWINPUCK, "grade", "tests", "--submissions", "class", *TABLES[:2], "--html", "/dev/full", *TABLES[4:],
-                               "--keep", "kept"], cwd=small, text=True, stdout=full, stderr=subprocess.PIPE, timeout=600, check=False)
+                               "--keep", "kept", "--program", "p"], cwd=small, text=True, stdout=full, stderr=subprocess.PIPE, timeout=600, check=False)
     reads(lost.stderr, "standard output: cannot be written: No space left on device\n"
                        "/dev/full: cannot be written: No space left on device\nkept/bad: cannot be written: File exists")
     assert lost.returncode == 7 and (small / "g.csv").exists() and (small / "g.xml").exists()
