@@ -234,7 +234,7 @@ class World:
         self._callables: list[collections.abc.Callable[[World], object]] = []
         self._core: typing.Any = None
         self._lines: dict[tuple[int, int], LineState] = {}  # by robot and UART
-        self._robots: weakref.WeakValueDictionary[int, Robot] = weakref.WeakValueDictionary()
+        self._robots: dict[int, weakref.ref[Robot]] = {}  # while somebody uses them
         self._open()
         self._names: list[str] = self._core.names
         self._by_name = {name: i for i, name in enumerate(self._names)}
@@ -265,9 +265,11 @@ class World:
         return Robots(self)
 
     def _robot(self, index: int) -> Robot:
-        robot = self._robots.get(index)
+        known = self._robots.get(index)
+        robot = known and known()
         if robot is None:
-            robot = self._robots[index] = Robot(self, index, self._names[index])
+            robot = Robot(self, index, self._names[index])
+            self._robots[index] = weakref.ref(robot)
         return robot
 
     def _mine(self, where: str, robot: Robot | None) -> Robot | None:
