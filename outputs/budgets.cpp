@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <sstream>
 
 #include "dspic30/periph/vectors.h"
 #include "hal_sim/board/cycle.h"
@@ -67,7 +68,9 @@ bool Budgets::read(const std::string& file, std::vector<std::string>& problems) 
       if (std::find(known.begin(), known.end(), budget.key) == known.end()) {
         problem(key.source(), "unknown key '" + budget.key + "'" + hint(budget.key, known));
       } else if (!(limit >= 0 && limit < 1e15)) {
-        problem(node.source(), budget.key + ": expected a number, 0 or more");
+        std::ostringstream got;
+        got << toml::node_view<const toml::node>(node);
+        problem(node.source(), budget.key + ": got " + got.str() + ", expected a number, 0 or more");
       } else {
         budget.limit = limit;
         budget.place = fmt::format("{}:{}:{}", file, key.source().begin.line, key.source().begin.column);

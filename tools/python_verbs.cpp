@@ -70,7 +70,7 @@ void add_test(CLI::App& app, int& exit_code) {
       "  --failures DIR     where failures leave picture and recording\n"
       "Example: twinpuck test --seeds 1..10 -n 2   (docs/testing.md)\n"
       "Exit codes: 0 all passed, 1 a test failed, 2 bad input, 5 no test was found, 6 internal error, "
-      "7 a fault never took effect and all else passed, 130 interrupted",
+      "7 an output was lost, or a fault never took effect and all else passed, 130 interrupted",
       exit_code);
 }
 

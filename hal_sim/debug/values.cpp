@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "dspic30/asm/expression.h"
@@ -252,7 +253,14 @@ bool Values::assignment(const std::string& name, const std::string& expression, 
     error = "got '" + name + "', expected a variable of up to 8 bytes or a register";
     return false;
   }
-  const CValue held = is_typed ? converted(value, target.type) : value;
+  const bool is_real = is_typed && target.type.is_float() && target.type.stars == 0;
+  if (value.type.is_float() && !is_real && !(std::abs(value.real) < 9.2e18)) {
+    error = fmt::format("got {:g}, expected a number of up to 64 bits", value.real);
+    return false;
+  }
+  const CValue held = is_typed                ? converted(value, target.type)
+                      : value.type.is_float() ? integer({}, static_cast<std::uint64_t>(value.whole()))
+                                              : value;
   to = *data;
   raw = held.raw;
   if (held.type.is_float() && held.type.bits > 32) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "hal_sim/chip/chip_runner.h"
+#include "hal_sim/debug/machine.h"
 #include "hal_sim/debug/values.h"
 #include "hal_sim/host/variables.h"
 #include "hal_sim/signals/sound_signals.h"
@@ -339,8 +340,10 @@ Named find_pin(twin::Twin& /*twin*/, int robot, const std::string& name) {
       name.size() > 1 && name.size() < 4 && name.find_first_not_of("0123456789", 1) == std::string::npos
           ? std::stoi(name.substr(1))
           : -1;
-  if (bit < 0 || bit > 15 || std::string("ABCDFG").find(name[0]) == std::string::npos)
-    throw std::runtime_error("got pin '" + name + "', expected a port and a bit, such as D3");
+  // a bit that has a direction is there
+  const std::string tris = std::string("TRIS") + (name.empty() ? ' ' : name[0]);
+  if (bit < 0 || !debug::find_sfr(tris + "." + tris + std::to_string(bit)))
+    throw std::runtime_error("got pin '" + name + "', expected a port and a bit of the chip's, such as D3");
   return {"", [robot, port = name[0], bit](twin::Twin& t) {
             const auto& m = mind(t, robot);
             return double(m.board().pins().read(port, board::Pins::Register::Port, m.now()) >> bit & 1);

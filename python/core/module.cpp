@@ -68,8 +68,9 @@ class Handle {
    private:
     Handle& handle_;
   };
-  void close() {
-    if (!world_) return;
+  /// What was lost, a line each.
+  std::string close() {
+    if (!world_) return "";
     const Running running(*this);
     std::vector<std::string> problems;
     {
@@ -77,7 +78,7 @@ class Handle {
       world_->finish(problems);
     }
     world_.reset();
-    if (!problems.empty()) throw std::runtime_error(joined(problems));
+    return joined(problems);
   }
   bool is_open() const { return world_ != nullptr; }
 
@@ -436,10 +437,14 @@ void bind_robots(py::class_<Handle>& world) {
              return py::make_tuple(report.left_steps, report.right_steps, report.leds);
            })
       .def("pin",
-           [](Handle& h, int r, char port, int bit) {
-             host::FirmwareMind& mind = h.world().mind(h.robot(r));
-             return (mind.board().pins().read(port, board::Pins::Register::Port, mind.now()) >> bit & 1) != 0;
+           [](Handle& h, int r, const std::string& name) {
+             h.robot(r);
+             return refusing(h, [&](World& world) {
+               return signals::find_pin(world.twin(), r, name).value(world.twin()) != 0;
+             });
            })
+      .def("is_register",
+           [](Handle&, const std::string& name) { return debug::Machine::find_register(name).has_value(); })
       .def("proximity",
            [](Handle& h, int r, int sensor) {
              return h.world().mind(h.robot(r)).proximity_counts(h.world().simulation().scene(), sensor);
@@ -486,13 +491,8 @@ void bind_robots(py::class_<Handle>& world) {
       });
 }
 
-}  // namespace
-
-}  // namespace python
-
-PYBIND11_MODULE(_core, module) {
-  using namespace python;
-  module.attr("CLICKS_PER_SECOND") = sim::kClicksPerSecond;
+/// What names of worlds and programs mean, without opening anything.
+void bind_names(py::module_& module) {
   module.def("read_world", [](const std::string& path) {
     std::string text;
     const std::string wrong = sim::read_input_file(path, sim::kLongestWorld, text);
@@ -505,6 +505,26 @@ PYBIND11_MODULE(_core, module) {
     if (!problems.empty()) throw std::invalid_argument(joined(problems));
     return found.file;
   });
+  // what is wrong with a world's text, with the name of a program; empty: nothing
+  module.def("check_world", [](const std::string& text, const std::string& file) {
+    const sim::LoadedWorld loaded = twin::parse_world(text, file);
+    return loaded.world ? std::string() : loaded.report(file);
+  });
+  module.def("check_firmware", [](const std::string& name, const std::string& from_folder) {
+    std::vector<std::string> problems;
+    twin::find_firmware(name, from_folder, problems);
+    return joined(problems);
+  });
+}
+
+}  // namespace
+
+}  // namespace python
+
+PYBIND11_MODULE(_core, module) {
+  using namespace python;
+  module.attr("CLICKS_PER_SECOND") = sim::kClicksPerSecond;
+  bind_names(module);
   module.def("project_root", [] { return places::share_root().string(); });
   module.def("command_file", [] { return places::command_file().string(); });
   bind_arrays(module);

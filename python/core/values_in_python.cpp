@@ -74,7 +74,11 @@ std::string c_number(const std::string& what, const py::object& value) {
       throw std::invalid_argument(what + ": got " + text + ", expected a finite number");
     return text;
   }
-  return py::str(value.attr("__index__")()).cast<std::string>();
+  const py::object whole = value.attr("__index__")();
+  // C's widest type takes no more; a float may
+  if (whole.attr("bit_length")().cast<int>() > 64)
+    return py::repr(whole.attr("__float__")()).cast<std::string>();
+  return py::str(whole).cast<std::string>();
 }
 
 void plan(const debug::Values& values, const std::string& expression, const py::object& value,

@@ -19,14 +19,14 @@ World    a world with its robots, opened from a file, a text or a dict
 Robot    one robot: pose, sensors, LEDs, pins, serial lines, variables, cycles, traps
 pytest   `twinpuck test` runs pytest with fixtures for these; docs/testing.md is the guide
 """
-from ._errors import ExpectTimeout, FirmwareFault, InvalidRun, TwinpuckError, WorldError
+from ._errors import ExpectTimeout, FirmwareFault, InvalidRun, OutputLost, TwinpuckError, WorldError
 from ._faults import Fault
 from ._records import Recording, read_recording
 from ._robot import CameraPicture, Cycles, Diagnosis, Interrupt, Place, Profile, Robot, SerialLine, Trap
 from ._world import Body, Condition, Lamp, Robots, World
 
 __all__ = [
-    "Body", "CameraPicture", "Condition", "Cycles", "Diagnosis", "ExpectTimeout", "Fault", "FirmwareFault", "Interrupt", "InvalidRun", "Lamp", "Place",
-    "Profile", "Recording", "Robot", "Robots", "SerialLine", "Trap", "TwinpuckError", "World", "WorldError",
-    "read_recording",
+    "Body", "CameraPicture", "Condition", "Cycles", "Diagnosis", "ExpectTimeout", "Fault", "FirmwareFault", "Interrupt",
+    "InvalidRun", "Lamp", "OutputLost", "Place", "Profile", "Recording", "Robot", "Robots", "SerialLine", "Trap",
+    "TwinpuckError", "World", "WorldError", "read_recording",
 ]

@@ -13,15 +13,16 @@ import tomllib
 import typing
 
 from . import _matrix
-from ._errors import TwinpuckError
+from ._errors import InvalidRun, TwinpuckError
 from ._robot import Robot
 from ._world import Condition, World
-from ._worldtext import toml_value
+from ._worldtext import toml_key, toml_value
 
 
 @dataclasses.dataclass(frozen=True)
 class Key:
-    """A key of a table: its kind ("text", "number", "whole", "condition", "numbers", "list"), unit, range, meaning."""
+    """A key of a table: its kind ("text", "number", "whole", "condition", "numbers", "list"), unit, range, meaning; of a
+    step also the actions that it goes with (none: all)."""
 
     name: str
     kind: str
@@ -30,6 +31,7 @@ class Key:
     least: float = -math.inf
     most: float = math.inf
     usual: typing.Any = None
+    of: tuple[str, ...] = ()
 
 
 _HEAD = (
@@ -41,12 +43,13 @@ _HEAD = (
     Key("seeds", "list", "the test runs with each of these seeds: `\"1..50\"`, `[1, 7]`"),
     Key("hals", "list", "... with programs linked with each of these: `\"sim,dspic\"`"),
     Key("selectors", "list", "... with the selector in each of these positions: `\"0..15\"`"),
-    Key("points", "number", "of `twinpuck grade`", "", 0, 1e6, 1),
+    _POINTS := Key("points", "number", "of `twinpuck grade`", "", 0, 1e6, 1),
 )
 _WHO = Key("robot", "text", "another robot than the test's")
 _BECAUSE = Key("because", "text", "said when it fails")
-_WITHIN = Key("within_s", "number", "how long an `expect` or `wait` may take", "s", 0, 1e6, "up to the test's end")
-_UART = Key("uart", "whole", "which line `expect` and `send` mean", "", 1, 2, 1)
+_WITHIN = Key("within_s", "number", "how long an `expect` or `wait` may take", "s", 0, 1e6, "up to the test's end",
+              ("expect", "wait"))
+_UART = Key("uart", "whole", "which line `expect` and `send` mean", "", 1, 2, 1, ("expect", "send"))
 _ACTIONS = (
     Key("expect", "text", "runs until the robot has sent what this regular expression matches, behind the last match"),
     Key("send", "text", "sends these characters to the robot, each a byte; most programs want `\\r` at the end"),
@@ -58,8 +61,8 @@ _ACTIONS = (
     Key("set", "text", "changes a variable: `\"speed = 300\"`"),
     Key("reset", "whole", "presses the reset button, once", "", 1, 1),
 )
-_STEP = (*_ACTIONS, _WITHIN, _UART, Key("hold_s", "number", "how long a key is held", "s", 0, 60, 0.1),
-         Key("address", "whole", "of the remote control", "", 0, 31, 0), _WHO, _BECAUSE)
+_STEP = (*_ACTIONS, _WITHIN, _UART, Key("hold_s", "number", "how long a key is held", "s", 0, 60, 0.1, ("press",)),
+         Key("address", "whole", "of the remote control", "", 0, 31, 0, ("press",)), _WHO, _BECAUSE)
 _THAT = Key("that", "condition", "**required**; a condition over signals: `\"collisions == 0\"`")
 _WATCH = (_THAT, Key("from_s", "number", "looked at from this time on", "s", 0, 1e6, 0),
           Key("to_s", "number", "... and up to this time", "s", 0, 1e6, "the test's end"), _WHO, _BECAUSE)
@@ -111,10 +114,13 @@ class TestFile:
         if "world" not in self.table:
             self._problems.append(f"{path}: test.world: missing, expected a world file or the name of a world")
         for number, step in enumerate(self.tables("step")):
-            actions = [key.name for key in _ACTIONS if key.name in step]
-            if len(actions) != 1:
-                self._problems.append(f"{self.where('step', number)}: step: got {' and '.join(actions) or 'nothing'} to "
-                                      f"do, expected one of {', '.join(key.name for key in _ACTIONS)}")
+            self._problems += [f"{self.where('step', number)}: {wrong}" for wrong in _wrong_step(step)]
+        for kind in ("always", "never"):
+            for number, table in enumerate(self.tables(kind)):
+                from_s, to_s = table.get("from_s", 0), table.get("to_s", math.inf)
+                if isinstance(from_s, (int, float)) and isinstance(to_s, (int, float)) and from_s > to_s:
+                    self._problems.append(f"{self.where(kind, number)}: {kind}.to_s: got {to_s:g}, expected {from_s:g} s "
+                                          "(from_s) or more")
         for axis in _matrix.AXES:
             try:
                 self.values(axis)
@@ -136,7 +142,7 @@ class TestFile:
     def values(self, axis: _matrix.Axis) -> list[typing.Any]:
         """What the file says of seeds, HALs or selectors."""
         value = self.table.get(axis.marker)
-        return axis.marked([] if value is None else [value])
+        return axis.marked(None if value is None else [value])
 
     def where(self, kind: str, number: int) -> str:
         """"FILE:LINE" of the table of that number."""
@@ -160,6 +166,31 @@ class TestFile:
                 self._problems.append(f"{where}: {what}.{name}: got {value!r}, expected {wrong}")
         if _THAT in TABLES[kind][1] and "that" not in table:
             self._problems.append(f"{where}: {what}.that: missing, expected a condition")
+
+
+def _wrong_step(step: dict[str, typing.Any]) -> list[str]:
+    """What is wrong with a step, but for its values' kinds and ranges."""
+    actions = [key.name for key in _ACTIONS if key.name in step]
+    if len(actions) != 1:
+        return [f"step: got {' and '.join(actions) or 'nothing'} to do, expected one of "
+                f"{', '.join(key.name for key in _ACTIONS)}"]
+    action, wrong = actions[0], []
+    value = step[action]
+    for key in _STEP:
+        if key.name in step and key.of and (action not in key.of or action == "wait" and not isinstance(value, str)):
+            wanted = " or ".join(f"{name} for a condition" if name == "wait" else name for name in key.of)
+            wrong.append(f"step.{key.name}: got it with {action}{' for a time' if action in key.of else ''}, expected it "
+                         f"with {wanted} only")
+    if action == "expect" and isinstance(value, str):
+        try:
+            re.compile(value)
+        except re.error as error:
+            wrong.append(f"step.expect: got {value!r}, expected a regular expression: {error}")
+    if action == "send" and isinstance(value, str) and (beyond := [c for c in value if c > "\xff"]):
+        wrong.append(f"step.send: got {beyond[0]!r}, expected characters up to U+00FF, each a byte")
+    if action == "set" and isinstance(value, str) and "=" not in value:
+        wrong.append(f"step.set: got {value!r}, expected \"variable = value\"")
+    return wrong
 
 
 def _wrong(key: Key, value: typing.Any) -> str:
@@ -195,9 +226,17 @@ class _Watch:
     from_s: float
     to_s: float
     because: str
+    was_looked_at: bool = False
 
     def is_broken(self, now_s: float) -> bool:
-        return self.from_s <= now_s <= self.to_s and self.condition() == (self.kind == "never")
+        if not self.from_s <= now_s <= self.to_s:
+            return False
+        self.was_looked_at = True
+        return self.condition() == (self.kind == "never")
+
+    def missed(self, now_s: float) -> str:
+        window = f"from {self.from_s:g} s" + (f" to {self.to_s:g} s" if math.isfinite(self.to_s) else "")
+        return f"{self.where}: {self.kind}: never looked at: the run ended at {now_s:.3f} s and had no tick {window}"
 
     def told(self, now_s: float) -> str:
         hope = "always" if self.kind == "always" else "never"
@@ -210,6 +249,7 @@ class Run:
 
     def __init__(self, file: TestFile, world: World) -> None:
         self._file, self._world = file, world
+        self._robot({}, str(file.path))
         self._broken: _Watch | None = None
         self._watches = [
             _Watch(file.where(kind, number), kind, self._condition(kind, number, table, "that"),
@@ -218,14 +258,15 @@ class Run:
 
         for kind in _FAULTS:
             for number, table in enumerate(file.tables(kind)):
-                text = "".join(f"{key} = {toml_value(value, key)}\n" for key, value in table.items())
+                text = "".join(f"{toml_key(key)} = {toml_value(value, key)}\n" for key, value in table.items())
                 try:
                     world._add_faults(f"[[{kind}]]\n{text}")
                 except ValueError as wrong:
                     raise TestFileError(re.sub("^inject", file.where(kind, number), str(wrong), flags=re.M)) from None
 
     def run(self) -> None:
-        """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps."""
+        """Does the steps. Raises TestFailed, with the place in the file; FirmwareFault when a program traps; InvalidRun when
+        an [[always]] or [[never]] was looked at at no tick."""
         __tracebackhide__ = True
         steps = self._file.tables("step")
         limit_s = self._file.table.get("at_most_s", 60)
@@ -243,6 +284,8 @@ class Run:
                  for where, condition, because in last if not condition()]
         if wrong:
             raise TestFailed("\n".join(wrong))
+        if missed := [watch.missed(self._world.time_s) for watch in self._watches if not watch.was_looked_at]:
+            raise InvalidRun("\n".join(missed))
 
     def _robot(self, table: dict[str, typing.Any], where: str) -> Robot:
         name = table.get("robot", self._file.table.get("robot"))
@@ -307,23 +350,22 @@ class Run:
 
     def _expect(self, line: typing.Any, step: dict[str, typing.Any], where: str, within_s: float) -> None:
         __tracebackhide__ = True
-        try:
-            pattern = re.compile(step["expect"])
-        except re.error as wrong:
-            raise TestFileError(f"{where}: step.expect: got {step['expect']!r}, expected a regular expression: "
-                                f"{wrong}") from None
+        pattern = re.compile(step["expect"])
         if not self._go(max(within_s, 0), lambda: line.has(pattern)):
             raise TestFailed(f"{where}: {line.missing(pattern, within_s)}{_because(step)}")
         line.expect(pattern, 0)
 
     def _set(self, robot: Robot, text: str, where: str) -> None:
-        name, is_there, value = text.partition("=")
+        name, _, value = text.partition("=")
         try:
-            if not is_there:
-                raise ValueError(f"got {text!r}, expected \"variable = value\"")
             robot.set_variable(name.strip(), robot.variable(value.strip()))
         except ValueError as wrong:
             raise TestFileError(f"{where}: step.set: {wrong}") from None
+
+
+def is_points(value: typing.Any) -> bool:
+    """May a test be worth that?"""
+    return not _wrong(_POINTS, value)
 
 
 def _because(table: dict[str, typing.Any]) -> str:

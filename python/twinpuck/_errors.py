@@ -46,7 +46,14 @@ class ExpectTimeout(TwinpuckError, AssertionError):
     __module__ = "twinpuck"
 
 
+class OutputLost(TwinpuckError, RuntimeError):
+    """Counts of lines could not be written, or are of other sources; a line for each problem."""
+
+    __module__ = "twinpuck"
+
+
 class InvalidRun(TwinpuckError):
-    """A fault or stimulus of the run never took effect, so the run shows nothing; a line for each."""
+    """A fault or stimulus of the run never took effect, or a condition was never looked at, so the run shows nothing; a line
+    for each."""
 
     __module__ = "twinpuck"

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import typing
 
+from ._errors import TwinpuckError
+
 if typing.TYPE_CHECKING:
     from ._world import World
 
@@ -11,11 +13,18 @@ if typing.TYPE_CHECKING:
 class Fault:
     """A fault or stimulus that was asked for. Times are simulated (s); None: not, or not yet."""
 
+    __slots__ = ("_world", "_number", "_run")
+
     def __init__(self, world: World, number: int) -> None:
-        self._world, self._number = world, number
+        self._world, self._number, self._run = world, number, world._core
+
+    def _is_of_before(self) -> bool:
+        return self._run is not self._world._core
 
     def _status(self) -> dict[str, typing.Any]:
-        return self._world._core.fault(self._number)
+        if self._is_of_before():
+            raise TwinpuckError(f"fault {self._number}: belongs to the run before reset(), expected one of this run")
+        return self._run.fault(self._number)
 
     @property
     def begun_s(self) -> float | None:
@@ -34,9 +43,12 @@ class Fault:
 
     def end(self) -> None:
         """Ends it now; one that has not begun never will."""
+        self._status()
         self._world._apply({"do": "end_fault", "fault": self._number})
 
     def __repr__(self) -> str:
+        if self._is_of_before():
+            return f"<Fault {self._number} of the run before reset()>"
         status = self._status()
         times = ", ".join(f"{name.removesuffix('_s').replace('_', ' ')} at {status[name]:.3f} s"
                           for name in ("begun_s", "took_effect_s", "ended_s") if status[name] is not None)

@@ -5,8 +5,10 @@ from __future__ import annotations
 import argparse
 import collections.abc
 import concurrent.futures
+import contextlib
 import csv
 import dataclasses
+import functools
 import html
 import json
 import os
@@ -17,10 +19,12 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
+import types
 import typing
 import xml.etree.ElementTree as ElementTree
 
-from . import _matrix
+from . import _matrix, _outputs
 
 _BUBBLEWRAP = "/usr/bin/bwrap"
 _CODES = "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 7 a table could not be written, 130 interrupted"
@@ -106,10 +110,10 @@ def run_tests(arguments: list[str]) -> int:
         return "\n".join([first, *shown]) if report.outcome == "failed" else ""
 
     os.environ["TWINPUCK_TEST"] = "1"
-    pytest.main(["-p", "twinpuck.pytest_plugin", "-p", "no:cacheprovider", "-q", "-q", *arguments[1:]],
-                plugins=[Collector()])
+    code = pytest.main(["-p", "twinpuck.pytest_plugin", "-p", "no:cacheprovider", "-q", "-q", *arguments[1:]],
+                       plugins=[Collector()])
     pathlib.Path(arguments[0]).write_text(json.dumps([dataclasses.asdict(case) for case in cases]), encoding="utf-8")
-    return 0
+    return int(code)
 
 
 def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path, work: pathlib.Path) -> list[str]:
@@ -124,22 +128,83 @@ def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path,
 
 
 _running: set[int] = set()  # groups of processes, one a submission that is being graded
+_is_ending = threading.Event()  # no more of them
+
+
+class Ended(KeyboardInterrupt):
+    """Somebody has asked with a signal that all ends."""
+
+
+def end_by(number: int, _frame: types.FrameType | None) -> typing.NoReturn:
+    """Of a signal's handler. Once: what follows is only cleaning up."""
+    signal.signal(number, signal.SIG_IGN)
+    raise Ended(number)
+
+
+def wait_for(words: list[str], environment: collections.abc.Mapping[str, str], log: pathlib.Path,
+             limit_s: float) -> int | None:
+    """Runs tests in a group of processes of their own; pytest's exit code, None: they were ended after so long."""
+    with open(log, "wb") as out:
+        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment,
+                                 start_new_session=True)
+        _running.add(child.pid)
+        try:
+            if _is_ending.is_set():
+                raise subprocess.TimeoutExpired(words, 0)
+            return child.wait(limit_s)
+        except subprocess.TimeoutExpired:
+            return None
+        finally:
+            if child.returncode is None:
+                os.killpg(child.pid, signal.SIGKILL)
+                child.wait()
+            _running.discard(child.pid)
+
+
+def words_of(options: argparse.Namespace, result: pathlib.Path, mine: pathlib.Path) -> list[str]:
+    """What runs the tests on a program, in a process of its own."""
+    words = [sys.executable, "-m", "twinpuck._grade", "--run-tests", str(result), *map(str, options.tests), "--firmware",
+             str(mine), "-c", os.devnull, "--rootdir", str(common(options.tests))]
+    for name in ("seeds", "hal", "selector"):
+        if getattr(options, name):
+            words += [f"--{name}", getattr(options, name)]
+    return words
+
+
+def cases_of(result: pathlib.Path) -> list[Case]:
+    """What run_tests() wrote."""
+    try:
+        return [Case(**case) for case in json.loads(result.read_text(encoding="utf-8"))]
+    except (OSError, ValueError):
+        return []
+
+
+def unreadable(options: argparse.Namespace, mine: pathlib.Path, base: pathlib.Path) -> str:
+    """What is wrong with the tests themselves, of which nobody could get a point; empty: nothing."""
+    result, log = base / "tests.json", base / "tests.txt"
+    code = wait_for([*words_of(options, result, mine), "--collect-only"],
+                    {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}, log, options.limit_s)
+    tests = ", ".join(map(str, options.tests))
+    if failed := [case for case in cases_of(result) if case.outcome == "failed"]:
+        return "\n".join(f"{case.name}: {case.text}" for case in failed)
+    if code == 5:
+        return f"{tests}: tests: got none, expected one or more"
+    if code is None:
+        return f"{tests}: tests: got no end of reading them after {options.limit_s:g} s, expected one (--limit)"
+    return log.read_text(encoding="utf-8", errors="replace").strip() if code else ""
 
 
 def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path) -> Grade:
     """Runs the tests on one submission, within its time."""
     result, mine, work = Grade(student.name), student / options.program, base / student.name
+    if _is_ending.is_set():
+        return result
     if not mine.is_dir():
         result.problem = f"got no folder {options.program!r}, expected the program there"
         return result
     for folder in ("cache", "tmp", "failures"):
         (work / folder).mkdir(parents=True, exist_ok=True)
-    words = [sys.executable, "-m", "twinpuck._grade", "--run-tests", str(work / "result.json"),
-             *map(str, options.tests), "--firmware", str(mine), "--failures", str(work / "failures"),
-             "-c", os.devnull, "--rootdir", str(common(options.tests))]
-    for name in ("seeds", "hal", "selector"):
-        if getattr(options, name):
-            words += [f"--{name}", getattr(options, name)]
+    words = [*words_of(options, work / "result.json", mine), "--failures", str(work / "failures")]
     if options.sanitize:
         words.append("--sanitize")
     if not options.trusted:
@@ -149,22 +214,9 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     if not options.trusted:
         environment["PATH"] = "/usr/local/bin:/usr/bin:/bin"  # what they see
     log = work / "log.txt"
-    with open(log, "wb") as out:
-        child = subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT, env=environment,
-                                 start_new_session=True)
-        _running.add(child.pid)
-        try:
-            child.wait(options.limit_s)
-        except subprocess.TimeoutExpired:
-            os.killpg(child.pid, signal.SIGKILL)
-            child.wait()
-            result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
-        finally:
-            _running.discard(child.pid)
-    try:
-        result.cases = [Case(**case) for case in json.loads((work / "result.json").read_text(encoding="utf-8"))]
-    except (OSError, ValueError):
-        pass
+    if wait_for(words, environment, log, options.limit_s) is None:
+        result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
+    result.cases = cases_of(work / "result.json")
     if not result.cases:
         last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-1:]
         result.problem = result.problem or "the tests ended without a result" + "".join(f": {line}" for line in last)
@@ -208,7 +260,7 @@ def text_table(grades: list[Grade]) -> str:
 def write_csv(path: str, grades: list[Grade]) -> None:
     """A row a submission: points of each test, all of them, why it was not graded."""
     tests = tests_of(grades)
-    with open(path, "w", newline="", encoding="utf-8") as file:
+    with open(path, "w", newline="", encoding="utf-8", errors="backslashreplace") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["submission", *tests, "points", "of", "problem"])
         for g in grades:
@@ -240,7 +292,7 @@ th, td {{ border: 1px solid #999; padding: .4em .7em; text-align: left; vertical
 <h1>Grades</h1><table><tr><th scope=col>submission</th>{heads}<th scope=col>of {sum(tests.values()):g}</th></tr>
 {chr(10).join(rows)}</table></html>
 """
-    pathlib.Path(path).write_text(text, encoding="utf-8")
+    pathlib.Path(path).write_text(text, encoding="utf-8", errors="backslashreplace")
 
 
 def write_junit(path: str, grades: list[Grade]) -> None:
@@ -248,17 +300,18 @@ def write_junit(path: str, grades: list[Grade]) -> None:
     root = ElementTree.Element("testsuites")
     for g in grades:
         failures = sum(case.outcome == "failed" for case in g.cases)
-        suite = ElementTree.SubElement(root, "testsuite", name=g.name, tests=str(len(g.cases)), failures=str(failures),
-                                       errors="1" if g.problem else "0")
+        suite = ElementTree.SubElement(root, "testsuite", name=printable(g.name), tests=str(len(g.cases)),
+                                       failures=str(failures), errors="1" if g.problem else "0")
         for case in g.cases:
-            element = ElementTree.SubElement(suite, "testcase", classname=g.name, name=case.name, time=f"{case.seconds:.3f}")
+            element = ElementTree.SubElement(suite, "testcase", classname=printable(g.name), name=printable(case.name),
+                                            time=f"{case.seconds:.3f}")
             if case.outcome == "failed":
                 failure = ElementTree.SubElement(element, "failure", message=printable(case.text.split("\n")[0]))
                 failure.text = printable(case.text)
             elif case.outcome == "skipped":
                 ElementTree.SubElement(element, "skipped")
         if g.problem:
-            element = ElementTree.SubElement(suite, "testcase", classname=g.name, name="graded")
+            element = ElementTree.SubElement(suite, "testcase", classname=printable(g.name), name="graded")
             ElementTree.SubElement(element, "error", message=printable(g.problem))
     ElementTree.ElementTree(root).write(path, encoding="utf-8", xml_declaration=True)
 
@@ -322,7 +375,11 @@ def bad_input(options: argparse.Namespace) -> str:
         return f"command line: --jobs: got {options.jobs}, expected 1 to 256"
     if not options.trusted and not os.access(_BUBBLEWRAP, os.X_OK):
         return f"{_BUBBLEWRAP}: got no bubblewrap, expected it to contain programs with; apt install bubblewrap, or trust them: --trusted"
-    return ""
+    files = [(options.csv, "--csv"), (options.html, "--html"), (options.junitxml, "--junitxml")]
+    if wrong := _outputs.conflicts([*files, (options.keep, "--keep")], [options.submissions, *options.tests]) or \
+            _outputs.unwritable(files):
+        return "\n".join(wrong)
+    return _outputs.wrong_folder(options.keep, "--keep") if options.keep else ""
 
 
 def main(arguments: list[str]) -> int:
@@ -340,26 +397,56 @@ def main(arguments: list[str]) -> int:
         print(f"{options.submissions}: --submissions: got an empty folder, expected a folder for each "
               "student", file=sys.stderr)
         return 2
+    programs = [student / options.program for student in students if (student / options.program).is_dir()]
+    if not programs:
+        print(f"{options.submissions}: --program: got no folder {options.program!r} in any submission, expected the "
+              "program there", file=sys.stderr)
+        return 2
     # beside /tmp, of which those who are contained have their own
-    file, base = "", pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
+    base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
-        grades = grade_all(students, options, base)
-        print(text_table(grades))
-        if options.keep:
-            for student in students:
-                shutil.copytree(base / student.name / "failures", options.keep / student.name, dirs_exist_ok=True)
-        for path, write in ((options.csv, write_csv), (options.html, write_html), (options.junitxml, write_junit)):
-            file = path
-            if path:
-                write(path, grades)
-    except OSError as wrong:
-        print(f"{wrong.filename or file}: cannot be written: {wrong.strerror}", file=sys.stderr)
-        return 7
+        for number in (signal.SIGTERM, signal.SIGHUP):
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, end_by)
+        if wrong := unreadable(options, programs[0], base):
+            print(wrong, file=sys.stderr)
+            return 2
+        return write_all(grade_all(students, options, base), options, base)
+    except Ended as ended:
+        return 128 + ended.args[0]
     except KeyboardInterrupt:
         return 130
     finally:
         shutil.rmtree(base, ignore_errors=True)
-    return 0
+
+
+def write_all(grades: list[Grade], options: argparse.Namespace, base: pathlib.Path) -> int:
+    """Each output by itself: one that is lost takes no other with it. The exit code."""
+    def show() -> None:
+        if sys.stdout:
+            sys.stdout.reconfigure(errors="backslashreplace")  # type: ignore[union-attr]
+        print(text_table(grades), flush=True)
+
+    def keep(name: str) -> None:
+        left = base / name / "failures"
+        if left.is_dir() and any(left.iterdir()):
+            shutil.copytree(left, options.keep / name, dirs_exist_ok=True)
+
+    writes: list[tuple[str, collections.abc.Callable[[], None]]] = [("standard output", show)]
+    writes += [(path, functools.partial(write, path, grades)) for path, write in
+               ((options.csv, write_csv), (options.html, write_html), (options.junitxml, write_junit)) if path]
+    if options.keep:
+        writes += [(str(options.keep / g.name), functools.partial(keep, g.name)) for g in grades]
+    code = 0
+    for name, write in writes:
+        try:
+            write()
+        except OSError as wrong:
+            print(_outputs.lost(name, wrong), file=sys.stderr)
+            code = 7
+            if write is show:  # what is left of it is not tried again at the end
+                os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+    return code
 
 
 def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: pathlib.Path) -> list[Grade]:
@@ -369,10 +456,12 @@ def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: p
         try:
             return [each.result() for each in graded]
         except KeyboardInterrupt:  # nobody stays behind
+            _is_ending.set()
             for each in graded:
                 each.cancel()
             for group in list(_running):
-                os.killpg(group, signal.SIGKILL)
+                with contextlib.suppress(ProcessLookupError):  # it has just ended
+                    os.killpg(group, signal.SIGKILL)
             raise
 
 

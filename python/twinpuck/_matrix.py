@@ -32,18 +32,26 @@ class Axis:
 
     def marked(self, arguments: collections.abc.Iterable[typing.Any] | None) -> list[typing.Any]:
         """The same of a marker's arguments, which may be numbers, words, texts with commas and ranges, and lists."""
+        if arguments is None:
+            return []
+        values = self._all(arguments)
+        if not values:
+            raise ValueError(f"--{self.option}: got none, expected one or more")
+        if len(values) > _MOST:
+            raise ValueError(f"--{self.option}: got {len(values)} runs, expected at most {_MOST}")
+        return list(dict.fromkeys(values))
+
+    def _all(self, arguments: collections.abc.Iterable[typing.Any]) -> list[typing.Any]:
         values: list[typing.Any] = []
-        for argument in arguments or ():
+        for argument in arguments:
             if isinstance(argument, str):
                 for part in argument.split(","):
                     values += self._part(part.strip())
             elif isinstance(argument, collections.abc.Iterable):
-                values += self.marked(argument)
+                values += self._all(argument)
             else:
                 values += self._part(str(argument))
-        if len(values) > _MOST:
-            raise ValueError(f"--{self.option}: got {len(values)} runs, expected at most {_MOST}")
-        return list(dict.fromkeys(values))
+        return values
 
     def _part(self, part: str) -> list[typing.Any]:
         if self.words:

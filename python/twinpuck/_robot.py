@@ -7,6 +7,7 @@ import math
 import re
 import typing
 
+from ._arguments import checked
 from ._errors import ExpectTimeout, TwinpuckError, WorldError
 
 if typing.TYPE_CHECKING:
@@ -130,15 +131,27 @@ class CameraPicture:
     rgb: numpy.ndarray
 
 
+@dataclasses.dataclass
+class LineState:
+    """How far expect() has come on a line; what was looked for last, and whether it was there. The world keeps it."""
+
+    searched: int = 0
+    looked_at: tuple[typing.Any, int, int] | None = None
+    found: bool = False
+
+
+@checked
 class SerialLine:
     """One of a robot's serial lines: UART 1, which is its Bluetooth module's, or UART 2. Times are the baud rate's."""
 
+    __slots__ = ("_robot", "_port")
+
     def __init__(self, robot: Robot, port: int) -> None:
-        self._robot, self._port, self._found = robot, port, False
+        self._robot, self._port = robot, port
 
     @property
-    def _searched(self) -> int:
-        return self._robot._searched.get(self._port, 0)
+    def _state(self) -> LineState:
+        return self._robot.world._lines.setdefault((self._robot.index, self._port), LineState())
 
     @property
     def data(self) -> bytes:
@@ -156,12 +169,13 @@ class SerialLine:
         return [line for line in re.split(r"[\r\n]+", self.text) if line]
 
     def send(self, data: str | bytes) -> None:
-        """Sends bytes to the robot; they arrive at the line's rate. Of text each character is a byte, up to U+00FF.
+        """Sends bytes to the robot, also an array of them; they arrive at the line's rate. Of text each character is a byte,
+        up to U+00FF.
 
         Most programs want a line to end with "\\r". Raises ValueError for other characters, or where the line's other
         end is taken (uart1="pty").
         """
-        text = data.decode("latin-1") if isinstance(data, (bytes, bytearray)) else data
+        text = data.decode("latin-1") if isinstance(data, bytes) else data
         self._robot._apply("type", port=self._port, bytes=text)
 
     def expect(self, pattern: Pattern, at_most: float = 1.0) -> re.Match[typing.Any]:
@@ -172,29 +186,29 @@ class SerialLine:
         ExpectTimeout is raised, with the last lines and where the program stands. re.escape() makes text a pattern.
         """
         __tracebackhide__ = True  # a test's failure shows the test's line
-        compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
+        compiled = typing.cast("re.Pattern[typing.Any]", pattern)
         if not self._robot.world.run_until(lambda: self.has(compiled), at_most):
             raise ExpectTimeout(self.missing(compiled, at_most))
         found = self._match(compiled)
         assert found is not None
-        self._robot._searched[self._port] = found.end()
+        self._state.searched = found.end()
         return found
 
     def has(self, pattern: Pattern) -> bool:
         """Would expect() find the pattern at once? Looks at what came since it was asked last."""
-        compiled = re.compile(pattern) if isinstance(pattern, (str, bytes)) else pattern
-        state = (compiled, self._searched, self._robot._core.heard_bytes(self._robot.index, self._port))
-        if state != self._robot._looked_at.get(self._port):
-            self._robot._looked_at[self._port] = state
-            self._found = self._match(compiled) is not None
-        return self._found
+        compiled = typing.cast("re.Pattern[typing.Any]", pattern)
+        state = self._state
+        looked_at = (compiled, state.searched, self._robot._core.heard_bytes(self._robot.index, self._port))
+        if looked_at != state.looked_at:
+            state.looked_at, state.found = looked_at, self._match(compiled) is not None
+        return state.found
 
     def _match(self, compiled: re.Pattern[typing.Any]) -> re.Match[typing.Any] | None:
-        return compiled.search(self.data if isinstance(compiled.pattern, bytes) else self.text, self._searched)
+        return compiled.search(self.data if isinstance(compiled.pattern, bytes) else self.text, self._state.searched)
 
     def missing(self, pattern: re.Pattern[typing.Any], at_most: float) -> str:
         """What expect() says when it has waited in vain."""
-        rest = self.text[self._searched:]
+        rest = self.text[self._state.searched:]
         came = f"got {rest[-400:]!r} behind the last match" if rest else "nothing came"
         return (f"robot '{self._robot.name}' uart{self._port}: expected {pattern.pattern!r} within {at_most:g} s, {came}; "
                 f"at {self._robot.world.time_s:.3f} s the program stands in {self._robot.place}")
@@ -203,14 +217,25 @@ class SerialLine:
         return f"<uart{self._port} of {self._robot.name}, {len(self.data)} bytes>"
 
 
+@checked
 class Robot:
     """One robot of a world. It is asked, and touched, between ticks; nothing that is asked changes its course."""
 
+    # it keeps its world, which keeps no robot: a world ends when nobody uses it or a robot of it any more
+    __slots__ = ("world", "index", "name", "__weakref__")
+
     def __init__(self, world: World, index: int, name: str) -> None:
         self.world, self.index, self.name = world, index, name
-        self._searched: dict[int, int] = {}  # by line, as the next: behind the last match; what was looked at last
-        self._looked_at: dict[int, tuple[typing.Any, int, int]] = {}
-        self.uart1, self.uart2 = SerialLine(self, 1), SerialLine(self, 2)
+
+    @property
+    def uart1(self) -> SerialLine:
+        """Its line to the Bluetooth module."""
+        return SerialLine(self, 1)
+
+    @property
+    def uart2(self) -> SerialLine:
+        """Its RS232 line."""
+        return SerialLine(self, 2)
 
     def __repr__(self) -> str:
         return f"<Robot {self.name!r} at ({self.x_m:.3f}, {self.y_m:.3f}) m, {self.heading_deg:.0f} deg>"
@@ -292,10 +317,10 @@ class Robot:
 
     def pin(self, name: str) -> bool:
         """Level of a pin of the processor, such as "D3". Raises ValueError for another name."""
-        match = re.fullmatch(r"([A-DFG])(\d{1,2})", name)
-        if not match or int(match[2]) > 15:
-            raise ValueError(f"pin: got {name!r}, expected a port and a bit, such as 'D3'")
-        return self._core.pin(self.index, match[1], int(match[2]))
+        try:
+            return self._core.pin(self.index, name)
+        except ValueError as wrong:
+            raise ValueError(f"robot '{self.name}': {wrong}") from None
 
     # --- what it senses
     @property
@@ -333,6 +358,8 @@ class Robot:
 
     def define_sensor(self, name: str, value: float) -> None:
         """Defines a virtual sensor, as a supervisor does; programs read it with twinpuck_virtual_sensor()."""
+        if not name:
+            raise ValueError("define_sensor: name: got '', expected a name")
         self._apply("sensor", name=name, value=float(value))
 
     def press_reset(self) -> None:
@@ -392,6 +419,8 @@ class Robot:
 
     def register(self, name: str) -> int:
         """A register of the chip or the processor by its name in the data sheet: "T1CON", "LATA", "w0"."""
+        if name != "pc" and not self._core.is_register(name):
+            raise ValueError(f"register: got {name!r}, expected a register, such as 'T1CON' or 'w0'")
         return self._value("register", name)
 
     @property

@@ -8,8 +8,8 @@ import sys
 
 
 def main(arguments: list[str]) -> int:
-    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6 internal error,
-    7 all that failed did so because a fault never took effect, 130 interrupted."""
+    """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6
+    internal error, 7 an output was lost, or all that failed did so because a fault never took effect, 130 interrupted."""
     missing = [name for name in ("numpy", "pytest") if importlib.util.find_spec(name) is None]
     if missing:
         print(f"twinpuck test: got no Python package '{missing[0]}', expected numpy and pytest (Debian: "
@@ -26,19 +26,23 @@ def main(arguments: list[str]) -> int:
             self.by_user = excinfo.type is KeyboardInterrupt
 
     class Invalid:
-        """Counts tests that failed, and those whose faults never took effect."""
+        """Counts tests that failed, those that showed nothing, and those whose file is wrong."""
 
-        failed = invalid = 0
+        failed = invalid = bad_input = 0
 
         def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
+            why = {key for key, _ in report.user_properties} if report.failed else set()
             self.failed += report.failed
-            self.invalid += report.failed and any(key == "twinpuck_invalid" for key, _ in report.user_properties)
+            self.invalid += "twinpuck_invalid" in why
+            self.bad_input += "twinpuck_bad_input" in why
 
     sys.argv[0] = "twinpuck test"  # as pytest's messages have it
     os.environ["TWINPUCK_TEST"] = "1"  # also for the processes of -n
     interrupted, outcome = Interrupted(), Invalid()
     code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])
-    if code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:
+    if code == pytest.ExitCode.TESTS_FAILED and outcome.bad_input:
+        return 2
+    if code == 7 or code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:
         return 7
     if code == pytest.ExitCode.INTERRUPTED:
         return 130 if interrupted.by_user else 2

@@ -13,13 +13,15 @@ import re
 import tempfile
 import types
 import typing
+import weakref
 
-from . import _core
-from ._errors import FirmwareFault, InvalidRun, WorldError
+from . import _arguments, _core, _outputs
+from ._arguments import checked
+from ._errors import FirmwareFault, InvalidRun, OutputLost, WorldError
 from ._faults import Fault
 from ._records import Recording
-from ._robot import Robot, Trap
-from ._worldtext import toml_text, toml_value
+from ._robot import LineState, Robot, Trap
+from ._worldtext import toml_key, toml_text, toml_value
 
 if typing.TYPE_CHECKING:
     import numpy
@@ -32,17 +34,37 @@ Firmware = typing.Union[None, str, "os.PathLike[str]", "collections.abc.Mapping[
 _OPTIONS = {"fw": "firmware", "uart": "uart1"}  # of World, by the command's
 
 
+def _program(value: typing.Any) -> Firmware:
+    if isinstance(value, collections.abc.Mapping):
+        return {_arguments.text(robot): _arguments.path(program) for robot, program in value.items()}
+    return value if value is None else _arguments.path(value)
+
+
+def _robot_or_name(value: typing.Any) -> Robot | str:
+    if not isinstance(value, (Robot, str)):
+        raise _arguments.Unfit
+    return value
+
+
+_arguments.KINDS.update({
+    "world": (_arguments.path, "a file, the name of a world, text or a dict"),
+    "Firmware": (_program, "a folder, a file, the name of a controller, or a dict of these"),
+    "Robot | str": (_robot_or_name, "a robot or its name"),
+})
+
+
 class Robots(collections.abc.Sequence):
     """The robots of a world, in its order: by name or number, to go through, to count."""
 
-    def __init__(self, robots: list[Robot]) -> None:
-        self._robots = robots
-        self._by_name = {robot.name: robot for robot in robots}
+    __slots__ = ("_world",)
+
+    def __init__(self, world: World) -> None:
+        self._world = world
 
     @property
     def names(self) -> list[str]:
         """Their names, in order."""
-        return [robot.name for robot in self._robots]
+        return list(self._world._names)
 
     @typing.overload
     def __getitem__(self, key: int | str) -> Robot: ...
@@ -52,17 +74,20 @@ class Robots(collections.abc.Sequence):
         """robots["left"], robots[0], robots[1:]. Raises KeyError or IndexError."""
         if isinstance(key, int) and not -len(self) <= key < len(self):
             raise IndexError(f"robot: got {key}, " + (f"expected {-len(self)} to {len(self) - 1}" if self else "the world has none"))
-        if not isinstance(key, str):
-            return self._robots[key]
-        if key in self._by_name:
-            return self._by_name[key]
-        raise KeyError(_no_such("robot", key, self._by_name))
+        if isinstance(key, str):
+            if key not in self._world._by_name:
+                raise KeyError(_no_such("robot", key, self._world._by_name))
+            return self._world._robot(self._world._by_name[key])
+        found = range(len(self))[key]
+        return self._world._robot(found) if isinstance(found, int) else [self._world._robot(index) for index in found]
 
     def __len__(self) -> int:
-        return len(self._robots)
+        return len(self._world._names)
 
     def __contains__(self, name: object) -> bool:
-        return name in self._by_name or name in self._robots
+        if isinstance(name, Robot):
+            return name.world is self._world
+        return name in self._world._by_name
 
     def __repr__(self) -> str:
         return f"<{len(self)} robots: {', '.join(self.names[:10])}{' ...' if len(self) > 10 else ''}>"
@@ -85,8 +110,11 @@ class _Things(dict[str, _Thing]):
         raise KeyError(_no_such(self._kind, name, self))
 
 
+@checked
 class Body:
     """A movable thing of the world: a box, a cylinder, a ball."""
+
+    __slots__ = ("_world", "_index", "name")
 
     def __init__(self, world: World, index: int, name: str) -> None:
         self._world, self._index, self.name = world, index, name
@@ -106,8 +134,11 @@ class Body:
         return f"<Body {self.name!r} at ({self.pose[0]:.3f}, {self.pose[1]:.3f}) m>"
 
 
+@checked
 class Lamp:
     """A lamp of the world."""
+
+    __slots__ = ("_world", "_index", "name")
 
     def __init__(self, world: World, index: int, name: str) -> None:
         self._world, self._index, self.name = world, index, name
@@ -118,9 +149,12 @@ class Lamp:
         self._world._apply({"do": "lamp", "lamp": self._index, "on": bool(on), **more})
 
 
+@checked
 class Condition:
     """A condition over named signals (`twinpuck list signals`): "abs(x_m) < 0.3 && led0", "left.x_m > right.x_m",
     "$state == 3" for a variable of the program. Called, it says whether it holds now; value is the number behind it."""
+
+    __slots__ = ("_world", "text", "_robot", "_bound_to", "_watch")
 
     def __init__(self, world: World, text: str, robot: Robot | None) -> None:
         self._world, self.text, self._robot = world, text, robot
@@ -148,6 +182,7 @@ class Condition:
         return f"<Condition {self.text!r}>"
 
 
+@checked
 class World:
     """A world with its robots and their programs, at its time 0 when it is opened.
 
@@ -167,8 +202,11 @@ class World:
     traps: "raise": run() and all that runs raise FirmwareFault when a program traps; "report": they do not
 
     Raises WorldError when anything is wrong with the file, a program or an option; OSError when a file cannot be read.
-    A world is closed by close(), by `with`, or when nothing refers to it any more.
+    A world is closed by close(), by `with`, or when nothing refers to it or a robot of it any more.
     """
+
+    __slots__ = ("_text", "_file", "_options", "_traps", "_callables", "_core", "_arrays", "_lines", "_robots", "_names",
+                 "_by_name", "__weakref__")
 
     def __init__(self, source: Source, firmware: Firmware = None, *, seed: int | None = None, hal: str = "",
                  optimise: str = "", sanitize: bool = False, measured: collections.abc.Iterable[str] = (),
@@ -176,8 +214,7 @@ class World:
                  uart1: collections.abc.Mapping[str, str] | None = None,
                  uart2: collections.abc.Mapping[str, str] | None = None,
                  supervisors: collections.abc.Iterable[str] = (), traps: str = "raise") -> None:
-        if traps not in ("raise", "report"):
-            raise WorldError(f"World: traps: got {traps!r}, expected 'raise' or 'report'")
+        self.traps = traps
         if hal not in ("", "sim", "dspic"):
             raise WorldError(f"World: hal: got {hal!r}, expected 'sim' or 'dspic'")
         if optimise not in ("", "-O0", "-O1", "-O2", "-Os"):
@@ -185,18 +222,22 @@ class World:
         if threads < 1 or threads > 256:
             raise WorldError(f"World: threads: got {threads}, expected 1 to 256")
         _check_seed(seed)
+        if wrong := _outputs.unwritable([(coverage, "World: coverage")]):
+            raise WorldError(wrong[0])
         __tracebackhide__ = True
-        self._text, self._file = _read(source)
+        self._text, self._file = read(source)
         self._options: dict[str, typing.Any] = {
             "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
             "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
             "uart1": _by_robot(uart1 or {}), "uart2": _by_robot(uart2 or {}),
             "firmware": _choices(firmware, pathlib.Path(self._file).parent)}
-        self.traps = traps
         self._callables: list[collections.abc.Callable[[World], object]] = []
         self._core: typing.Any = None
+        self._lines: dict[tuple[int, int], LineState] = {}  # by robot and UART
+        self._robots: dict[int, weakref.ref[Robot]] = {}  # while somebody uses them
         self._open()
-        self.robots = Robots([Robot(self, i, name) for i, name in enumerate(self._core.names)])
+        self._names: list[str] = self._core.names
+        self._by_name = {name: i for i, name in enumerate(self._names)}
 
     def _open(self) -> None:
         __tracebackhide__ = True
@@ -206,6 +247,35 @@ class World:
             raise WorldError(re.sub(r"^command line: --(\w+)", lambda m: "World: " + _OPTIONS.get(m[1], m[1]), str(wrong),
                                     flags=re.M)) from None
         self._arrays = _core.Arrays(len(self._core.names))
+
+    @property
+    def traps(self) -> str:
+        """"raise" or "report", as it was opened with; it can be set."""
+        return self._traps
+
+    @traps.setter
+    def traps(self, traps: str) -> None:
+        if traps not in ("raise", "report"):
+            raise WorldError(f"World: traps: got {traps!r}, expected 'raise' or 'report'")
+        self._traps = traps
+
+    @property
+    def robots(self) -> Robots:
+        """Its robots."""
+        return Robots(self)
+
+    def _robot(self, index: int) -> Robot:
+        known = self._robots.get(index)
+        robot = known and known()
+        if robot is None:
+            robot = Robot(self, index, self._names[index])
+            self._robots[index] = weakref.ref(robot)
+        return robot
+
+    def _mine(self, where: str, robot: Robot | None) -> Robot | None:
+        if robot is not None and robot.world is not self:
+            raise ValueError(f"{where}: robot: got {robot!r} of another world, expected one of this one")
+        return robot
 
     def _apply(self, what: dict[str, typing.Any]) -> None:
         for key, value in what.items():
@@ -250,6 +320,8 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Runs for so many ticks."""
         __tracebackhide__ = True
+        if ticks < 0:
+            raise ValueError(f"step: ticks: got {ticks}, expected 0 or more")
         for _ in range(ticks):
             self._run(self.tick_s / 2, None)
 
@@ -292,15 +364,14 @@ class World:
         if seed is not None:
             _check_seed(seed)
             self._options["seed"] = seed
-        self._core.close()
+        self.close()
         self._open()
-        for robot in self.robots:
-            robot._searched.clear()
-            robot._looked_at.clear()
+        self._lines.clear()
 
     def close(self) -> None:
-        """Ends programs of the PC and writes coverage. What is asked or run later raises RuntimeError."""
-        self._core.close()
+        """Ends programs of the PC and writes coverage; raises OutputLost. What is asked or run later raises RuntimeError."""
+        if problems := self._core.close():
+            raise OutputLost(problems)
 
     def __enter__(self) -> World:
         return self
@@ -313,7 +384,7 @@ class World:
     def condition(self, text: str, robot: Robot | str | None = None) -> Condition:
         """A condition over signals, to be called. robot: whose a name is that stands without a robot's; in a world of
         one robot it need not be said. Raises WorldError, with a guess for names that are near."""
-        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else robot)
+        return Condition(self, text, self.robots[robot] if isinstance(robot, str) else self._mine("condition", robot))
 
     def signal(self, name: str) -> float:
         """A signal now, in its unit: "time_s", "puck.x_m", "puck.$speed"."""
@@ -327,9 +398,10 @@ class World:
         It begins now, at a time (s) or when a condition over signals holds, for robot `robot` (None: for each), and ends
         `for_s` later, or never. `twinpuck list faults` names kinds and their values. Raises ValueError.
         """
-        table = {"kind": kind, "robot": robot.name if isinstance(robot, Robot) else robot, "at_s": at_s, "when": when,
+        mine = self._mine("inject", robot) if isinstance(robot, Robot) else None
+        table = {"kind": kind, "robot": mine.name if mine else robot, "at_s": at_s, "when": when,
                  "for_s": for_s, **values}
-        text = "".join(f"{key} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
+        text = "".join(f"{toml_key(key)} = {toml_value(v, f'inject: {key}')}\n" for key, v in table.items() if v is not None)
         return self._add_faults("[[fault]]\n" + text)[0]
 
     def load_faults(self, file: str | os.PathLike[str]) -> list[Fault]:
@@ -471,19 +543,36 @@ def _check_seed(seed: int | None) -> None:
         raise WorldError(f"World: seed: got {seed!r}, expected a whole number from 0 to 2**64 - 1")
 
 
-def _read(source: Source) -> tuple[str, str]:
-    """A world's text, and the file that it is of, or would be."""
+class Text(typing.NamedTuple):
+    """A world's text, and the file that it is of, or would be: where relative names begin."""
+
+    text: str
+    file: str
+
+
+def text_in(source: typing.Any, folder: str | os.PathLike[str]) -> typing.Any:
+    """A dict or text so that relative names in it begin in `folder`; anything else as it is."""
     if isinstance(source, collections.abc.Mapping):
-        return toml_text(source), os.path.join(os.getcwd(), "world.toml")
-    name = os.fspath(source)
-    if isinstance(source, str) and "\n" in source:
-        return source, os.path.join(os.getcwd(), "world.toml")
+        source = toml_text(source)
+    elif not isinstance(source, str) or "\n" not in source:
+        return source
+    return Text(_arguments.fit("World: source", "str", source), os.path.join(os.path.abspath(folder), "world.toml"))
+
+
+def read(source: Source) -> Text:
+    """What World opens."""
+    source = text_in(source, os.getcwd())
+    if isinstance(source, Text):
+        return source
+    name = os.fspath(_arguments.fit("World: source", "world", source))
+    if not name:
+        raise WorldError(f"World: source: got {source!r}, expected {_arguments.KINDS['world'][1]}")
     try:
         path = _core.find_world(name)
     except ValueError as wrong:
         raise WorldError(str(wrong)) from None
     try:
-        return _core.read_world(path), os.path.abspath(path)
+        return Text(_core.read_world(path), os.path.abspath(path))
     except ValueError as wrong:
         raise OSError(str(wrong)) from None
 

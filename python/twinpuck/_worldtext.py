@@ -5,7 +5,13 @@ from __future__ import annotations
 import collections.abc
 import json
 import numbers
+import re
 import typing
+
+
+def toml_key(key: str) -> str:
+    """A key, or any text, in quotes."""
+    return json.dumps(key, ensure_ascii=False).replace("\x7f", "\\u007f")
 
 
 def toml_value(value: typing.Any, where: str) -> str:
@@ -19,9 +25,11 @@ def toml_value(value: typing.Any, where: str) -> str:
     if isinstance(value, numbers.Real):
         return repr(float(value))
     if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        if re.search("[\ud800-\udfff]", value):
+            raise TypeError(f"{where}: got {value!r}, expected text without halves of characters")
+        return toml_key(value)
     if isinstance(value, collections.abc.Mapping):
-        inner = (f"{json.dumps(str(key))} = {toml_value(v, f'{where}.{key}')}" for key, v in value.items())
+        inner = (f"{toml_key(str(key))} = {toml_value(v, f'{where}.{key}')}" for key, v in value.items())
         return "{" + ", ".join(inner) + "}"
     if isinstance(value, collections.abc.Sequence) and not isinstance(value, (bytes, bytearray)):
         return "[" + ", ".join(toml_value(v, f"{where}[{i}]") for i, v in enumerate(value)) + "]"
@@ -37,9 +45,9 @@ def toml_text(world: collections.abc.Mapping[str, typing.Any]) -> str:
         elif isinstance(value, (list, tuple)) and any(isinstance(v, collections.abc.Mapping) for v in value):
             tables += [f"[[{key}]]\n" + _table(v, f"{key}[{i}]") for i, v in enumerate(value)]
         else:
-            lines.append(f"{json.dumps(key)} = {toml_value(value, key)}\n")
+            lines.append(f"{toml_key(key)} = {toml_value(value, key)}\n")
     return "".join(lines) + "\n" + "\n".join(tables)
 
 
 def _table(table: collections.abc.Mapping[str, typing.Any], where: str) -> str:
-    return "".join(f"{json.dumps(str(k))} = {toml_value(v, f'{where}.{k}')}\n" for k, v in table.items())
+    return "".join(f"{toml_key(str(k))} = {toml_value(v, f'{where}.{k}')}\n" for k, v in table.items())

@@ -10,23 +10,22 @@
 from __future__ import annotations
 
 import collections.abc
+import difflib
 import itertools
 import os
 import pathlib
 import re
-import shlex
-import shutil
 import typing
 
 import pytest
 
-from . import _declarative, _matrix
-from ._errors import InvalidRun, TwinpuckError
+from . import _core, _declarative, _failures, _matrix, _outputs
+from ._errors import InvalidRun, OutputLost, TwinpuckError
 from ._robot import Robot
-from ._world import World
+from ._world import World, read, text_in
 
 _WORLDS = pytest.StashKey[list[World]]()
-_LAST_LINES = 20
+_LOST = pytest.StashKey[list[str]]()  # outputs, a line each
 
 
 # --- options and markers
@@ -53,20 +52,56 @@ def option(config: pytest.Config, name: str) -> typing.Any:
     return config.getoption(f"twinpuck_{name}")
 
 
+_MARKERS = {
+    "world": "world(source, **options): the world of the fixture `world`, as twinpuck.World",
+    "robot": "robot(name): the robot of the fixture `robot`; else the world's first",
+    "points": "points(n): what passing is worth in `twinpuck grade`; else 1",
+    "seeds": "seeds(1..50): run with each of these seeds",
+    "hals": "hals(sim, dspic): run with programs linked with each of these HALs",
+    "selectors": "selectors(0..15): run with each of these positions of the selector",
+}
+
+
 def pytest_configure(config: pytest.Config) -> None:
-    config.addinivalue_line("markers", "world(source, **options): the world of the fixture `world`, as twinpuck.World")
-    config.addinivalue_line("markers", "robot(name): the robot of the fixture `robot`; else the world's first")
-    config.addinivalue_line("markers", "points(n): what passing is worth in `twinpuck grade`; else 1")
-    config.addinivalue_line("markers", "seeds(1..50): run with each of these seeds")
-    config.addinivalue_line("markers", "hals(sim, dspic): run with programs linked with each of these HALs")
-    config.addinivalue_line("markers", "selectors(0..15): run with each of these positions of the selector")
+    for line in _MARKERS.values():
+        config.addinivalue_line("markers", line)
+    config.stash[_LOST] = []
+    if wrong := wrong_options(config):
+        raise pytest.UsageError("\n".join(wrong))
+
+
+def wrong_options(config: pytest.Config) -> list[str]:
+    """What is wrong with the command line's options."""
     for axis in _matrix.AXES:
         try:
             axis.values(option(config, axis.option))
         except ValueError as wrong:
-            raise pytest.UsageError(f"command line: {wrong}") from None
-    if not hasattr(config, "workerinput"):  # one process begins, not each of several
-        shutil.rmtree(failures_folder(config), ignore_errors=True)
+            return [f"command line: {wrong}"]
+    firmware, coverage, failures = (option(config, name) for name in ("firmware", "coverage", "failures"))
+    if firmware and not pathlib.Path(firmware).exists():
+        return [f"{firmware}: --firmware: got nothing, expected a folder of C files, an image or a program of the PC"]
+    if hasattr(config, "workerinput"):  # one process asks, not each of several
+        return []
+    junit = getattr(config.option, "xmlpath", None)
+    problems = _outputs.conflicts([(coverage, "--coverage"), (junit, "--junitxml"), (failures, "--failures")])
+    if junit and os.path.dirname(junit):  # pytest makes it
+        problems += filter(None, [_outputs.wrong_folder(os.path.dirname(junit), "--junitxml")])
+    if failures and os.path.exists(failures):
+        problems += filter(None, [_outputs.wrong_folder(failures, "--failures")])
+    return problems or _outputs.unwritable([(coverage, "--coverage"), (junit, "--junitxml")])
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtestloop(session: pytest.Session) -> None:
+    """Tests are about to run: what failures of the last ones left goes."""
+    is_broken = session.testsfailed and not session.config.option.continue_on_collection_errors
+    if is_broken or session.config.option.collectonly or hasattr(session.config, "workerinput"):
+        return  # one process begins, not each of several
+    try:
+        _failures.clear(failures_folder(session.config))
+    except OSError as wrong:
+        raise pytest.UsageError(f"{wrong.filename}: --failures: got {wrong.strerror!r}, expected a file that can be "
+                                "removed") from None
 
 
 def failures_folder(config: pytest.Config) -> pathlib.Path:
@@ -74,16 +109,36 @@ def failures_folder(config: pytest.Config) -> pathlib.Path:
     return pathlib.Path(option(config, "failures") or config.rootpath / ".twinpuck" / "failures")
 
 
+def wrong_marker(marker: pytest.Mark, known: set[str]) -> str:
+    """What is wrong with a marker at a test; empty: nothing. known: those that somebody has registered."""
+    if marker.name not in known:
+        near = difflib.get_close_matches(marker.name, _MARKERS, 1, 0.75)
+        return f"unknown marker '{marker.name}'; did you mean '{near[0]}'?" if near else ""
+    arguments = [*marker.args, *marker.kwargs.values()]
+    if marker.name == "world" and not marker.args and "source" not in marker.kwargs:
+        return "world: got no source, expected a file, a name, a text or a dict"
+    if marker.name == "robot" and not (len(arguments) == 1 and isinstance(arguments[0], (str, int))):
+        return f"robot: got {arguments}, expected a name or a number"
+    if marker.name == "points" and not (len(marker.args) == 1 == len(arguments) and _declarative.is_points(marker.args[0])):
+        return f"points: got {', '.join(map(repr, arguments)) or 'none'}, expected a number from 0 to 1e6"
+    for axis in (axis for axis in _matrix.AXES if axis.marker == marker.name):
+        try:
+            axis.marked(marker.args)
+        except ValueError as wrong:
+            return str(wrong).replace(f"--{axis.option}", axis.marker, 1)
+    return ""
+
+
 def pytest_generate_tests(metafunc: pytest.Metafunc) -> None:
+    known = {re.split(r"[(:]", line)[0].strip() for line in metafunc.config.getini("markers")}
+    for each in metafunc.definition.iter_markers():
+        if wrong := wrong_marker(each, known):
+            raise pytest.Collector.CollectError(f"{metafunc.definition.nodeid}: {wrong}")
     if not {"world", "make_world"} & set(metafunc.fixturenames):
         return
     for axis in _matrix.AXES:
         marker = metafunc.definition.get_closest_marker(axis.marker)
-        try:
-            values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
-        except ValueError as wrong:
-            said = str(wrong).replace(f"--{axis.option}", axis.marker, 1)
-            raise pytest.UsageError(f"{metafunc.definition.nodeid}: {said}") from None
+        values = axis.values(option(metafunc.config, axis.option)) or axis.marked(marker and marker.args)
         if values:
             metafunc.fixturenames.append(axis.fixture)
             metafunc.parametrize(axis.fixture, values, ids=[f"{axis.name}={v}" for v in values], indirect=True)
@@ -137,8 +192,16 @@ def make_world(request: pytest.FixtureRequest, _chosen: dict[str, typing.Any]) -
         return world
 
     yield make
+    close(request.config, worlds)
+
+
+def close(config: pytest.Config, worlds: list[World]) -> None:
+    """Closes a test's worlds. That coverage was lost is no test's failure: it is told at the end."""
     for world in worlds:
-        world.close()
+        try:
+            world.close()
+        except OutputLost as wrong:
+            config.stash[_LOST] += str(wrong).splitlines()
 
 
 @pytest.fixture
@@ -161,15 +224,34 @@ def robot(request: pytest.FixtureRequest, world: World) -> Robot:
     return world.robots[marker.args[0] if marker else 0]
 
 
+def place_of(source: typing.Any, folder: pathlib.Path) -> typing.Any:
+    """A world's source as it is meant in a test's folder."""
+    source = text_in(source, folder)
+    if isinstance(source, (str, os.PathLike)):
+        return next((file for file in (folder / source, folder / f"{source}.toml") if file.is_file()), source)
+    return source
+
+
 def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
                firmware: typing.Any = None, **options: typing.Any) -> World:
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
-    if isinstance(source, (str, pathlib.Path)) and "\n" not in str(source) and (folder / source).is_file():
-        source = folder / source
+    source = place_of(source, folder)
+
+    def here(program: typing.Any) -> typing.Any:
+        return folder / program if isinstance(program, (str, os.PathLike)) and (folder / program).exists() else program
+
+    def supervisor(given: str) -> str:
+        name, equals, program = given.rpartition("=")
+        return f"{name}{equals}{here(program)}"
+
     if option(config, "firmware"):
         firmware = pathlib.Path(option(config, "firmware")).resolve()
-    elif isinstance(firmware, (str, pathlib.Path)) and (folder / firmware).exists():
-        firmware = folder / firmware
+    elif isinstance(firmware, collections.abc.Mapping):
+        firmware = {robot: here(program) for robot, program in firmware.items()}
+    else:
+        firmware = here(firmware)
+    if "supervisors" in options:
+        options["supervisors"] = [supervisor(given) for given in options["supervisors"]]
     for name in ("seed", "hal"):
         if name in chosen:
             options[name] = chosen[name]
@@ -192,11 +274,26 @@ def pytest_collect_file(file_path: pathlib.Path, parent: pytest.Collector) -> py
     return DeclarativeFile.from_parent(parent, path=file_path)
 
 
+def wrong_places(file: _declarative.TestFile, firmware: str | None) -> str:
+    """What is wrong with the world and the program that a file names, of which `firmware` takes the place."""
+    try:
+        world = read(place_of(file.table["world"], file.path.parent))
+    except (TwinpuckError, OSError) as wrong:
+        return f"{file.path}: test.world: {wrong}"
+    problems = _core.check_world(*world)
+    if not firmware and "firmware" in file.table:
+        wrong_name = _core.check_firmware(file.table["firmware"], str(file.path.parent))
+        problems += f"{file.path}: test.firmware: {wrong_name}" if wrong_name else ""
+    return problems
+
+
 class DeclarativeFile(pytest.File):
     """A *.test.toml file: a test for each seed, HAL and selector."""
 
     def collect(self) -> collections.abc.Iterator[pytest.Item]:
         file = _declarative.TestFile(self.path)
+        if wrong := wrong_places(file, option(self.config, "firmware")):
+            raise _declarative.TestFileError(wrong)
         axes = [[(axis.name, value) for value in axis.values(option(self.config, axis.option)) or file.values(axis)]
                 for axis in _matrix.AXES]
         for chosen in itertools.product(*(values for values in axes if values)):
@@ -223,8 +320,7 @@ class DeclarativeTest(pytest.Item):
         _declarative.Run(self.file, world).run()
 
     def teardown(self) -> None:
-        for world in self.stash.get(_WORLDS, []):
-            world.close()
+        close(self.config, self.stash.get(_WORLDS, []))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: typing.Any = None) -> typing.Any:
         return str(excinfo.value) if isinstance(excinfo.value, TwinpuckError) else super().repr_failure(excinfo)
@@ -250,10 +346,12 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
         return
     if call.excinfo is not None and isinstance(call.excinfo.value, InvalidRun):
         item.user_properties.append(("twinpuck_invalid", str(call.excinfo.value)))
+    if call.excinfo is not None and isinstance(call.excinfo.value, _declarative.TestFileError):
+        item.user_properties.append(("twinpuck_bad_input", str(call.excinfo.value)))
     for number, world in enumerate(item.stash.get(_WORLDS, [])):
         properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
         try:
-            shown, files = show(world, folder_of(item, number))
+            shown, files = _failures.show(world, failures_folder(item.config) / _failures.name_of(item.nodeid, number))
         except (TwinpuckError, OSError, RuntimeError) as wrong:  # the failure itself must be told
             shown, files = f"nothing more can be shown: {wrong}", {}
         report.sections.append((f"world {pathlib.Path(world.file).name}", shown))
@@ -265,48 +363,32 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
     report.user_properties = list(item.user_properties)
 
 
-def folder_of(item: pytest.Item, number: int) -> pathlib.Path:
-    """Where the failure of a test leaves its files; `number`: of its world."""
-    name = re.sub(r"[^\w.=\-\[\]]+", "_", item.nodeid)
-    return failures_folder(item.config) / (name if number == 0 else f"{name}-{number + 1}")
+# --- outputs that are lost
 
-
-def show(world: World, folder: pathlib.Path) -> tuple[str, dict[str, typing.Any]]:
-    """What is known of a run, as text; and the files that it leaves in `folder`, with the command that shows it again."""
-    folder.mkdir(parents=True, exist_ok=True)
-    picture, recording = folder / "picture.png", folder / "run.inputs"
-    world.picture(picture)
-    world.save_replay(recording)
-    lines = [f"at {world.time_s:.3f} s, seed {world.seed}"]
-    for robot in world.robots[:8]:
-        lines += told(robot)
-    if len(world.robots) > 8:
-        lines.append(f"... and {len(world.robots) - 8} robots more")
-    again = f"twinpuck view --replay {shlex.quote(nearby(recording))}"
-    lines += [f"picture: {nearby(picture)}", f"again:   {again}"]
-    return "\n".join(lines), {"picture": picture, "recording": recording, "again": again}
-
-
-def nearby(path: pathlib.Path) -> str:
-    """As a person here would type it."""
+@pytest.hookimpl(hookwrapper=True, trylast=True)
+def pytest_sessionfinish(session: pytest.Session) -> collections.abc.Iterator[None]:
+    outcome = yield
+    lost = session.config.stash[_LOST]
+    junit = getattr(session.config.option, "xmlpath", None)
     try:
-        return str(path.relative_to(pathlib.Path.cwd()))
-    except ValueError:
-        return str(path)
+        outcome.get_result()
+    except OSError as wrong:
+        if not junit:
+            raise
+        lost.append(_outputs.lost(f"{junit}: --junitxml", wrong))
+        outcome.force_result(None)
+    if hasattr(session.config, "workeroutput"):
+        session.config.workeroutput["twinpuck_lost"] = lost
+    elif lost:
+        session.exitstatus = 7
 
 
-def told(robot: Robot) -> list[str]:
-    """A robot's state in a few lines: where it is, where its program stands and why, its last serial lines."""
-    lines = [f"{robot.name}: at ({robot.x_m:.3f}, {robot.y_m:.3f}) m, {robot.heading_deg:.0f} deg, selector "
-             f"{robot.selector}, battery {robot.battery_v:.2f} V"]
-    if robot.hal:
-        state = "stopped in" if robot.has_stopped else "stands in"
-        lines.append(f"  its program ({robot.program}, hal {robot.hal}) {state} {robot.place}")
-        lines += [f"  {line}" for line in robot.why().rstrip().splitlines()]
-    lines += [f"  trap: {line}" for trap in robot.traps for line in str(trap).splitlines()]
-    lines += [f"  {diagnosis}" for diagnosis in robot.diagnoses]
-    for port, serial in (("uart1", robot.uart1), ("uart2", robot.uart2)):
-        if serial.lines:
-            lines.append(f"  last lines of {port}:")
-            lines += [f"    {line.encode('unicode_escape').decode()}" for line in serial.lines[-_LAST_LINES:]]
-    return lines
+@pytest.hookimpl(optionalhook=True)
+def pytest_testnodedown(node: typing.Any) -> None:
+    """Of the processes of -n."""
+    node.config.stash[_LOST] += getattr(node, "workeroutput", {}).get("twinpuck_lost", [])
+
+
+def pytest_terminal_summary(terminalreporter: typing.Any, config: pytest.Config) -> None:
+    for line in dict.fromkeys(config.stash[_LOST]):
+        terminalreporter.write_line(line, red=True)

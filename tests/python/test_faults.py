@@ -73,3 +73,18 @@ def test_a_test_with_a_fault_that_took_no_effect_does_not_pass(project, command)
     assert done.returncode == 7 and "1 passed" in done.stdout and "2 failed" in done.stdout, done.stdout
     (folder / "test_a.py").write_text("def test_b(world): assert 0\n")
     assert command("test", cwd=folder).returncode == 1
+
+
+def test_a_fault_of_the_run_before_is_none_of_this_one(opened):
+    import twinpuck
+
+    world = opened("int main(void) { while (1) ; }")
+    old = world.inject("wheel_stuck", wheel="left")
+    world.reset()
+    assert repr(old) == "<Fault 0 of the run before reset()>"
+    new = world.inject("wheel_stuck", wheel="right", at_s=1)
+    for ask in (old.end, lambda: old.begun_s):
+        with pytest.raises(twinpuck.TwinpuckError, match=r"^fault 0: belongs to the run before reset\(\), expected one of this run$"):
+            ask()
+    world.run(0.1)
+    assert new.ended_s is None and len(world.faults) == 1

@@ -276,3 +276,83 @@ def test_ctrl_c_ends_all_of_it(tmp_path):
     time.sleep(0.5)
     running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
     assert str(tmp_path) not in running
+
+
+@pytest.fixture
+def small(tmp_path):
+    """A folder with a test that one of two submissions passes."""
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "world.toml").write_text(WORLD)
+    (tmp_path / "tests" / "test_a.py").write_text("def test_a(world, robot):\n    world.run(0.1)\n    assert robot.variable('n') == 1\n")
+    for name, n in (("good", 1), ("bad", 0)):
+        (tmp_path / "class" / name).mkdir(parents=True)
+        (tmp_path / "class" / name / "main.c").write_text(f"volatile int n = {n}; int main(void) {{ while (1) ; }}")
+    return tmp_path
+
+
+TABLES = ["--csv", "g.csv", "--html", "g.html", "--junitxml", "g.xml"]
+
+
+def test_an_output_that_is_lost_takes_no_other_with_it(small, command):
+    (small / "class" / "none").mkdir()
+    for name in ("good", "bad"):
+        (small / "class" / name / "p").mkdir()
+        (small / "class" / name / "main.c").rename(small / "class" / name / "p" / "main.c")
+    done = command("grade", "tests", "--submissions", "class", *TABLES, "--keep", "kept", "--program", "p", cwd=small)
+    assert done.returncode == 0 and "\nnone: got no folder 'p', expected the program there" in done.stdout, done.stderr
+    assert [place.name for place in (small / "kept").iterdir()] == ["bad"] and len(list((small / "kept").rglob("run.inputs"))) == 1
+    for file in TABLES[1::2]:
+        assert (small / file).stat().st_size > 0
+        (small / file).unlink()
+    (small / "kept" / "bad").rename(small / "old")
+    (small / "kept" / "bad").write_text("a file")
+    with open("/dev/full", "w") as full:
+        lost = subprocess.run([TWINPUCK, "grade", "tests", "--submissions", "class", *TABLES[:2], "--html", "/dev/full", *TABLES[4:],
+                               "--keep", "kept", "--program", "p"], cwd=small, text=True, stdout=full, stderr=subprocess.PIPE, timeout=600, check=False)
+    reads(lost.stderr, "standard output: cannot be written: No space left on device\n"
+                       "/dev/full: cannot be written: No space left on device\nkept/bad: cannot be written: File exists")
+    assert lost.returncode == 7 and (small / "g.csv").exists() and (small / "g.xml").exists()
+
+
+@pytest.mark.parametrize("words, says", [
+    (["--csv", "g.csv", "--html", "./x/../g.csv"], "./x/../g.csv: --html: got the file of --csv, expected another; give them different names"),
+    (["--csv", "g", "--keep", "g/"], "g: --keep: got the file of --csv, expected another; give them different names"),
+    (["--csv", "tests/test_a.py"], "tests/test_a.py: --csv: got what is there already for the run to read, expected another place"),
+    (["--junitxml", "link.c"], "link.c: --junitxml: got what is there already for the run to read, expected another place"),
+    (["--keep", "class"], "class: --keep: got what is there already for the run to read, expected another place"),
+    (["--html", "pipe"], "pipe: --html: got 'a pipe', expected a file that can be written"),
+    (["--html", "x"], "x: --html: got 'Is a directory', expected a file that can be written"),
+    (["--csv", "no/g.csv"], "no/g.csv: --csv: got 'No such file or directory', expected a file that can be written"),
+    (["--keep", "pipe"], "pipe: --keep: got 'File exists', expected a folder, or a place where one can be made"),
+    (["--program", "nope"], "…/class: --program: got no folder 'nope' in any submission, expected the program there"),
+])
+def test_outputs_that_cannot_be_are_refused_before_anything_runs(small, command, words, says):
+    (small / "x").mkdir()
+    os.mkfifo(small / "pipe")
+    (small / "link.c").symlink_to(small / "class" / "good" / "main.c")
+    done = command("grade", "tests", "--submissions", "class", *words, cwd=small, timeout=60)
+    assert done.returncode == 2 and done.stdout == ""
+    reads(done.stderr, says)
+    assert not (small / "g.csv").exists() and "volatile" in (small / "link.c").read_text()
+
+
+@pytest.mark.parametrize("tests, says", [
+    ("import nothing_of_that_name\n", "No module named 'nothing_of_that_name'"), ("x = 1\n", "/tests: tests: got none, expected one or more"),
+    ("import pytest\n@pytest.mark.seeds('x')\ndef test_a(world): pass\n", "seeds: got 'x', expected numbers")])
+def test_tests_that_nobody_can_pass_are_bad_input(small, command, tests, says):
+    (small / "tests" / "test_a.py").write_text(tests)
+    done = command("grade", "tests", "--submissions", "class", "--csv", "g.csv", cwd=small)
+    assert done.returncode == 2 and says in done.stderr and done.stdout == "" and not (small / "g.csv").exists(), done.stderr
+
+
+def test_a_signal_leaves_nothing_behind(small):
+    (small / "tests" / "test_a.py").write_text("import time\ndef test_a(): time.sleep(62.25)\n")
+    before = set(os.listdir("/var/tmp"))
+    child = subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class", "--jobs", "2"], cwd=small)
+    time.sleep(4)
+    child.send_signal(signal.SIGTERM)
+    assert child.wait(20) == 143
+    time.sleep(0.5)
+    lines = [open(f"/proc/{pid}/cmdline", "rb").read() for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cmdline")]
+    assert not [line for line in lines if os.fsencode(small) in line]
+    assert not [name for name in set(os.listdir("/var/tmp")) - before if os.path.exists(f"/var/tmp/{name}/good")]

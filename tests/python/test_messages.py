@@ -28,9 +28,10 @@ def rows():
     return found.items()
 
 
-def opened(**options):
-    """A world of one robot "puck" that runs the folder's main.c."""
-    return twinpuck.World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": ".", "position": [0, 0]}]}, **options)
+def opened(more=None, **options):
+    """A world of one robot "puck" that runs the folder's main.c; `more`: what else is in it."""
+    return twinpuck.World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": ".", "position": [0, 0]}], **(more or {})},
+                          **options)
 
 
 def play():
@@ -45,11 +46,16 @@ def values(axis, text):
     return {a.name: a for a in _matrix.AXES}[axis].values(text)
 
 
+def marked(axis, arguments):
+    """What @pytest.mark.seeds and so on mean."""
+    return {a.name: a for a in _matrix.AXES}[axis].marked(arguments)
+
+
 @pytest.mark.parametrize("name, steps", rows(), ids=[name for name, _ in rows()])
 def test_are_said_word_for_word(name, steps, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     known = {"World": twinpuck.World, "twinpuck": twinpuck, "live": live, "numpy": numpy, "command": os.environ["TWINPUCK"],
-             "opened": opened, "play": play, "values": values}
+             "opened": opened, "play": play, "values": values, "marked": marked}
     for kind, call, says, files in steps:
         for file, text in files.items():
             (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)

@@ -47,6 +47,14 @@ def mine(project):
     return make
 
 
+SAYS = """from controller import Supervisor
+robot = Supervisor()
+print("WORD", flush=True)
+while robot.step(32) != -1:
+    pass
+"""
+
+
 def names(output):
     """Tests that were run, with how they ended."""
     return dict(re.findall(r"^(\S+::.+?) (PASSED|FAILED|ERROR)", output, re.M))
@@ -138,7 +146,7 @@ def test_firmware_of_the_command_line_goes_before(mine, command, programs):
     folder = mine("def test_dark(world, robot):\n    world.run(0.1)\n    assert not robot.leds[0]\n")
     assert command("test", cwd=folder).returncode == 1
     assert command("test", "--firmware", programs("int main(void) { while (1) ; }"), cwd=folder).returncode == 0
-    assert command("test", "--firmware", "nowhere", cwd=folder).returncode == 1
+    assert command("test", "--firmware", "nowhere", cwd=folder).returncode == 2
 
 
 def test_coverage_and_sanitize(mine, command):
@@ -238,3 +246,148 @@ def test_the_page_of_test_files_is_made_of_the_table():
     page = pathlib.Path(__file__).parents[2] / "docs" / "testing.md"
     assert page.read_text() == _declarative.with_page(page.read_text()), \
         "run PYTHONPATH=build/python python3 -m twinpuck._declarative docs/testing.md"
+
+
+def test_only_what_failures_left_is_removed_and_only_when_tests_run(mine, command):
+    folder = mine("def test_dark(world):\n    assert 0\n", mine__txt="mine", **{"kept/run.inputs": "mine", "test_a.py_notes/notes.txt": "mine"})
+    left = folder / "test_mine.py_test_dark"
+    assert command("test", "--failures", ".", cwd=folder).returncode == 1
+    assert {file.name for file in left.iterdir()} == {"picture.png", "run.inputs"}
+    assert command("test", "--failures", ".", "--collect-only", cwd=folder).returncode == 0
+    assert (left / "run.inputs").exists()
+    assert command("test", "--failures", ".", "-k", "nothing", cwd=folder).returncode == 5
+    assert not left.exists()
+    for file in ("mine.txt", "kept/run.inputs", "test_a.py_notes/notes.txt", "main.c", "world.toml", "test_mine.py"):
+        assert (folder / file).exists(), file
+    # what somebody put beside ours stays
+    assert command("test", "--failures", ".", cwd=folder).returncode == 1
+    (left / "notes.txt").write_text("mine")
+    command("test", "--failures", ".", "-k", "nothing", cwd=folder)
+    assert [file.name for file in left.iterdir()] == ["notes.txt"]
+
+
+def test_each_failure_has_a_folder_of_its_own(mine, command):
+    folder = mine("import pytest\n@pytest.mark.parametrize('n', ['a/b', 'a_b', 'a b', 'a:b', 'x' * 300, 'x' * 299])\n"
+                  "def test_n(world, n):\n    assert 0\n"
+                  "class TestA:\n    def test_b(self, world):\n        assert 0\nclass TestA_test:\n    def test_b(self, world):\n        assert 0\n")
+    done = command("test", cwd=folder)
+    assert done.returncode == 1 and "nothing more can be shown" not in done.stdout, done.stdout
+    left = [place for place in (folder / ".twinpuck" / "failures").iterdir() if (place / "run.inputs").exists()]
+    assert len(left) == 8 and "test_mine.py_test_n[a_b]" in {place.name for place in left}
+
+
+def test_names_of_failures_differ():
+    from twinpuck import _failures
+
+    names = ["a.py::t[x]", "a.py::t[x y]", "a.py::t[x_y]", "a.py::T::t", "a.py::T_t", "b/a.py::t", "b_a.py::t", "a.py::t[x.py_y]",
+             "a.py_t[x.py::y]", "a.test.toml::x", "a.test.toml::x~2", "a.py::t[ä]", "a.py::t[" + "ä" * 150 + "]", "a.py::t[" + "ä" * 149 + "]"]
+    folders = [_failures.name_of(name, number) for name in names for number in range(3)]
+    assert len(set(folders)) == len(folders) and max(len(name.encode()) for name in folders) < 256
+    assert folders[0] == "a.py_t[x]"
+
+
+def test_names_in_a_world_of_a_test_begin_in_the_tests_folder(mine, command, tmp_path):
+    """Also where the folder that the command is called in holds other programs."""
+    dark = MAIN.replace("e_set_led(0, 1);", "")
+    world = '{"robot": [{"name": "puck", "firmware": FW, "position": [0, 0]}]}'
+    folder = mine(main__c=dark, **{"sub/other/main.c": MAIN, "other/main.c": dark, "sub/main.c": MAIN, "sub/test_a.py": f'''
+import pytest
+from twinpuck._worldtext import toml_text
+def lit(world):
+    world.run(0.2)
+    assert world.robots[0].leds[0]
+@pytest.mark.parametrize("fw", [".", "other", "../sub"])
+def test_dict_and_text(make_world, fw):
+    lit(make_world({world.replace("FW", "fw")}))
+    lit(make_world(toml_text({world.replace("FW", "fw")})))
+    lit(make_world("empty", firmware=fw))
+    lit(make_world("empty", firmware={{"*": fw}}))
+@pytest.mark.world("mine")
+def test_name(world):
+    assert world.robots.names == ["mine"]
+@pytest.mark.world({world.replace("FW", '"."')})
+def test_marker(world):
+    lit(world)
+def test_supervisor(make_world):
+    world = make_world({{**{world.replace("FW", '"."')}, "supervisor": [{{"name": "s", "program": "says.py"}}]}})
+    world.run(0.2)
+    assert world.supervisor_lines == ["s: right"]
+    world = make_world({world.replace("FW", '"."')}, supervisors=["s=says.py"])
+    world.run(0.2)
+    assert world.supervisor_lines == ["s: right"]
+''', "sub/says.py": SAYS.replace("WORD", "right"), "says.py": SAYS.replace("WORD", "wrong"),
+        "sub/mine.toml": WORLD.replace("puck\"", "mine\""), "mine.toml": WORLD,
+        "sub/b.test.toml": 'world = "empty"\nfirmware = "."\nat_most_s = 0.2\n[[finally]]\nthat = "led0"\n'})
+    done = command("test", "-v", "sub", cwd=folder)
+    assert done.returncode == 0, done.stdout
+    # a script's begin where it is called
+    script = f'import twinpuck\nw = twinpuck.World({world.replace("FW", repr("."))})\nw.run(0.2)\nassert not w.robots[0].leds[0]\n'
+    (folder / "sub" / "script.py").write_text(script)
+    subprocess.run([sys.executable, "sub/script.py"], cwd=folder, check=True, timeout=600)
+
+
+#: words, exit code, what is said in one line of its own, behind "ERROR: " where nothing has run
+OUTPUTS = [
+    (["--junitxml", "/dev/full"], 7, "/dev/full: --junitxml: cannot be written: No space left on device"),
+    (["--junitxml", "/dev/full", "-n", "2"], 7, "/dev/full: --junitxml: cannot be written: No space left on device"),
+    (["--coverage", "/dev/full"], 7, "/dev/full: --coverage: cannot be written: No space left on device"),
+    (["--coverage", "/dev/full", "-n", "2"], 7, "/dev/full: --coverage: cannot be written: No space left on device"),
+    (["--junitxml", "main.c/x.xml"], 2, "ERROR: main.c: --junitxml: got 'File exists', expected a folder, or a place where one can be made"),
+    (["--coverage", "no/c.info"], 2, "ERROR: no/c.info: --coverage: got 'No such file or directory', expected a file that can be written"),
+    (["--coverage", "main.c/c.info"], 2, "ERROR: main.c/c.info: --coverage: got 'Not a directory', expected a file that can be written"),
+    (["--coverage", "pipe"], 2, "ERROR: pipe: --coverage: got 'a pipe', expected a file that can be written"),
+    (["--coverage", "x", "--junitxml", "./x"], 2, "…/x: --junitxml: got the file of --coverage, expected another; give them different names"),
+    (["--failures", "main.c"], 2, "ERROR: main.c: --failures: got 'File exists', expected a folder, or a place where one can be made"),
+    (["--firmware", "no"], 2, "ERROR: no: --firmware: got nothing, expected a folder of C files, an image or a program of the PC"),
+]
+
+
+@pytest.mark.parametrize("words, code, says", OUTPUTS, ids=range(len(OUTPUTS)))
+def test_outputs_that_cannot_be_written(mine, command, words, code, says):
+    import os
+
+    folder = mine("def test_a(world): world.run(0.1)\ndef test_b(world): world.run(0.1)\n")
+    os.mkfifo(folder / "pipe")
+    done = command("test", *words, cwd=folder, timeout=120)
+    said = done.stdout + done.stderr
+    assert done.returncode == code and "Traceback" not in said and "INTERNALERROR" not in said, said
+    assert said.count(says.removeprefix("…")) == 1 and ("2 passed" in said) == (code == 7), said
+
+
+FILES = [
+    ('world = "nope"\n', 2, "a.test.toml: test.world: nope: world: got a name that is neither"),
+    ('world = "bad.toml"\n', 2, "bad.toml:1:1: unknown key 'x'"),
+    ('world = "world.toml"\nfirmware = "nope"\n', 2, "a.test.toml: test.firmware: nope: firmware: got a name"),
+    ('world = "world.toml"\n[[always]]\nthat = "lde0"\n', 2, "a.test.toml:2: always: condition 'lde0': got 'lde0'"),
+    ('world = "world.toml"\n[[step]]\nset = "nosuch = 3"\n', 2, "a.test.toml:2: step.set: nosuch: got"),
+    ('world = "world.toml"\n[[step]]\nexpect = "("\n', 2, "a.test.toml:2: step.expect: got '('"),
+    ('world = "world.toml"\nat_most_s = 0.1\n[[always]]\nthat = "x_m > 9"\nfrom_s = 50\n', 7, "a.test.toml:3: always: never looked at"),
+    ('world = "world.toml"\nat_most_s = 0.1\n[[finally]]\nthat = "x_m > 9"\n', 1, "a.test.toml:3: finally: expected"),
+]
+
+
+@pytest.mark.parametrize("text, code, says", FILES, ids=range(len(FILES)))
+def test_what_is_wrong_with_a_test_file_is_no_failure(mine, command, text, code, says):
+    done = command("test", cwd=mine(a__test__toml=text, bad__toml="x = 1\n"))
+    assert done.returncode == code and says in done.stdout and "Traceback" not in done.stdout, done.stdout
+
+
+MARKERS = [
+    ("points(-1)", "points: got -1, expected a number from 0 to 1e6"), ("points(float('nan'))", "points: got nan, expected a number from"),
+    ("points('x')", "points: got 'x', expected a number"), ("points()", "points: got none, expected a number"),
+    ("seeds()", "seeds: got none, expected one or more"), ("seeds([])", "seeds: got none, expected one or more"),
+    ("seeds('x')", "seeds: got 'x', expected numbers from"), ("hals()", "hals: got none, expected one or more"),
+    ("world()", "world: got no source, expected a file, a name, a text or a dict"), ("robot()", "robot: got [], expected a name or a number"),
+    ("wrold('maze')", "unknown marker 'wrold'; did you mean 'world'?"), ("seed(1)", "unknown marker 'seed'; did you mean 'seeds'?")]
+
+
+@pytest.mark.parametrize("marker, says", MARKERS, ids=range(len(MARKERS)))
+def test_markers_that_mean_nothing_are_bad_input(mine, command, marker, says):
+    done = command("test", cwd=mine(f"import pytest\n@pytest.mark.{marker}\ndef test_a(world): pass\n"))
+    assert done.returncode == 2 and "test_mine.py::test_a: " + says in done.stdout and "Traceback" not in done.stdout, done.stdout
+
+
+def test_markers_of_somebody_else_are_theirs(mine, command):
+    folder = mine("import pytest\n@pytest.mark.slow\n@pytest.mark.point\n@pytest.mark.points(2.5)\ndef test_a(world): pass\n",
+                  pytest__ini="[pytest]\nmarkers =\n  point: mine\n")
+    assert command("test", cwd=folder).returncode == 0

@@ -339,3 +339,23 @@ def test_what_it_runs_is_told(opened, tmp_path, command):
     with twinpuck.World("empty", firmware=robot.image) as world:
         assert world.robots[0].hal == "dspic" and world.robots[0].program == robot.image
         world.run(0.01)
+
+
+def test_numbers_and_bytes_of_numpy_are_numbers_and_bytes(opened):
+    world = opened("volatile unsigned char uc; volatile float f; int main(void) { while (1) uc += (int)f & 0; }")
+    robot = world.robots[0]
+    robot.selector = numpy.int64(3)
+    robot.press_key(numpy.int8(3), hold_s=numpy.float32(0.5))
+    robot.battery_v = numpy.float32(4)
+    robot.move(numpy.float32(0.25), numpy.int16(0))
+    for data in (numpy.array([65, 66], dtype=numpy.uint8), memoryview(b"AB"), bytearray(b"AB")):
+        robot.uart1.send(data)
+    world.step(numpy.int32(2))
+    world.run(numpy.float32(0.25))
+    assert robot.selector == 3 and robot.x_m == 0.25 and robot.signal("uart1_received") in (0, 6)
+    # as C converts them, and floats hold more than 64 bits
+    for value, held in ((300, 44), (-1, 255), (1.75, 1), (numpy.uint8(7), 7)):
+        robot.set_variable("uc", value)
+        assert robot.variable("uc") == held
+    robot.set_variable("f", 2**70)
+    assert robot.variable("f") == 2**70

@@ -367,3 +367,36 @@ def test_a_copy_of_the_module_elsewhere_belongs_to_the_command_on_path(tmp_path)
     alone = said(f"{tmp_path / 'other'}:")
     assert alone.returncode == 1
     assert alone.stderr.splitlines()[-1].startswith("twinpuck.WorldError: maze: world: got a name that is neither a file")
+
+
+def test_a_world_that_nobody_uses_ends_and_a_robot_keeps_it():
+    import weakref
+
+    world = twinpuck.World("maze", firmware="blink")
+    robot = world.robots[0]
+    assert robot is world.robots["puck"] and robot in world.robots and "puck" in world.robots
+    gone = weakref.ref(world)
+    world.run(0.1)
+    del world
+    robot.world.run(0.1)
+    assert robot.leds[0] and gone() is not None
+    del robot
+    assert gone() is None, "without the collector"
+    assert twinpuck.World("maze").robots[0].x_m == pytest.approx(twinpuck.World("maze").robots[0].x_m)
+
+
+def test_what_expect_has_found_stays_found_whoever_keeps_the_line():
+    with twinpuck.World("empty", firmware="serial_echo") as world:
+        world.robots[0].uart1.expect("ready")
+        with pytest.raises(twinpuck.ExpectTimeout):
+            world.robots[0].uart1.expect("ready", at_most=0.1)
+
+
+@pytest.mark.parametrize("touch", ["robot.selecter = 3", "world.robots = []", "world.sede = 1", "robot.uart1.baud = 9600", "robot.x_m = 1",
+                                   "world.bodies['box'].posee = 1", "world.lamps['l'].intensity = float('nan')", "fault.at_s = 3"])
+def test_attributes_that_are_none_cannot_be_set(touch):
+    with twinpuck.World({"lamp": [{"name": "l", "position": [0, 0, 1]}], "ball": [{"name": "box", "radius": 0.02, "position": [0.3, 0.3], "movable": True, "mass": 0.01}],
+                         "robot": [{"name": "puck", "position": [0, 0]}]}) as world:
+        fault = world.inject("wheel_stuck", wheel="left")
+        with pytest.raises(AttributeError):
+            exec(touch, {"world": world, "robot": world.robots[0], "fault": fault})

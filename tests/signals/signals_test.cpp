@@ -241,7 +241,7 @@ TEST_F(SignalsTest, what_nothing_has_is_told_with_what_may_be_meant) {
   says("x_m", "got 'x_m' without a robot, expected ROBOT.x_m; the robots are e-puck", -1);
   says("$sate", "got 'sate', expected a variable of the image that is known here");
   says("$wheels", "got 'wheels', expected a number; name a member or element");
-  says("pin(Q3)", "got pin 'Q3', expected a port and a bit, such as D3");
+  says("pin(Q3)", "got pin 'Q3', expected a port and a bit of the chip's, such as D3");
   says("reg(T2C0N)",
        "got 'T2C0N', expected a pin, a port, a register, an interrupt, a UART's line or a variable (got "
        "'T2C0N', expected a variable of the image that is known here); did you mean 'T2CON'?");
