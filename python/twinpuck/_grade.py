@@ -27,6 +27,7 @@ import xml.etree.ElementTree as ElementTree
 from . import _matrix, _outputs
 
 _BUBBLEWRAP = "/usr/bin/bwrap"
+_ENDINGS = {"--csv": ".csv", "--html": ".html", "--junitxml": ".xml"}
 _CODES = "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 7 a table could not be written, 130 interrupted"
 
 
@@ -376,8 +377,10 @@ def bad_input(options: argparse.Namespace) -> str:
     if not options.trusted and not os.access(_BUBBLEWRAP, os.X_OK):
         return f"{_BUBBLEWRAP}: got no bubblewrap, expected it to contain programs with; apt install bubblewrap, or trust them: --trusted"
     files = [(options.csv, "--csv"), (options.html, "--html"), (options.junitxml, "--junitxml")]
-    if wrong := _outputs.conflicts([*files, (options.keep, "--keep")], [options.submissions, *options.tests]) or \
-            _outputs.unwritable(files):
+    # a table that was left beside the tests the last time may be written again
+    others = [(path, option) for path, option in files if path and not path.endswith(_ENDINGS[option])]
+    if wrong := _outputs.conflicts([*files, (options.keep, "--keep")], [options.submissions]) or \
+            _outputs.conflicts([*others, (options.keep, "--keep")], options.tests) or _outputs.unwritable(files):
         return "\n".join(wrong)
     return _outputs.wrong_folder(options.keep, "--keep") if options.keep else ""
 

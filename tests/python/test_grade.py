@@ -336,6 +336,16 @@ def test_outputs_that_cannot_be_are_refused_before_anything_runs(small, command,
     assert not (small / "g.csv").exists() and "volatile" in (small / "link.c").read_text()
 
 
+def test_a_table_beside_the_tests_is_written_again(small, command):
+    for content in ("", "of the last time"):
+        (small / "tests" / "g.csv").write_text(content)
+        done = command("grade", "tests", "--submissions", "class", "--csv", "tests/g.csv", cwd=small)
+        assert done.returncode == 0 and (small / "tests" / "g.csv").read_text().startswith("submission,"), done.stderr
+    (small / "class" / "good" / "g.csv").write_text("measured")
+    done = command("grade", "tests", "--submissions", "class", "--csv", "class/good/g.csv", cwd=small)
+    assert done.returncode == 2 and (small / "class" / "good" / "g.csv").read_text() == "measured"
+
+
 @pytest.mark.parametrize("tests, says", [
     ("import nothing_of_that_name\n", "No module named 'nothing_of_that_name'"), ("x = 1\n", "/tests: tests: got none, expected one or more"),
     ("import pytest\n@pytest.mark.seeds('x')\ndef test_a(world): pass\n", "seeds: got 'x', expected numbers")])
