@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <sstream>
 
 #include "tests/cc/bench.h"
 
@@ -13,13 +14,32 @@ namespace {
 std::string printed(const std::string& body, const std::string& level = "-O1") {
   return printed_by(
       "#include <stdio.h>\n#include <string.h>\n#include <stdlib.h>\n#include <math.h>\n#include "
-      "<ctype.h>\n#include <setjmp.h>\n"
+      "<ctype.h>\n#include <setjmp.h>\n#include <errno.h>\n#include <limits.h>\n"
       "jmp_buf where; int order(const void *a, const void *b) { return *(const int *)a - *(const int "
       "*)b; }\n"
       "void jump(void) { longjmp(where, 7); }\n"
       "int main(void) {" +
           body + " return 0; }",
       level);
+}
+
+/// What one statement of a program prints.
+struct Row {
+  const char* statement;
+  const char* expected;
+};
+
+/// All in one program, each in a line of its own.
+template <int n>
+void expect_lines(const Row (&rows)[n]) {
+  std::string body;
+  for (const Row& row : rows) body += std::string("{ ") + row.statement + " printf(\"\\n\"); }\n";
+  std::istringstream lines(printed(body));
+  for (const Row& row : rows) {
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, row.expected) << row.statement;
+  }
 }
 }  // namespace
 
@@ -91,6 +111,93 @@ TEST(libc, numbers_are_converted) {
       printed("char *e, *f, *g; double x = strtod(\"1e\", &e) + strtod(\"2.5e+z\", &f) + strtod(\".\", &g); "
               "printf(\"%.1f %s %s %s\", x, e, f, g);"),
       "3.5 e e+z .");
+}
+
+// C99 7.20.1.4: the nearest value that there is, ERANGE, and all digits are taken
+TEST(libc, whole_numbers_out_of_range_are_the_nearest_and_say_so) {
+  static const Row kRows[] = {
+      {"char *e; errno = 0; printf(\"%ld\", strtol(\"2147483647x\", &e, 10)); printf(\" %d %s\", errno, e);",
+       "2147483647 0 x"},
+      {"char *e; errno = 0; printf(\"%ld\", strtol(\"2147483648x\", &e, 10)); printf(\" %d %s\", errno, e);",
+       "2147483647 34 x"},
+      {"char *e; errno = 0; printf(\"%ld\", strtol(\"-2147483648x\", &e, 10)); printf(\" %d %s\", errno, e);",
+       "-2147483648 0 x"},
+      {"char *e; errno = 0; printf(\"%ld\", strtol(\" -2147483649x\", &e, 10)); printf(\" %d %s\", errno, "
+       "e);",
+       "-2147483648 34 x"},
+      {"char *e; errno = 0; printf(\"%ld\", strtol(\"zzzzzzzz z\", &e, 36)); printf(\" %d%s\", errno, e);",
+       "2147483647 34 z"},
+      {"char *e; errno = 0; printf(\"%lu\", strtoul(\"4294967295x\", &e, 0)); printf(\" %d %s\", errno, e);",
+       "4294967295 0 x"},
+      {"char *e; errno = 0; printf(\"%lu\", strtoul(\"0x1FFFFFFFFx\", &e, 0)); printf(\" %d %s\", errno, e);",
+       "4294967295 34 x"},
+      {"char *e; errno = 0; printf(\"%lu\", strtoul(\"-1x\", &e, 0)); printf(\" %d %s\", errno, e);",
+       "4294967295 0 x"},
+      {"char *e; errno = 0; printf(\"%lld\", strtoll(\"9223372036854775807x\", &e, 10)); printf(\" %d %s\", "
+       "errno, e);",
+       "9223372036854775807 0 x"},
+      {"char *e; errno = 0; printf(\"%lld\", strtoll(\"9223372036854775808x\", &e, 10)); printf(\" %d %s\", "
+       "errno, e);",
+       "9223372036854775807 34 x"},
+      {"char *e; errno = 0; printf(\"%lld\", strtoll(\"-99999999999999999999x\", &e, 10)); printf(\" %d "
+       "%s\", "
+       "errno, e);",
+       "-9223372036854775808 34 x"},
+      {"char *e; errno = 0; printf(\"%llu\", strtoull(\"18446744073709551615x\", &e, 10)); printf(\" %d "
+       "%s\", "
+       "errno, e);",
+       "18446744073709551615 0 x"},
+      {"char *e; errno = 0; printf(\"%llu\", strtoull(\"18446744073709551616x\", &e, 10)); printf(\" %d "
+       "%s\", "
+       "errno, e);",
+       "18446744073709551615 34 x"},
+      {"printf(\"%ld %ld %lld\", atol(\"99999999999\"), atol(\"-99999999999\"), atoll(\"5000000000\"));",
+       "2147483647 -2147483648 5000000000"},
+      {"char *e; printf(\"%ld \", strtol(\"0xg\", &e, 16)); printf(\"%s\", e);", "0 xg"},
+      {"const char *s = \" +\"; char *e; strtol(s, &e, 10); printf(\"%d\", e == s);", "1"},
+      {"lldiv_t d = lldiv(-5000000001LL, 2); printf(\"%lld %lld %lld\", d.quot, d.rem, llabs(d.quot));",
+       "-2500000000 -1 2500000000"},
+  };
+  expect_lines(kRows);
+}
+
+// C99 7.20.1.3; an exponent of nine digits took a multiplication a unit, for minutes
+TEST(libc, floating_point_is_read_in_every_form) {
+  static const Row kRows[] = {
+      {"char *e; errno = 0; printf(\"%g\", strtod(\"0e999999999z\", &e)); printf(\" %d %s\", errno, e);",
+       "0 0 z"},
+      {"char *e; errno = 0; printf(\"%g\", strtod(\"1e999999999z\", &e)); printf(\" %d %s\", errno, e);",
+       "inf 34 z"},
+      {"char *e; errno = 0; printf(\"%g\", strtod(\"-1e39z\", &e)); printf(\" %d %s\", errno, e);",
+       "-inf 34 z"},
+      {"char *e; errno = 0; printf(\"%g\", strtod(\"-1e-99999999999z\", &e)); printf(\" %d %s\", errno, e);",
+       "-0 34 z"},
+      {"errno = 0; printf(\"%d\", strtold(\"1e300\", 0) / 1e300L - 1 < 1e-15L && strtold(\"1e300\", 0) > "
+       "9.99999999999999e299L); printf(\" %d\", errno);",
+       "1 0"},
+      {"errno = 0; printf(\"%d\", strtold(\"1e309\", 0) == (long double)INFINITY); printf(\" %d\", errno);",
+       "1 34"},
+      {"errno = 0; printf(\"%d\", strtold(\"5e-324\", 0) > 0); printf(\" %d\", errno);", "1 0"},
+      {"printf(\"%d\", strtold(\"0.1\", 0) == 0.1L && strtold(\"1e22\", 0) == 1e22L);", "1"},
+      {"printf(\"%d\", strtof(\"3.4028235e38\", 0) == 0x1.fffffep127f && strtof(\"1e-45\", 0) == 0x1p-149f);",
+       "1"},
+      // halfway between two floats: to the even one
+      {"printf(\"%.0f %.0f\", strtod(\"16777217\", 0), strtod(\"16777219\", 0));", "16777216 16777220"},
+      {"printf(\"%g\", strtod(\"1000000000000000000000000000000000000000000e-42\", 0));", "1"},
+      {"char *e; printf(\"%g\", strtod(\" -INF!\", &e)); printf(\"%s\", e);", "-inf!"},
+      {"char *e; printf(\"%g\", strtod(\"infinit\", &e)); printf(\" %s\", e);", "inf init"},
+      {"char *e; printf(\"%g\", strtod(\"Infinity.\", &e)); printf(\" %s\", e);", "inf ."},
+      {"char *e; printf(\"%g\", strtod(\"nan(a_1).\", &e)); printf(\" %s\", e);", "nan ."},
+      {"char *e; printf(\"%g\", strtod(\"NaN(a-1)\", &e)); printf(\" %s\", e);", "nan (a-1)"},
+      {"char *e; printf(\"%g\", strtod(\"0x1.8p3z\", &e)); printf(\" %s\", e);", "12 z"},
+      {"char *e; printf(\"%g\", strtod(\"-0X.8P-1\", &e)); printf(\" <%s>\", e);", "-0.25 <>"},
+      {"char *e; printf(\"%g\", strtod(\"0x1e2\", &e)); printf(\" <%s>\", e);", "482 <>"},
+      {"char *e; printf(\"%g\", strtod(\"0x.p1\", &e)); printf(\" %s\", e);", "0 x.p1"},
+      {"char *e; printf(\"%g\", strtod(\"0x1p\", &e)); printf(\" %s\", e);", "1 p"},
+      {"char *e; printf(\"%g\", strtod(\"1e+\", &e)); printf(\" %s\", e);", "1 e+"},
+      {"const char *s = \" -in\"; char *e; strtod(s, &e); printf(\"%d\", e == s);", "1"},
+  };
+  expect_lines(kRows);
 }
 
 // the linker leaves 512 bytes for it
