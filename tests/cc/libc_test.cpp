@@ -66,6 +66,66 @@ TEST(libc, printf_formats_floats) {
   EXPECT_EQ(printed("printf(\"%f %g %e\", 0.0, 0.0, 0.0);"), "0.000000 0 0.000000e+00");
 }
 
+TEST(libc, printf_takes_and_stores_every_width) {
+  static const Row kRows[] = {
+      {"printf(\"%Lf %d|%Lg %d|%Le %d\", 1.5L, 7, -1e300L, 8, 2.5e-300L, 9);",
+       "1.500000 7|-1e+300 8|2.500000e-300 9"},
+      {"printf(\"%hhx %hhd %hhu %hhd %hx\", 0x1234, 200, -1, -129, -1);", "34 -56 255 127 ffff"},
+      {"signed char c[2] = {1, 2}; int n[2] = {1, 2}; long l; long long q; printf(\"ab%hhn%hnc%ln%lln\", c, "
+       "n, "
+       "&l, &q); printf(\" %d %d %d %d %ld %lld\", c[0], c[1], n[0], n[1], l, q);",
+       "abc 2 2 2 2 3 3"},
+      {"printf(\"%jd %zu %td %i\", 5LL, sizeof(long), (char *)8 - (char *)4, 2);", "5 4 4 2"},
+      {"printf(\"%#5.3o|%#o|%#.0o|%#x|%.0d|\", 8, 0, 0, 0, 0);", "  010|0|0|0||"},
+      {"printf(\"%.45d|%-47.45d|%48.45ld\", 5, -5, 5L);",
+       "000000000000000000000000000000000000000000005|-000000000000000000000000000000000000000000005 |   "
+       "000000000000000000000000000000000000000000005"},
+  };
+  expect_lines(kRows);
+}
+
+TEST(libc, printf_rounds_before_it_chooses_a_form) {
+  static const Row kRows[] = {
+      {"printf(\"%g %g %g %.3g\", 999999.5, 99999.5, 0.000099999999, 999.5);", "1e+06 99999.5 0.0001 1e+03"},
+      {"printf(\"%#.0f %#.0e %#g %#.3g %.0f\", 3.0, 3.0, 0.0, 100.0, 3.0);", "3. 3.e+00 0.00000 100. 3"},
+      {"printf(\"%.2f\", 3.4028234663852886e38);", "340282346638528859811704183484516925440.00"},
+      {"printf(\"%f %#.0f %25.1f|%025.0f\", 1e18, 1e20, -1e20, 1e20);",
+       "999999984306749440.000000 100000002004087734272.  "
+       "-100000002004087734272.0|0000100000002004087734272"},
+      {"printf(\"%.0Lf\", 0x1p200L);", "1606938044258990275541962092341162602522202993782792835301376"},
+      {"printf(\"%G %E %F %F %g %+f %05F\", INFINITY, -INFINITY, NAN, INFINITY, NAN, INFINITY, -INFINITY);",
+       "INF -INF NAN INF nan +inf  -INF"},
+      {"printf(\"%.22f|%26.22f|%.20e|%#.20g|%.20g\", 0.5, 1.5, 0.5, 0.5, 0.5);",
+       "0.5000000000000000000000|  "
+       "1.5000000000000000000000|5.00000000000000000000e-01|0.50000000000000000000|"
+       "0.5"},
+      {"printf(\"%Lg %.3Le\", 4.9406564584124654e-324L, 1.7976931348623157e308L);",
+       "4.94066e-324 1.798e+308"},
+  };
+  expect_lines(kRows);
+}
+
+// as the PC prints the same single-precision numbers
+TEST(libc, printf_makes_the_digits_that_a_pc_makes) {
+  const float values[] = {
+      0.0f,      1.0f,    -1.5f,     0.1f,        123456.0f,           1234567.0f,    9.9999995f,
+      999999.0f, 0.0005f, 0.000055f, 1e-10f,      1.17549435e-38f,     3.4028235e38f, 1e-45f,
+      2.5f,      0.125f,  1e10f,     16777216.0f, 4503599627370496.0f, 8.5e17f,       0.05f};
+  const char* const formats[] = {"%f",    "%.0f", "%.3f", "%.10f", "%e",   "%.0e", "%.3e",
+                                 "%.12E", "%g",   "%.0g", "%.3G",  "%.9g", "%#g",  "%+012.2f"};
+  for (const char* format : formats) {
+    std::string program, wanted;
+    for (const float value : values) {
+      char text[120];
+      std::snprintf(text, sizeof text, "printf(\"%s \", %aF);", format, static_cast<double>(value));
+      program += text;
+      std::snprintf(text, sizeof text, format, static_cast<double>(value));
+      wanted += text + std::string(" ");
+    }
+    EXPECT_EQ(printed(program), wanted) << format;
+  }
+}
+
 TEST(libc, sprintf_and_friends_return_lengths) {
   EXPECT_EQ(printed("char b[8]; int n = snprintf(b, sizeof b, \"%s\", \"0123456789\"); printf(\"%d %s\", n, "
                     "b); puts(\"\"); putchar('x');"),
