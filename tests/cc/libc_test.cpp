@@ -141,6 +141,63 @@ TEST(libc, sscanf_reads_the_robots_types) {
   EXPECT_EQ(printed("int a = 9; printf(\"%d %d\", sscanf(\"x\", \"%d\", &a), a);"), "0 9");
 }
 
+TEST(libc, sscanf_stores_every_width) {
+  static const Row kRows[] = {
+      {"long long q[4]; int n = sscanf(\"-5000000000 18446744073709551615 123456789ABCDEF0 0777777777777\", "
+       "\"%lld %llu %llx %lli\", q, q + 1, q + 2, q + 3); printf(\"%d %lld %llu %llx %llo\", n, q[0], q[1], "
+       "q[2], "
+       "q[3]);",
+       "4 -5000000000 18446744073709551615 123456789abcdef0 777777777777"},
+      {"long double l[3]; int x, n = sscanf(\"1.5 -2e300 0x1p-900 7\", \"%Lf %Lg %Le %d\", l, l + 1, l + 2, "
+       "&x); "
+       "printf(\"%d %Lg %.3Lg %d %d\", n, l[0], l[1], l[2] == 0x1p-900L, x);",
+       "4 1.5 -2e+300 1 7"},
+      {"float f[5]; int n = sscanf(\"1 2.5 inf -3e1 0x.8\", \"%E %G %A %F %a\", f, f + 1, f + 2, f + 3, f + "
+       "4); "
+       "printf(\"%d %g %g %g %g %g\", n, f[0], f[1], f[2], f[3], f[4]);",
+       "5 1 2.5 inf -30 0.5"},
+      {"signed char c[2] = {9, 9}; int h, n = sscanf(\"-2 70000\", \"%hhd %hd\", c, &h); printf(\"%d %d %d "
+       "%d\", n, "
+       "c[0], c[1], h);",
+       "2 -2 9 4464"},
+      {"signed char c[2] = {9, 9}; int i; long l; long long q; int n = sscanf(\"12 34\", \"%*d%hhn "
+       "%n%*d%ln%lln\", "
+       "c, &i, &l, &q); printf(\"%d %d %d %d %ld %lld\", n, c[0], c[1], i, l, q);",
+       "0 2 9 3 5 5"},
+      {"char a[4], b[4], c[4]; int n = sscanf(\"]a-zq\", \"%2[]a]%2[^z]%[z-]\", a, b, c); printf(\"%d %s %s "
+       "%s\", n, "
+       "a, b, c);",
+       "3 ]a - z"},
+      {"int a, b; int n = sscanf(\"1234 0x12\", \"%2d%d %3i\", &a, &b, &b); printf(\"%d %d %d\", n, a, b);",
+       "3 12 1"},
+      {"int n, x = 5; float f; n = sscanf(\"0000000000000000000000000000000000000000000000000000000012 "
+       "1.00000000000000000000000000000000000000000000000000001\", \"%d %f\", &x, &f); printf(\"%d %d %g\", "
+       "n, x, f);",
+       "2 12 1"},
+      {"int a, n = sscanf(\"50 %7\", \"%*d%%%d\", &a); printf(\"%d %d\", n, a);", "1 7"},
+  };
+  expect_lines(kRows);
+}
+
+// C99 7.19.6.7: EOF where the input ends before the first conversion; a wrong character is no end
+TEST(libc, sscanf_tells_an_end_from_a_mistake) {
+  static const Row kRows[] = {
+      {"char b[9]; printf(\"%d %d %d %d\", sscanf(\"\", \"%s\", b), sscanf(\"  \", \"%s\", b), sscanf(\"\", "
+       "\"%c\", "
+       "b), sscanf(\"\", \"%[a]\", b));",
+       "-1 -1 -1 -1"},
+      {"int a; printf(\"%d %d %d %d\", sscanf(\"\", \"x%d\", &a), sscanf(\"x\", \"x%d\", &a), sscanf(\"y\", "
+       "\"x%d\", &a), sscanf(\"x-\", \"x%d\", &a));",
+       "-1 -1 0 0"},
+      {"int a; float f; printf(\"%d %d %d\", sscanf(\"\", \"%f\", &f), sscanf(\"5\", \"%d%d\", &a, &a), "
+       "sscanf(\"5 z\", \"%d%d\", &a, &a));",
+       "-1 1 1"},
+      {"char b[9]; printf(\"%d %d\", sscanf(\"b\", \"%[a]\", b), sscanf(\"ab\", \"%3c\", b));", "0 -1"},
+      {"printf(\"%d\", sscanf(\"\", \"\"));", "0"},
+  };
+  expect_lines(kRows);
+}
+
 TEST(libc, strings_and_memory_work_with_16_bit_lengths) {
   EXPECT_EQ(printed("char b[20] = \"abc\"; strcat(b, \"def\"); strncpy(b + 10, \"xy\", 4); printf(\"%s %d %d "
                     "%d %s %s\", b, strlen(b), strcmp(\"a\", \"b\") < 0,"
