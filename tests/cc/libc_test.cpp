@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The firmware's C library: formats with 16-bit int, strings, numbers, heap, mathematics, leaving.
 #include <gtest/gtest.h>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <sstream>
+#include <tuple>
+#include <vector>
 
 #include "tests/cc/bench.h"
 
@@ -384,6 +387,105 @@ TEST(libc, mathematics_is_single_precision_under_both_names) {
   EXPECT_EQ(printed("printf(\"%.1f %.1f %.1f %.1f %.2f %d\", floor(-1.5), ceil(1.2), fabs(-2.5), fmod(7.5, "
                     "2.0), hypot(3.0, 4.0), (int)round(2.5));"),
             "-2.0 2.0 2.5 1.5 5.00 3");
+}
+
+namespace {
+/// The function's value for each argument, as the robot has it.
+std::vector<float> values_of(const char* function, const std::vector<float>& arguments) {
+  std::string program = "volatile float x[] = {";
+  for (const float x : arguments) {
+    char text[48];
+    std::snprintf(text, sizeof text, "%aF, ", static_cast<double>(x));
+    program += text;
+  }
+  program +=
+      "}; unsigned i; for (i = 0; i < sizeof x / sizeof *x; i++) { union { float f; unsigned long u; } v; "
+      "v.f = " +
+      std::string(function) + "(x[i]); printf(\"%lx \", v.u); }";
+  std::istringstream printed_bits(printed(program));
+  std::vector<float> values;
+  for (std::uint32_t bits; printed_bits >> std::hex >> bits;) {
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    values.push_back(value);
+  }
+  return values;
+}
+}  // namespace
+
+// Multiples of pi/2 had been taken off in single precision: sin(3e8f) was -4855. The PC's double precision
+// is the yardstick; 16367173 * 2^72 is the float that is nearest to a multiple of pi/2.
+TEST(libc, angles_of_any_size_have_their_sine) {
+  std::vector<float> arguments = {3e8f,         1e20f,       3.4028235e38f, 16367173 * 0x1p72f,
+                                  1e5f,         1.57079637f, 4.712389f,     3.14159274f,
+                                  0.785398185f, 100,         -8192,         1e-30f,
+                                  -3e8f,        196608,      2.3561945f};
+  std::uint32_t state = 1;
+  for (int i = 0; i < 60; ++i) {
+    state = state * 1664525 + 1013904223;
+    const std::uint32_t bits = (state & 0x807FFFFF) | (120 + state / 7 % 135) << 23;
+    float x;
+    std::memcpy(&x, &bits, sizeof x);
+    arguments.push_back(x);
+  }
+  const std::tuple<const char*, double (*)(double), double> kFunctions[] = {
+      {"sin", &std::sin, 2}, {"cosf", &std::cos, 2}, {"tan", &std::tan, 4}};
+  for (const auto& [name, yardstick, most] : kFunctions) {
+    const std::vector<float> values = values_of(name, arguments);
+    ASSERT_EQ(values.size(), arguments.size());
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double right = yardstick(static_cast<double>(arguments[i]));
+      const double unit = std::ldexp(1.0, std::ilogb(right) - 23);
+      EXPECT_LE(std::fabs(static_cast<double>(values[i]) - right) / unit, most)
+          << name << " of " << arguments[i] << ": got " << values[i] << ", expected " << right;
+    }
+  }
+}
+
+// values by hand: a float of 2^23 and more is whole, halves go away from 0 by round(), to the even by rint()
+TEST(libc, mathematics_holds_at_the_ends_of_its_range) {
+  static const Row kRows[] = {
+      {"volatile float x[] = {8388609, 0.49999997f, -0.49999997f, 8388607.5f, -2.5f, 3e9f, -INFINITY}; int "
+       "i; for (i "
+       "= 0; i < 7; i++) printf(\"%.9g %.9g|\", round(x[i]), rint(x[i]));",
+       "8388609 8388609|0 0|-0 -0|8388608 8388608|-3 -2|3e+09 3e+09|-inf -inf|"},
+      {"volatile float x[] = {-0.3f, -0.0f, 8388607.5f, -3e9f}; int i; for (i = 0; i < 4; i++) printf(\"%.9g "
+       "%.9g "
+       "%.9g|\", floor(x[i]), ceil(x[i]), trunc(x[i]));",
+       "-1 -0 -0|-0 -0 -0|8388607 8388608 8388607|-3e+09 -3e+09 -3e+09|"},
+      // 1e-40f is 71362 * 2^-149, and 2^149 % 71362 = 6030
+      {"volatile float x = 1, y = 1e-40f; printf(\"%d %g %g %g\", fmod(x, y) == 6030 * 0x1p-149f, fmod(-6.0f "
+       "* y, "
+       "y), fmod(-5.5f, 2), fmod(3, INFINITY));",
+       "1 -0 -1.5 3"},
+      {"volatile float x = 1e30f, y = 1e-30f; printf(\"%.6g %.6g %g %g %.9g\", hypot(x, x), hypot(y, -y), "
+       "hypot(-INFINITY, NAN), hypot(3e38f, 3e38f), hypot(3, 4));",
+       "1.41421e+30 1.41421e-30 inf inf 5"},
+      {"double w; volatile float x[] = {-INFINITY, -1, -0.25f, 2.75f}; int i; for (i = 0; i < 4; i++) { "
+       "double r = "
+       "modf(x[i], &w); printf(\"%g %g|\", r, w); }",
+       "-0 -inf|-0 -1|-0.25 -0|0.75 2|"},
+      {"volatile float i = INFINITY; printf(\"%.5f %.5f %.5f %.5f %.5f\", atan2(i, i), atan2(i, -i), "
+       "atan2(-i, i), "
+       "atan2(-i, -i), atan2(1, -i));",
+       "0.78540 2.35619 -0.78540 -2.35619 3.14159"},
+      {"volatile float t = 2, z = -0.0f, i = INFINITY, m = -1; printf(\"%d %d %g %g %g %g %g %g\", pow(t, "
+       "-149) == "
+       "0x1p-149f, pow(10, -40.0f) > 9.9e-41f, pow(z, -3), pow(z, 1025), pow(m, i), pow(-i, 0.5f), pow(0, "
+       "NAN), "
+       "pow(-t, 3000001));",
+       "1 1 -inf -0 1 inf nan -inf"},
+      {"volatile float x = 89; printf(\"%.5g %.5g %.5g %g %g\", sinh(x), sinh(-x), cosh(x), exp(x), "
+       "exp(-104.0f));",
+       "2.2448e+38 -2.2448e+38 2.2448e+38 inf 0"},
+      // one multiplication a unit of the exponent took a fifth of a second
+      {"volatile float o = 1, z = 0; printf(\"%d %g %g %g %d %d\", ldexp(o, -149) == 0x1p-149f, ldexp(o, "
+       "30000), "
+       "ldexp(-z, 32767), ldexp(o, -32767), ldexp(0x1p-149f, 276) == 0x1p127f, ldexp(1.5f, -150) == "
+       "0x1p-149f);",
+       "1 inf -0 0 1 1"},
+  };
+  expect_lines(kRows);
 }
 
 // a program that has given up starts anew; the simulator tells why (tests/chip/endings_test.cpp)
