@@ -488,6 +488,78 @@ TEST(libc, mathematics_holds_at_the_ends_of_its_range) {
   expect_lines(kRows);
 }
 
+TEST(libc, headers_of_the_standard_are_there) {
+  EXPECT_EQ(
+      printed_by(
+          "#include <iso646.h>\n#include <locale.h>\n#include <limits.h>\n#include <stdio.h>\n#include "
+          "<stdlib.h>\n#include <string.h>\n"
+          "int main(void) { struct lconv *l = localeconv(); char b[4] = \"...\"; wchar_t w[4] = {1, 1, 1, "
+          "1};\n"
+          "printf(\"%s %s %s %d|\", setlocale(LC_ALL, \"\"), setlocale(LC_NUMERIC, 0), setlocale(LC_ALL, "
+          "\"C\"), setlocale(LC_ALL, \"de_DE\") == 0);\n"
+          "printf(\"<%s><%s><%s> %d %d|\", l->decimal_point, l->thousands_sep, l->negative_sign, "
+          "l->int_frac_digits == CHAR_MAX, l->int_n_sign_posn == CHAR_MAX);\n"
+          "printf(\"%d%d%d%d|\", 1 and not 0, 5 bitand 4 or 0, 5 xor 4, compl 0 not_eq 0);\n"
+          "printf(\"%d %s %d|\", strxfrm(b, \"ab\", 4), b, strxfrm(0, \"abcdef\", 0));\n"
+          "printf(\"%d %d %d %d %d|\", MB_CUR_MAX, mblen(\"a\", 2), mblen(\"\", 1), mblen(\"a\", 0), "
+          "mblen(0, 1));\n"
+          "printf(\"%d %d %d \", mbtowc(w, \"\\xE9\", 1), w[0], mbstowcs(w, \"xy\", 4));\n"
+          "printf(\"%d %d %d %s\", w[1], wctomb(b, 300), wcstombs(b, w, 4), b); return 0; }"),
+      "C C C 1|<.><><> 1 1|1111|2 ab 6|1 1 0 -1 0|1 233 2 121 -1 2 xy");
+}
+
+// each limit is the largest value of its type, which a wider number shows
+TEST(libc, limits_are_those_of_the_types) {
+  std::string program =
+      "#include <inttypes.h>\n#include <stddef.h>\n#include <signal.h>\n#include <stdio.h>\n";
+  const auto check = [&](const std::string& type, const std::string& limit, bool is_signed) {
+    const std::string bits = "(8 * sizeof(" + type + ") - " + (is_signed ? "1" : "0") + ")";
+    program += "_Static_assert(" + limit + "_MAX == (0xFFFFFFFFFFFFFFFFULL >> (64 - " + bits + ")), \"" +
+               limit + "\");\n";
+    if (is_signed)
+      program +=
+          "_Static_assert(" + limit + "_MIN == -(long long)" + limit + "_MAX - 1, \"" + limit + "\");\n";
+  };
+  for (const std::string kind : {"", "_least", "_fast"})
+    for (const std::string bits : {"8", "16", "32", "64"}) {
+      const std::string upper = (kind.empty() ? "" : kind == "_least" ? "_LEAST" : "_FAST") + bits;
+      check("int" + kind + bits + "_t", "INT" + upper, true);
+      check("uint" + kind + bits + "_t", "UINT" + upper, false);
+    }
+  for (const auto& [type, limit] :
+       {std::pair("intmax_t", "INTMAX"), std::pair("intptr_t", "INTPTR"), std::pair("ptrdiff_t", "PTRDIFF"),
+        std::pair("sig_atomic_t", "SIG_ATOMIC")})
+    check(type, limit, true);
+  for (const auto& [type, limit] : {std::pair("uintmax_t", "UINTMAX"), std::pair("uintptr_t", "UINTPTR"),
+                                    std::pair("size_t", "SIZE"), std::pair("wchar_t", "WCHAR")})
+    check(type, limit, false);
+  EXPECT_EQ(
+      printed_by(program + "#if INTPTR_MAX != 32767 || WCHAR_MIN != 0 || SIZE_MAX != 65535\n#error\n#endif\n"
+                           "int main(void) { int8_t a; int32_t b; uint64_t c = UINTMAX_C(1) << 40;\n"
+                           "int n = sscanf(\"-7 70000\", \"%\" SCNd8 \" %\" SCNi32, &a, &b);\n"
+                           "printf(\"%d %\" PRId8 \" %\" PRId32 \" %\" PRIu64 \" %\" PRIXPTR, n, a, b, c, "
+                           "(uintptr_t)255); return 0; }"),
+      "2 -7 70000 1099511627776 FF");
+}
+
+// (1 + 2i)(3 - 4i) = 11 + 2i; (11 + 2i) / (3 - 4i) = 1 + 2i; parts of 2^600 have no square
+TEST(libc, complex_numbers_are_multiplied_and_divided_in_both_widths) {
+  for (const std::string type : {"float", "long double"}) {
+    const std::string large = type == "float" ? "0x1p100f" : "0x1p600L";
+    EXPECT_EQ(
+        printed_by("#include <stdio.h>\nint main(void) { volatile " + type +
+                   " _Complex a, b, r; __real__ a = 1, __imag__ a = 2, __real__ b = 3, __imag__ b = -4;\n"
+                   "r = a * b; printf(\"%g %g \", (double)__real__ r, (double)__imag__ r);\n"
+                   "r = r / b; printf(\"%g %g \", (double)__real__ r, (double)__imag__ r);\n"
+                   "__real__ a = " +
+                   large + ", __imag__ a = " + large +
+                   "; r = a / a; printf(\"%g %g\", "
+                   "(double)__real__ r, (double)__imag__ r); return 0; }"),
+        "11 2 1 2 1 0")
+        << type;
+  }
+}
+
 // a program that has given up starts anew; the simulator tells why (tests/chip/endings_test.cpp)
 TEST(libc, leaving_is_a_reset) {
   for (const char* last : {"exit(0);", "exit(3);", "abort();"})
@@ -502,6 +574,12 @@ TEST(libc, what_a_robot_does_not_have_is_refused_by_name_and_line) {
       {"#include <time.h>\nlong t;\nint main(void) { mktime(0); return 0; }",
        "mktime(): got no definition, expected one in the program or the library; is a .c file missing from "
        "the folder, or the name misspelt?"},
+      {"#include <stdio.h>\nint x;\nint main(void) { x = getchar(); return 0; }",
+       "getchar(): an e-puck has no keyboard; e_getchar_uart1() of uart/e_uart_char.h reads UART 1"},
+      {"#include <stdio.h>\nint x;\nint main(void) { scanf(\"%d\", &x); return 0; }",
+       "scanf(): an e-puck has no keyboard; e_getchar_uart1() of uart/e_uart_char.h reads UART 1, sscanf() "
+       "what "
+       "it has read"},
       {"int x;\n\nint main(void) { sleep(1); return 0; }",
        "sleep(): an e-puck has no operating system; time passes in the robot's step"},
       {"int x;\n\nint main(void) { usleep(10); return 0; }",

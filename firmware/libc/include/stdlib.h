@@ -44,5 +44,13 @@ void* bsearch(const void* __key, const void* __first, size_t __n, size_t __bytes
 void exit(int __status) __attribute__((__noreturn__));
 void abort(void) __attribute__((__noreturn__));
 int atexit(void (*__function)(void));
+#define MB_CUR_MAX 1
+#ifndef __cplusplus
+int mblen(const char* __s, size_t __n);
+int mbtowc(wchar_t* __to, const char* __s, size_t __n);
+int wctomb(char* __to, wchar_t __c);
+size_t mbstowcs(wchar_t* __to, const char* __s, size_t __n);
+size_t wcstombs(char* __to, const wchar_t* __s, size_t __n);
+#endif
 char* itoa(char* __to, int __value, int __base);
 #endif
