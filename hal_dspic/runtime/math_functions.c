@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Runtime of the chip: the functions of libc/src/math.c that a PC's own library computes there. Single precision: an
  * argument is reduced to a short interval, where a polynomial serves (coefficients: S. Moshier's Cephes, single precision,
- * facts of approximation theory). Errors are a few units in the last place.
+ * facts of approximation theory). Errors are a few units in the last place; with an exponent that is not whole, pow() has
+ * up to some forty near the ends of its range.
  */
 #include <math.h>
 
