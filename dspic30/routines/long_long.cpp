@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // 64 bits: quotients and remainders (hal_dspic/runtime/long_long_division.s), products and shifts
 // (long_long.c). A division of 32 bits within is that routine's; else a bit a round, from the dividend's
-// first word that is not 0 on. Division by 0 runs.
+// first word that is not 0 on. Division by 0 traps, so it runs.
 #include "dspic30/routines/forms.h"
 #include "dspic30/routines/known_routines.h"
 #include "dspic30/routines/long_division.h"
@@ -14,7 +14,7 @@ using namespace forms;
 using long_division::Division;
 
 constexpr unsigned kSavedWords = 5;
-constexpr unsigned kBehindCall = 0x1A;  // of __divide_long
+constexpr unsigned kBehindCall = 0x16;  // of __divide_long
 
 bool is_below_0(std::uint64_t x) { return x >> 63 != 0; }
 std::uint64_t without_sign(std::uint64_t x) { return is_below_0(x) ? 0 - x : x; }
@@ -29,7 +29,7 @@ int divide_wide(Cpu& cpu, std::int64_t limit, std::uint64_t a, std::uint64_t b, 
   };
   if ((a | b) >> 32 == 0) {
     const Division d = long_division::divide(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-    cycles += 31 + d.cycles;
+    cycles += 29 + d.cycles;
     if (cycles > limit) return 0;
     save();
     leave_return(cpu, base + kSavedWords, place + kBehindCall);
@@ -40,7 +40,7 @@ int divide_wide(Cpu& cpu, std::int64_t limit, std::uint64_t a, std::uint64_t b, 
   }
   const std::uint64_t quotient = a / b;
   const int empty_words = a == 0 ? 4 : __builtin_clzll(a) / 16;
-  cycles += 15 + 12;
+  cycles += 18 + 12;
   if (a == 0)
     cycles += 3 * 9 + 10;
   else
@@ -181,11 +181,11 @@ int shift_right(Cpu& cpu, std::int64_t limit) { return shift(cpu, limit, false);
 
 const std::vector<KnownRoutine>& long_long_routines() {
   static const std::vector<KnownRoutine> all = {
-      {"__divide_long_long", 0x58683c3286c06b9f, nullptr, &divide_long_long},
-      {"___udivdi3", 0x3180125cc2933d15, nullptr, &wide_unsigned_quotient},
-      {"___umoddi3", 0x8bbb40cd0f40124d, nullptr, &wide_unsigned_remainder},
-      {"___divdi3", 0x1efbe06ef7d081d1, nullptr, &wide_quotient},
-      {"___moddi3", 0x747a7a5742630c19, nullptr, &wide_remainder},
+      {"__divide_long_long", 0x5fb30539b809d22d, nullptr, &divide_long_long},
+      {"___udivdi3", 0x7f4227873fd8d8a9, nullptr, &wide_unsigned_quotient},
+      {"___umoddi3", 0xbddda211cc587a41, nullptr, &wide_unsigned_remainder},
+      {"___divdi3", 0xd54776ec2614e09b, nullptr, &wide_quotient},
+      {"___moddi3", 0x70e64835dfa84ce3, nullptr, &wide_remainder},
       {"___muldi3", 0xbe41b8451630d70b, nullptr, &product},
       {"___ashldi3", 0x37dc3bd2f6ba05fc, nullptr, &shift_left},
       {"___lshrdi3", 0xdb6b685a8e336c44, nullptr, &shift_right},

@@ -1,7 +1,7 @@
 ; SPDX-License-Identifier: MIT
 ; Runtime of the chip: division of 64-bit integers. Dividend w3..w0, divisor w7..w4; quotient or remainder in w3..w0.
 ; Where both fit 32 bits it is the 32-bit division; else a bit a round, from the dividend's first word that is not 0 on.
-; Divided by 0: all ones, remainder the dividend.
+; Divided by 0: the chip's trap, in the 32-bit division.
 
         .equ    ROUNDS, 64
         .equ    WORD, 16                ; bits
@@ -17,9 +17,7 @@ __divide_long_long:
         ior     w6, w7, w9
         ior     w8, w9, w8
         bra     nz, wide
-        ior     w4, w5, w8
-        bra     z, wide
-        mov     w4, w2
+narrow: mov     w4, w2
         mov     w5, w3
         call    __divide_long
         mov     w2, w4                  ; w7:w6 is 0, but the routine has used it
@@ -29,7 +27,10 @@ __divide_long_long:
         clr     w6
         clr     w7
         bra     end
-wide:   clr     w8                      ; remainder w11..w8
+wide:   ior     w4, w5, w8
+        ior     w8, w9, w8
+        bra     z, narrow               ; divided by 0
+        clr     w8                      ; remainder w11..w8
         clr     w9
         clr     w10
         clr     w11

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: MIT
  * Runtime of the chip: the functions of libc/src/math.c that a PC's own library computes there. Single precision: an
  * argument is reduced to a short interval, where a polynomial serves (coefficients: S. Moshier's Cephes, single precision,
- * facts of approximation theory). Errors are a few units in the last place.
+ * facts of approximation theory). Errors are a few units in the last place; with an exponent that is not whole, pow() has
+ * up to some forty near the ends of its range.
  */
 #include <math.h>
 
@@ -12,6 +13,10 @@ union bits {
 
 static const float kPi = 3.14159265358979f, kHalfPi = 1.57079632679490f;
 enum { kExponentBias = 127, kFractionBits = 23, kWholeFrom = 23 };
+#define kHidden 0x800000ul
+#define kSign 0x80000000ul
+#define kMagnitude 0x7FFFFFFFul
+#define kInfinite 0x7F800000ul
 
 static float number(unsigned long u)
 {
@@ -43,23 +48,48 @@ float tp_m_floorf(float x)
 
 float tp_m_ceilf(float x) { return -tp_m_floorf(-x); }
 
+/* fraction with its leading bit at the hidden bit's place, whose exponent goes to *e */
+static unsigned long normal(unsigned long u, int *e)
+{
+  unsigned long m = u & (kHidden - 1);
+  *e = (int)(u >> kFractionBits);
+  if (*e) return m | kHidden;
+  for (*e = 1; !(m & kHidden); --*e) m <<= 1;
+  return m;
+}
+
 /* exact: the fractions are divided as whole numbers, bit by bit */
 float tp_m_fmodf(float x, float y)
 {
-  float rest = x < 0 ? -x : x;
-  const float by = y < 0 ? -y : y;
-  if (x != x || y != y || by == 0 || rest == (float)INFINITY) return NAN;
-  if (by == (float)INFINITY) return x;
-  while (rest >= by) {
-    const int apart = exponent_of(rest) - exponent_of(by);
-    float scaled = by;
-    if (apart > 0) {
-      scaled = number(bits_of(by) + ((unsigned long)(unsigned)apart << kFractionBits));
-      if (scaled > rest) scaled = number(bits_of(scaled) - (1ul << kFractionBits));
-    }
-    rest -= scaled;
+  const unsigned long u = bits_of(x) & kMagnitude, by = bits_of(y) & kMagnitude;
+  unsigned long rest, m;
+  int e, last;
+  if (u >= kInfinite || by > kInfinite || by == 0) return NAN;
+  if (u < by) return x;
+  rest = normal(u, &e), m = normal(by, &last);
+  for (; e > last; e--) {
+    if (rest >= m) rest -= m;
+    rest <<= 1;
   }
-  return x < 0 ? -rest : rest;
+  if (rest >= m) rest -= m;
+  if (rest == 0) return number(bits_of(x) & kSign);
+  for (; !(rest & kHidden); e--) rest <<= 1;
+  rest = e > 0 ? (rest & (kHidden - 1)) | (unsigned long)(unsigned)e << kFractionBits : rest >> (1 - e);
+  return number((bits_of(x) & kSign) | rest);
+}
+
+/* --- powers of two */
+
+/* x * 2^e; what is left of whole steps first, so that a small result is rounded once */
+float tp_m_ldexpf(float x, int e)
+{
+  enum { kUp = 127, kDown = 126, kMost = 300 }; /* beyond it all is infinite, or 0 */
+  if (e > kMost) e = kMost;
+  if (e < -kMost) e = -kMost;
+  x *= number((unsigned long)(unsigned)((e < 0 ? -(-e % kDown) : e % kUp) + kExponentBias) << kFractionBits);
+  for (e = e < 0 ? -(-e / kDown) : e / kUp; e > 0; e--) x *= number((unsigned long)(kUp + kExponentBias) << kFractionBits);
+  for (; e < 0; e++) x *= number((unsigned long)(kExponentBias - kDown) << kFractionBits);
+  return x;
 }
 
 /* --- roots: two bits of the argument give one of the root */
@@ -90,12 +120,37 @@ float tp_m_sqrtf(float x)
 
 /* --- angles */
 
-/* x less its multiple of pi/2, which is in three parts so that the difference stays exact */
+/* 2/pi: 32 zeros, then its bits; sixteen a word */
+static const unsigned kTwoOverPi[] = {0, 0, 0xA2F9, 0x836E, 0x4E44, 0x1529, 0xFC27, 0x57D1, 0xF534, 0xDDC0,
+                                      0xDB62, 0x9599, 0x3C43, 0x9041, 0xFE51};
+
+/* x less the nearest multiple of pi/2, of which the two lowest bits go to *quarter. Of x * 2/pi only what is below 4 is made:
+ * 96 bits from there on, of which a float never cancels more than 32 (Payne and Hanek). */
 static float reduced(float x, unsigned *quarter)
 {
-  const float n = tp_m_floorf(x * 0.636619772367581f + 0.5f);
-  *quarter = (unsigned)(int)(n - 65536.0f * tp_m_floorf(n * (1 / 65536.0f)) - 32768.0f) & 3u;
-  return ((x - n * 1.5703125f) - n * 4.83751296997e-4f) - n * 7.5497899549e-8f;
+  enum { kZeros = 32, kWords = 6 };
+  const unsigned long u = bits_of(x), m = (u & (kHidden - 1)) | kHidden;
+  const int from = (int)(u >> kFractionBits & 0xFF) - kExponentBias - kFractionBits + kZeros - 2;
+  const unsigned *bits = kTwoOverPi + (from >> 4);
+  unsigned product[kWords];
+  unsigned long carry = 0, high, low;
+  int i, e = kExponentBias - 1;
+  *quarter = 0;
+  if ((u & kMagnitude) < 0x3F490FDBul) return x; /* pi/4 */
+  for (i = kWords - 1; i >= 0; i--) {
+    const unsigned word = (unsigned)(((unsigned long)bits[i] << 16 | bits[i + 1]) << (from & 15) >> 16);
+    const unsigned long by_low = (unsigned long)(unsigned)m * word, sum = (carry & 0xFFFF) + (by_low & 0xFFFF);
+    product[i] = (unsigned)sum;
+    carry = (carry >> 16) + (by_low >> 16) + (sum >> 16) + (unsigned long)(unsigned)(m >> 16) * word;
+  }
+  *quarter = product[0] >> 14;
+  high = ((unsigned long)product[0] << 16 | product[1]) << 2 | product[2] >> 14;
+  low = ((unsigned long)product[2] << 16 | product[3]) << 2 | product[4] >> 14;
+  x = 1.57079632679490f;
+  if (high & kSign) high = ~high, low = ~low, ++*quarter, x = -x;
+  for (; !(high & kSign); e--) high = high << 1 | low >> 31, low <<= 1;
+  if (u & kSign) *quarter = 0 - *quarter, x = -x;
+  return x * number(((unsigned long)(unsigned)(e - 1) << kFractionBits) + (high >> 8) + (high >> 7 & 1));
 }
 
 static float sine_near(float x)
@@ -142,6 +197,8 @@ float tp_m_atanf(float x)
 float tp_m_atan2f(float y, float x)
 {
   if (x == 0 && y == 0) return bits_of(x) >> 31 ? (bits_of(y) >> 31 ? -kPi : kPi) : y;
+  if ((bits_of(x) & kMagnitude) == kInfinite && (bits_of(y) & kMagnitude) == kInfinite)
+    x = copysignf(1, x), y = copysignf(1, y);
   if (x == 0) return y > 0 ? kHalfPi : -kHalfPi;
   if (x > 0) return tp_m_atanf(y / x);
   return tp_m_atanf(y / x) + (y < 0 || bits_of(y) >> 31 ? -kPi : kPi);
@@ -160,13 +217,6 @@ float tp_m_acosf(float x)
 
 /* --- exponentials */
 
-static float scaled(float x, int e)
-{
-  for (; e > 127; e -= 127) x *= number((unsigned long)(127 + kExponentBias) << kFractionBits);
-  for (; e < -126; e += 126) x *= number((unsigned long)(kExponentBias - 126) << kFractionBits);
-  return x * number((unsigned long)(unsigned)(e + kExponentBias) << kFractionBits);
-}
-
 float tp_m_expf(float x)
 {
   float n, r;
@@ -177,7 +227,7 @@ float tp_m_expf(float x)
   r = (x - n * 0.693359375f) + n * 2.12194440e-4f;
   r = 1 + r + r * r * (5.0000001201e-1f + r * (1.6666665459e-1f + r * (4.1665795894e-2f + r * (8.3334519073e-3f +
       r * (1.3981999507e-3f + r * 1.9875691500e-4f)))));
-  return scaled(r, (int)n);
+  return tp_m_ldexpf(r, (int)n);
 }
 
 float tp_m_logf(float x)
@@ -199,16 +249,23 @@ float tp_m_logf(float x)
 
 float tp_m_log10f(float x) { return tp_m_logf(x) * 0.434294481903252f; }
 
+/* half of e^x, also where e^x itself is infinite */
+static float half_exp(float x)
+{
+  const float root = x > 88 ? tp_m_expf(0.5f * x) : 1;
+  return x > 88 ? 0.5f * root * root : 0.5f * tp_m_expf(x);
+}
+
 float tp_m_sinhf(float x)
 {
-  const float up = tp_m_expf(x < 0 ? -x : x), v = 0.5f * (up - 1 / up);
+  const float up = half_exp(x < 0 ? -x : x), v = up - 0.25f / up;
   if (x < 0.5f && x > -0.5f) return x + x * x * x * (1.6666667e-1f + x * x * (8.3333333e-3f + x * x * 1.98412698e-4f));
   return x < 0 ? -v : v;
 }
 float tp_m_coshf(float x)
 {
-  const float up = tp_m_expf(x < 0 ? -x : x);
-  return 0.5f * (up + 1 / up);
+  const float up = half_exp(x < 0 ? -x : x);
+  return up + 0.25f / up;
 }
 float tp_m_tanhf(float x)
 {
@@ -218,22 +275,28 @@ float tp_m_tanhf(float x)
 }
 
 /* a whole exponent by multiplication, which is exact where the result is */
-static float whole_power(float x, long n)
+static float whole_power(float x, unsigned n)
 {
   float v = 1;
-  unsigned long left = n < 0 ? 0 - (unsigned long)n : (unsigned long)n;
-  for (; left; left >>= 1, x *= x)
-    if (left & 1) v *= x;
-  return n < 0 ? 1 / v : v;
+  for (; n; n >>= 1, x *= x)
+    if (n & 1) v *= x;
+  return v;
 }
 
 float tp_m_powf(float x, float y)
 {
-  const float whole = tp_m_floorf(y);
+  const float whole = tp_m_floorf(y), a = x < 0 ? -x : x;
+  float v;
   if (y == 0 || x == 1) return 1;
-  if (whole == y && y > -1024 && y < 1024) return whole_power(x, (long)y);
-  if (x == 0) return y < 0 ? (float)INFINITY : 0;
-  if (x < 0 && whole != y) return NAN;
-  const float magnitude = tp_m_expf(y * tp_m_logf(x < 0 ? -x : x));
-  return x < 0 && tp_m_fmodf(y, 2) != 0 ? -magnitude : magnitude;
+  if (whole == y && y > -1024 && y < 1024) {
+    if (y > 0) return whole_power(x, (unsigned)(int)y);
+    v = whole_power(x, 0u - (unsigned)(int)y);
+    /* where it is infinite, a part of 1 / v may not be 0 */
+    return v - v == 0 ? 1 / v : whole_power(1 / x, 0u - (unsigned)(int)y);
+  }
+  if (x != x || y != y || (x < 0 && whole != y && a != (float)INFINITY)) return NAN;
+  if (a == 0) v = y < 0 ? (float)INFINITY : 0;
+  else if (a == 1) v = 1;
+  else v = tp_m_expf(y * tp_m_logf(a));
+  return bits_of(x) & kSign && y - y == 0 && tp_m_fmodf(y, 2) != 0 && whole == y ? -v : v;
 }

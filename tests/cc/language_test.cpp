@@ -72,3 +72,22 @@ TEST(language, structures_and_narrow_values_pass_between_files) {
   ASSERT_TRUE(built.ok) << text_of(built);
   EXPECT_EQ(output_of(folder.image()), "-56 -25536 200000 2.50 -105 3.5");
 }
+
+// 64 bits as 16 and 32: the chip's trap, whichever way the division goes; a wide quotient was all ones
+TEST(language, division_by_zero_traps_in_every_width) {
+  const char* text =
+      "#include <stdio.h>\n#include <p30F6014A.h>\n"
+      "volatile int traps, i, small = 5;\nvolatile long l;\n"
+      "volatile long long wide = -5000000000LL, z, q;\n"
+      "void __attribute__((interrupt, no_auto_psv)) _MathError(void) { traps++; INTCON1bits.MATHERR = 0; }\n"
+      "#define TRY(operation) traps = 0; operation; printf(\"%d\", traps > 0)\n"
+      "int main(void) {\n"
+      "TRY(i = small / (int)z); TRY(i = small % (unsigned)z); TRY(l = small / (long)z); printf(\" \");\n"
+      "TRY(q = small / z); TRY(q = small % z); TRY(q = wide / z); TRY(q = wide % z); printf(\" \");\n"
+      "TRY(q = 5u / (unsigned long long)z); TRY(q = 5u % (unsigned long long)z);\n"
+      "TRY(q = (unsigned long long)wide / (unsigned long long)z);\n"
+      "TRY(q = (unsigned long long)wide % (unsigned long long)z); printf(\" \");\n"
+      "TRY(q = wide / small); TRY(q = 0 / wide); printf(\" %lld\", wide / 1000000000LL);\nreturn 0; }";
+  for (const char* level : {"-O0", "-O1", "-O2", "-Os"})
+    EXPECT_EQ(printed_by(text, level), "111 1111 1111 00 -5") << level;
+}

@@ -150,6 +150,15 @@ const Hostile kPrograms[] = {
      "int main(void) {\n sink = 10 / zero; /* HERE */\n while (1); }"},
     {"long_remainder_of_zero", "division by zero",
      "int main(void) { long z = zero;\n sink = (int)(100000L % z); /* HERE */\n while (1); }"},
+    {"wide_quotient_of_zero", "division by zero",
+     "int main(void) { long long z = zero;\n sink = (int)(5LL / z); /* HERE */\n while (1); }"},
+    {"wide_remainder_of_zero", "division by zero",
+     "int main(void) { long long z = zero;\n sink = (int)(-5000000000LL % z); /* HERE */\n while (1); }"},
+    {"wide_unsigned_quotient_of_zero", "division by zero",
+     "int main(void) { unsigned long long z = zero;\n sink = (int)(5000000000ULL / z); /* HERE */\n while "
+     "(1); }"},
+    {"wide_unsigned_remainder_of_zero", "division by zero",
+     "int main(void) { unsigned long long z = zero;\n sink = (int)(5ULL % z); /* HERE */\n while (1); }"},
     {"unreachable_reached", "write out of bounds of any variable",
      "__attribute__((noinline)) int f(int n) { if (n == 0) return 1;\n"
      " __builtin_unreachable();\n }\n"

@@ -16,12 +16,16 @@ typedef int16_t int_least16_t;
 typedef uint16_t uint_least16_t;
 typedef int32_t int_least32_t;
 typedef uint32_t uint_least32_t;
+typedef int64_t int_least64_t;
+typedef uint64_t uint_least64_t;
 typedef int16_t int_fast8_t;
 typedef uint16_t uint_fast8_t;
 typedef int16_t int_fast16_t;
 typedef uint16_t uint_fast16_t;
 typedef int32_t int_fast32_t;
 typedef uint32_t uint_fast32_t;
+typedef int64_t int_fast64_t;
+typedef uint64_t uint_fast64_t;
 typedef int64_t intmax_t;
 typedef uint64_t uintmax_t;
 typedef __INTPTR_TYPE__ intptr_t;
@@ -38,7 +42,45 @@ typedef __UINTPTR_TYPE__ uintptr_t;
 #define INT64_MIN (-9223372036854775807LL - 1)
 #define INT64_MAX 9223372036854775807LL
 #define UINT64_MAX 18446744073709551615ULL
-#define SIZE_MAX 65535U
+#define INT_LEAST8_MIN INT8_MIN
+#define INT_LEAST8_MAX INT8_MAX
+#define UINT_LEAST8_MAX UINT8_MAX
+#define INT_LEAST16_MIN INT16_MIN
+#define INT_LEAST16_MAX INT16_MAX
+#define UINT_LEAST16_MAX UINT16_MAX
+#define INT_LEAST32_MIN INT32_MIN
+#define INT_LEAST32_MAX INT32_MAX
+#define UINT_LEAST32_MAX UINT32_MAX
+#define INT_LEAST64_MIN INT64_MIN
+#define INT_LEAST64_MAX INT64_MAX
+#define UINT_LEAST64_MAX UINT64_MAX
+#define INT_FAST8_MIN INT16_MIN
+#define INT_FAST8_MAX INT16_MAX
+#define UINT_FAST8_MAX UINT16_MAX
+#define INT_FAST16_MIN INT16_MIN
+#define INT_FAST16_MAX INT16_MAX
+#define UINT_FAST16_MAX UINT16_MAX
+#define INT_FAST32_MIN INT32_MIN
+#define INT_FAST32_MAX INT32_MAX
+#define UINT_FAST32_MAX UINT32_MAX
+#define INT_FAST64_MIN INT64_MIN
+#define INT_FAST64_MAX INT64_MAX
+#define UINT_FAST64_MAX UINT64_MAX
+#define INTMAX_MIN INT64_MIN
+#define INTMAX_MAX INT64_MAX
+#define UINTMAX_MAX UINT64_MAX
+#define INTPTR_MIN (-__INTPTR_MAX__ - 1)
+#define INTPTR_MAX __INTPTR_MAX__
+#define UINTPTR_MAX __UINTPTR_MAX__
+#define PTRDIFF_MIN (-__PTRDIFF_MAX__ - 1)
+#define PTRDIFF_MAX __PTRDIFF_MAX__
+#define SIZE_MAX __SIZE_MAX__
+#define SIG_ATOMIC_MIN INT16_MIN
+#define SIG_ATOMIC_MAX INT16_MAX
+#define WCHAR_MIN 0
+#define WCHAR_MAX 65535U
+#define WINT_MIN 0
+#define WINT_MAX 65535U
 #define INT8_C(v) v
 #define UINT8_C(v) v
 #define INT16_C(v) v
@@ -47,4 +89,6 @@ typedef __UINTPTR_TYPE__ uintptr_t;
 #define UINT32_C(v) v##UL
 #define INT64_C(v) v##LL
 #define UINT64_C(v) v##ULL
+#define INTMAX_C(v) v##LL
+#define UINTMAX_C(v) v##ULL
 #endif

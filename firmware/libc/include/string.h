@@ -17,6 +17,7 @@ int strcmp(const char* __a, const char* __b);
 int strncmp(const char* __a, const char* __b, size_t __n);
 int strcasecmp(const char* __a, const char* __b);
 int strcoll(const char* __a, const char* __b);
+size_t strxfrm(char* __to, const char* __from, size_t __n);
 char* strchr(const char* __s, int __c);
 char* strrchr(const char* __s, int __c);
 char* strstr(const char* __s, const char* __part);

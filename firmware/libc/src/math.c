@@ -23,6 +23,7 @@ float tp_m_ceilf(float x);
 float tp_m_atan2f(float x, float y);
 float tp_m_powf(float x, float y);
 float tp_m_fmodf(float x, float y);
+float tp_m_ldexpf(float x, int e);
 
 double sin(double x) { return tp_m_sinf(x); }
 float sinf(float x) { return sin(x); }
@@ -89,14 +90,18 @@ float fabsf(float x) { return fabs(x); }
 
 double trunc(double x) { return x < 0 ? ceil(x) : floor(x); }
 float truncf(float x) { return trunc(x); }
-double round(double x) { return x < 0 ? -floor(0.5f - x) : floor(x + 0.5f); }
+double round(double x)
+{
+  double whole = trunc(x);
+  return fabs(x - whole) >= 0.5f ? whole + copysign(1, x) : whole;
+}
 float roundf(float x) { return round(x); }
 
+/* the sum is rounded as it should be: to a whole number, halves to the even one */
 double rint(double x)
 {
-  double down = floor(x), rest = x - down;
-  if (rest > 0.5f || (rest == 0.5f && fmod(down, 2.0f) != 0)) return down + 1;
-  return down;
+  const float from = 8388608.0f;
+  return fabs(x) < from ? copysign(fabs(x) + from - from, x) : x;
 }
 float rintf(float x) { return rint(x); }
 
@@ -104,7 +109,18 @@ double fmin(double x, double y) { return x < y || y != y ? x : y; }
 double fmax(double x, double y) { return x > y || y != y ? x : y; }
 float fminf(float x, float y) { return fmin(x, y); }
 float fmaxf(float x, float y) { return fmax(x, y); }
-double hypot(double x, double y) { return sqrt(x * x + y * y); }
+
+double hypot(double x, double y)
+{
+  const float small = 0x1p-100f;
+  double squares = x * x + y * y, by = 1;
+  if (fabs(x) == HUGE_VAL || fabs(y) == HUGE_VAL) return HUGE_VAL;
+  if (squares == HUGE_VAL) by = 0x1p-70f;
+  else if (squares < small) by = 0x1p100f;
+  else return sqrt(squares);
+  x *= by, y *= by;
+  return sqrt(x * x + y * y) / by;
+}
 float hypotf(float x, float y) { return hypot(x, y); }
 
 double copysign(double x, double y)
@@ -116,12 +132,7 @@ double copysign(double x, double y)
 }
 float copysignf(float x, float y) { return copysign(x, y); }
 
-double ldexp(double x, int e)
-{
-  for (; e > 0; e--) x *= 2;
-  for (; e < 0; e++) x *= 0.5f;
-  return x;
-}
+double ldexp(double x, int e) { return tp_m_ldexpf(x, e); }
 float ldexpf(float x, int e) { return ldexp(x, e); }
 
 double frexp(double x, int *e)
@@ -137,10 +148,12 @@ float frexpf(float x, int *e) { return frexp(x, e); }
 double modf(double x, double *whole)
 {
   *whole = trunc(x);
-  return x - *whole;
+  return copysign(fabs(x) == HUGE_VAL ? 0 : x - *whole, x);
 }
 float modff(float x, float *whole)
 {
-  *whole = trunc(x);
-  return x - *whole;
+  double all;
+  x = modf(x, &all);
+  *whole = all;
+  return x;
 }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: sscanf with d i u x o c s f n, widths, h and l, assignment suppression and [sets]. */
+ * Firmware libc: sscanf. What is too large for its type loses its upper bits. Not: wide characters. */
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
+#include "numbers.h"
 
 static int in_set(const char *set, const char *end, char c)
 {
@@ -21,6 +21,28 @@ static int in_set(const char *set, const char *end, char c)
   return inside != negated;
 }
 
+/* what letters before a conversion make of an int */
+enum { kChar = -2, kLong = 1, kLongLong };
+
+static void store_whole(void *to, const union tp_whole *v, int size)
+{
+  if (size <= kChar) *(char *)to = (char)v->word[0];
+  else if (size < kLong) *(unsigned int *)to = v->word[0];
+  else if (size == kLong) *(unsigned long *)to = v->two;
+  else *(unsigned long long *)to = v->four;
+}
+
+static int base_of(char conversion)
+{
+  switch (conversion) {
+    case 'd': case 'u': return 10;
+    case 'x': case 'X': case 'p': return 16;
+    case 'o': return 8;
+    case 'i': return 0;
+    default: return -1;
+  }
+}
+
 int vsscanf(const char *s, const char *format, va_list given)
 {
   int done = 0;
@@ -28,43 +50,54 @@ int vsscanf(const char *s, const char *format, va_list given)
   va_list list;
   va_copy(list, given);
   for (; *format; format++) {
-    int skip = 0, longs = 0, halves = 0;
-    unsigned int width = 0;
-    char word[40], *end;
+    int is_skipped = 0, size = 0, base;
+    unsigned int width = 0, n = 0;
+    const char *end, *limit;
+    union tp_whole v;
     if (isspace(*format)) {
       while (isspace(*s)) s++;
       continue;
     }
     if (*format != '%') {
+      if (!*s) goto no_input;
       if (*s != *format) break;
       s++;
       continue;
     }
     format++;
-    if (*format == '*') skip = 1, format++;
+    if (*format == '*') is_skipped = 1, format++;
     while (isdigit(*format)) width = width * 10 + (unsigned int)(*format++ - '0');
-    for (; *format == 'l' || *format == 'h'; format++) longs += *format == 'l', halves += *format == 'h';
+    for (;; format++) {
+      if (*format == 'l') size++;
+      else if (*format == 'h') size--;
+      else if (*format == 'j' || *format == 'L') size = kLongLong;
+      else if (*format != 'z' && *format != 't') break;
+    }
     if (*format == 'n') {
-      *va_arg(list, int *) = (int)(s - start);
+      v.four = (unsigned int)(s - start);
+      if (!is_skipped) store_whole(va_arg(list, void *), &v, size);
       continue;
     }
+    if (*format != 'c' && *format != '[')
+      while (isspace(*s)) s++;
+    if (!*s) goto no_input;
     if (*format == '%') {
       if (*s++ != '%') break;
       continue;
     }
     if (*format == 'c') {
-      char *to = skip ? 0 : va_arg(list, char *);
+      char *to = is_skipped ? 0 : va_arg(list, char *);
       if (!width) width = 1;
-      if (strlen(s) < width) break;
-      for (; width; width--, s++)
+      for (; width; width--, s++) {
+        if (!*s) goto no_input;
         if (to) *to++ = *s;
-      done += !skip;
+      }
+      done += !is_skipped;
       continue;
     }
     if (*format == 's' || *format == '[') {
       const char *set = 0, *set_end = 0;
-      char *to = skip ? 0 : va_arg(list, char *);
-      unsigned int n = 0;
+      char *to = is_skipped ? 0 : va_arg(list, char *);
       if (*format == '[') {
         set = set_end = format + 1;
         if (*set_end == '^') set_end++;
@@ -72,8 +105,6 @@ int vsscanf(const char *s, const char *format, va_list given)
         while (*set_end && *set_end != ']') set_end++;
         format = set_end;
         if (!*set_end) break;
-      } else {
-        while (isspace(*s)) s++;
       }
       while (*s && (!width || n < width) && (set ? in_set(set, set_end, *s) : !isspace(*s))) {
         if (to) *to++ = *s;
@@ -83,29 +114,31 @@ int vsscanf(const char *s, const char *format, va_list given)
       if (to) *to = 0, done++;
       continue;
     }
-    while (isspace(*s)) s++;
-    if (!*s) {
-      if (!done) done = EOF;
-      break;
-    }
-    strncpy(word, s, sizeof word - 1);
-    word[width && width < sizeof word ? width : sizeof word - 1] = 0;
-    if (*format == 'f' || *format == 'e' || *format == 'g') {
-      double v = strtod(word, &end);
-      if (end == word) break;
-      if (!skip) *va_arg(list, float *) = v;
+    limit = width ? s + width : 0;
+    base = base_of(*format);
+    if (base >= 0) {
+      if (tp_read_whole(s, limit, &end, base, &v, 4) & kNegative) v.four = 0 - v.four;
+      if (end == s) break;
+      if (!is_skipped) store_whole(va_arg(list, void *), &v, size);
     } else {
-      int base = *format == 'x' || *format == 'X' ? 16 : *format == 'o' ? 8 : *format == 'i' ? 0 : 10;
-      long v = strtol(word, &end, base);
-      if (end == word) break;
-      if (!skip) {
-        if (longs) *va_arg(list, long *) = v;
-        else if (halves > 1) *va_arg(list, char *) = (char)v;
-        else *va_arg(list, int *) = (int)v;
+      int is_finite;
+      long double real;
+      if (!*format || !strchr("fegaFEGA", *format)) break;
+      real = tp_read_real(s, limit, &end, &is_finite);
+      if (end == s) break;
+      if (is_skipped) {
+      } else if (size == kLongLong) {
+        *va_arg(list, long double *) = real;
+      } else {
+        *va_arg(list, float *) = (float)real;
       }
     }
-    s += end - word;
-    done += !skip;
+    s = end;
+    done += !is_skipped;
+    continue;
+  no_input:
+    if (!done) done = EOF;
+    break;
   }
   va_end(list);
   return done;

@@ -1,62 +1,14 @@
 /* SPDX-License-Identifier: MIT
- * Firmware libc: numbers, sorting, leaving. exit(0) and a return from main restart the program on the robot;
- * exit(n) and abort() are traps here, so nobody mistakes them for a quiet end. */
+ * Firmware libc: sorting, chance, leaving; numbers.c reads numbers. exit(0) and a return from main restart the program
+ * on the robot; exit(n) and abort() are traps here, so nobody mistakes them for a quiet end. */
 #include <stdlib.h>
-#include <ctype.h>
 #include <tp_runtime.h>
 
 int errno;
 
-long strtol(const char *s, char **end, int base)
-{
-  const char *start = s;
-  unsigned long v = 0;
-  int negative = 0, any = 0;
-  while (isspace(*s)) s++;
-  if (*s == '+' || *s == '-') negative = *s++ == '-';
-  if ((base == 0 || base == 16) && s[0] == '0' && (s[1] == 'x' || s[1] == 'X') && isxdigit(s[2])) s += 2, base = 16;
-  if (base == 0) base = *s == '0' ? 8 : 10;
-  for (;; s++) {
-    int d = isdigit(*s) ? *s - '0' : isalpha(*s) ? toupper(*s) - 'A' + 10 : 99;
-    if (d >= base) break;
-    v = v * (unsigned long)base + (unsigned long)d;
-    any = 1;
-  }
-  if (end) *end = (char *)(any ? s : start);
-  return (long)(negative ? 0UL - v : v);
-}
-
-unsigned long strtoul(const char *s, char **end, int base) { return (unsigned long)strtol(s, end, base); }
-long atol(const char *s) { return strtol(s, 0, 10); }
-int atoi(const char *s) { return (int)strtol(s, 0, 10); }
-
-double strtod(const char *s, char **end)
-{
-  const char *start = s;
-  long double v = 0, scale = 1;
-  int negative = 0, any = 0;
-  while (isspace(*s)) s++;
-  if (*s == '+' || *s == '-') negative = *s++ == '-';
-  for (; isdigit(*s); s++) v = v * 10 + (*s - '0'), any = 1;
-  if (*s == '.')
-    for (s++; isdigit(*s); s++) v = v * 10 + (*s - '0'), scale *= 10, any = 1;
-  if (any && (*s == 'e' || *s == 'E')) {
-    char *after;
-    long e = strtol(s + 1, &after, 10);
-    if (after != s + 1) {
-      s = after;
-      for (; e > 0; e--) v *= 10;
-      for (; e < 0; e++) scale *= 10;
-    }
-  }
-  if (end) *end = (char *)(any ? s : start);
-  v /= scale;
-  return (double)(negative ? -v : v);
-}
-
-double atof(const char *s) { return strtod(s, 0); }
 int abs(int v) { return v < 0 ? -v : v; }
 long labs(long v) { return v < 0 ? -v : v; }
+long long llabs(long long v) { return v < 0 ? -v : v; }
 
 div_t div(int a, int b)
 {
@@ -68,6 +20,13 @@ div_t div(int a, int b)
 ldiv_t ldiv(long a, long b)
 {
   ldiv_t r;
+  r.quot = a / b, r.rem = a % b;
+  return r;
+}
+
+lldiv_t lldiv(long long a, long long b)
+{
+  lldiv_t r;
   r.quot = a / b, r.rem = a % b;
   return r;
 }

@@ -110,6 +110,13 @@ int strcasecmp(const char *a, const char *b)
 
 int strcoll(const char *a, const char *b) { return strcmp(a, b); }
 
+size_t strxfrm(char *to, const char *from, size_t n)
+{
+  size_t length = strlen(from);
+  if (n) strncpy(to, from, n);
+  return length;
+}
+
 char *strchr(const char *s, int c)
 {
   for (;; s++) {
