@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "sim_core/world/world_desc.h"
 
@@ -41,20 +40,6 @@ bool can_write(const std::string& path, const char* option, std::vector<std::str
   }
   problems.push_back(path + ": " + option + ": got '" + wrong + "', expected a file that can be written");
   return false;
-}
-
-void check_files_differ(const std::vector<std::pair<std::string, std::string>>& files,
-                        std::vector<std::string>& problems) {
-  std::error_code none;
-  std::map<std::string, std::string> taken;
-  for (const auto& [path, option] : files) {
-    if (path.empty() || path.rfind("/dev/", 0) == 0) continue;
-    const std::filesystem::path whole = std::filesystem::weakly_canonical(path, none);
-    const auto [it, fresh] = taken.emplace(whole.empty() ? path : whole.string(), option);
-    if (!fresh)
-      problems.push_back(path + ": " + option + ": got the file of " + it->second +
-                         ", expected another; give them different names");
-  }
 }
 
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot) {

@@ -40,22 +40,8 @@ RunOutputs::~RunOutputs() = default;
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
-  std::vector<std::pair<std::string, std::string>> files{{twin_.world().file, "the world"},
-                                                         {a.record, "--record"},
-                                                         {a.summary, "--summary"},
-                                                         {a.coverage, "--coverage"},
-                                                         {a.pictures.picture, "--picture"},
-                                                         {a.pictures.film, "--film"},
-                                                         {a.traces.vcd, "--vcd"},
-                                                         {a.traces.timeline, "--trace"},
-                                                         {a.report, "--report"}};
-  for (const std::string& file : a.pictures.heatmaps) files.emplace_back(file, "--heatmap");
-  check_files_differ(files, problems);
-  if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
-  // counts are added to those of earlier runs
-  if (run_.coverage() && !std::ofstream(a.coverage, std::ios::app))
-    problems.push_back(a.coverage + ": --coverage: cannot be written: " + std::strerror(errno));
+  can_write(a.coverage, "--coverage", problems);  // counts are added to those of earlier runs
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);

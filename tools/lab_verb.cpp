@@ -18,6 +18,7 @@
 #include "install/places.h"
 #include "outputs/output_folder.h"
 #include "sim_core/base/did_you_mean.h"
+#include "sim_core/base/file_uses.h"
 #include "tools/command_line.h"
 #include "tools/lab_replay.h"
 #include "tools/verbs.h"
@@ -210,7 +211,7 @@ int replay(const LabArguments& a, const std::vector<lab::Exercise>& all, const t
 }
 
 /// What does not go together.
-void check_together(const LabArguments& a, std::vector<std::string>& problems) {
+void check_together(const LabArguments& a, const std::string& table, std::vector<std::string>& problems) {
   if (!a.mine.empty() && !fs::is_directory(a.mine))
     problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
   if (!a.replay.trial.empty() && !a.ids.empty())
@@ -223,12 +224,21 @@ void check_together(const LabArguments& a, std::vector<std::string>& problems) {
       if (!file.empty())
         problems.push_back(
             fmt::format("command line: {}: got no --replay, expected the run that is meant", option));
-  std::vector<std::pair<std::string, std::string>> files{
-      {a.csv, "--csv"}, {a.runs, "--runs"}, {a.html, "--html"}, {a.junit, "--junitxml"}, {a.plot, "--plot"}};
-  outputs::check_files_differ(files, problems);
-  files.pop_back();  // plots are tried when they are drawn
-  for (const auto& [file, option] : files)
-    if (!file.empty()) outputs::can_write(file, option.c_str(), problems);
+  const std::pair<std::string, const char*> files[] = {{a.csv, "--csv"},
+                                                       {a.runs, "--runs"},
+                                                       {a.html, "--html"},
+                                                       {a.junit, "--junitxml"},
+                                                       {a.plot, "--plot"},
+                                                       {a.replay.picture, "--picture"},
+                                                       {a.replay.report, "--report"},
+                                                       {a.replay.record, "--record"}};
+  sim::FileUses uses;
+  uses.reads(table, "--table");
+  if (!a.mine.empty()) uses.reads_program(a.mine);
+  for (const auto& [file, option] : files) uses.writes(file, option);
+  uses.check(problems);
+  if (problems.empty())
+    for (const auto& [file, option] : files) outputs::can_write(file, option, problems);
 }
 
 int lab(const LabArguments& given) {
@@ -243,7 +253,7 @@ int lab(const LabArguments& given) {
   }
   if (a.setting.is_mine) all = lab::own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);
-  check_together(a, problems);
+  check_together(a, table, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;

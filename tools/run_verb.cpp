@@ -16,6 +16,7 @@
 #include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
 #include "outputs/progress.h"
+#include "outputs/run_files.h"
 #include "outputs/serial_text.h"
 #include "outputs/summary.h"
 #include "outputs/terminal_screen.h"
@@ -89,6 +90,22 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
   } catch (const std::runtime_error& e) {
     problems.push_back(e.what());
   }
+  return problems.empty();
+}
+
+/// What the options and the world read and write; false, with lines in `problems`, where one is the other.
+bool check_files(const RunArguments& a, const inputs::Replay* replay, const sim::WorldDesc& world,
+                 const twin::Options& options, std::vector<std::string>& problems) {
+  sim::FileUses files;
+  outputs::note_world(world, options, replay ? replay->opening.supervisors : a.supervisors, files);
+  files.reads(a.replay, "--replay");
+  if (replay)
+    for (const auto& image : replay->opening.images) files.reads(image.file, "--replay");
+  for (const std::string& file : a.fault_files) files.reads(file, "--faults");
+  files.reads(a.profile.budgets, "--budgets");
+  files.writes(a.profile.file, "--profile-json");
+  outputs::note_outputs(a.outputs, world, files);
+  files.check(problems);
   return problems.empty();
 }
 
@@ -194,7 +211,7 @@ bool CommandRun::open() {
   const auto opens = [this] {
     if (!read_options()) return false;
     auto world = read_world();
-    if (!world) return false;
+    if (!world || !check_files(a_, replay_.get(), *world, options_, problems_)) return false;
     if (!a_.quiet)
       for (const std::string& notice : sim::proximity_notices(*world)) std::cerr << notice << '\n';
     run_ = runs::Run::open(std::move(*world), options_,

@@ -8,6 +8,8 @@
 #include <thread>
 
 #include "install/places.h"
+#include "outputs/output_folder.h"
+#include "sim_core/base/file_uses.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -66,6 +68,14 @@ int view(const ViewArguments& a) {
   }
   opening.options.threads = a.threads;
 
+  sim::FileUses files;
+  files.reads(opening.file, "the world");
+  files.writes(a.record, "--record-inputs");
+  files.check(problems);
+  if (!problems.empty() || !outputs::can_write(a.record, "--record-inputs", problems)) {
+    complain(problems);
+    return kBadInput;
+  }
   auto live =
       viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(), problems,
                              std::move(replay), [](const std::string& wrong) { complain({wrong}); });
