@@ -302,6 +302,9 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
                                  std::vector<std::string>& problems) {
   const std::size_t problems_before = problems.size();
   check_choices(world, options, problems);
+  sim::FileUses files;
+  note_uart_files(world, options, files);
+  files.check(problems);
   if (problems.size() != problems_before) return nullptr;
   FirmwareShelf shelf(options, problems);
   std::vector<const Firmware*> firmware;
