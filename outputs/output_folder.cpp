@@ -47,6 +47,8 @@ std::string output_file(const std::string& folder, const sim::WorldDesc& world, 
   if (name.find('/') != std::string::npos || name[0] == '.') {
     std::replace(name.begin(), name.end(), '/', '_');
     name = std::to_string(robot) + "_" + name;
+    const auto is_taken = [&](const sim::RobotDesc& other) { return other.name == name; };
+    while (std::any_of(world.robots.begin(), world.robots.end(), is_taken)) name += '_';
   }
   return folder + "/" + name;
 }

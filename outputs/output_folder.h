@@ -19,7 +19,7 @@ bool make_output_folder(const std::string& folder, const char* option, std::vect
 bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems);
 
 /// FOLDER/NAME of a robot, without an ending: its name, '/' replaced by '_'; names that had one, or begin
-/// with a dot, get the robot's number before them, so that no two robots share a file.
+/// with a dot, get the robot's number before them, and '_' behind while that is another robot's name.
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot);
 
 }  // namespace outputs
