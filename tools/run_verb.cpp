@@ -386,6 +386,7 @@ int CommandRun::close() {
   outputs::Summary summary = outputs::summarise(twin, took_s_);
   summary.faults = run_->inputs().faults().statuses();
   outputs_->finish(summary, problems_);
+  profile_->write(problems_);
   complain(problems_);
   if (!a_.quiet) {
     const std::vector<std::string> written = outputs_->written();
@@ -398,7 +399,7 @@ int CommandRun::close() {
       problems_.push_back(line);
       complain({line});
     }
-  const bool kept_budgets = profile_->finish(problems_);
+  const bool kept_budgets = profile_->tell();
   for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)
