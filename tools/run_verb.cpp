@@ -408,10 +408,9 @@ int CommandRun::close() {
       if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
     }
   if (end_code == kHostTime)
-    complain(
-        {fmt::format("twinpuck: host time: got {} s, expected at most {} s; outputs hold what was simulated",
-                     static_cast<long>(std::chrono::duration<double>(Wall::now() - began_).count()),
-                     static_cast<long>(a_.host_limit_s))});
+    complain({fmt::format(
+        "twinpuck: host time: got {:.3f} s, expected at most {:g} s; outputs hold what was simulated",
+        std::chrono::duration<double>(Wall::now() - began_).count(), a_.host_limit_s)});
   return exit_code(end_code, is_clean, kept_budgets);
 }
 
