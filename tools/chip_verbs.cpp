@@ -137,7 +137,7 @@ void add_asm(CLI::App& app, int& exit_code) {
   auto name = std::make_shared<std::string>();
   auto output = std::make_shared<std::string>();
   verb->add_option("FILE", *name, "assembler text in XC16's syntax")->required();
-  verb->add_option("-o", *output, "the .hex file")->required();
+  verb->add_option("-o", *output, "the .hex file")->required()->check(named());
   verb->callback([=, &exit_code] { exit_code = assemble(*name, *output); });
 }
 

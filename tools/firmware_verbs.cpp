@@ -173,7 +173,8 @@ void add_build(CLI::App& app, int& exit_code) {
   verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name; Webots' too")
       ->required();
   verb->add_option("-o,--output", o->output,
-                   "the image to write, an .elf; without it, where runs keep theirs");
+                   "the image to write, an .elf; without it, where runs keep theirs")
+      ->check(named());
   verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: the project's, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));

@@ -100,7 +100,8 @@ void add_import(CLI::App& app, int& exit_code) {
   auto output = std::make_shared<std::string>();
   auto bare = std::make_shared<bool>(false);
   verb->add_option("FILE", *file, "the .wbt file")->required();
-  verb->add_option("-o,--output", *output, "the world file to write; FILE.toml beside it otherwise");
+  verb->add_option("-o,--output", *output, "the world file to write; FILE.toml beside it otherwise")
+      ->check(named());
   verb->add_flag("--without-firmware", *bare, "robots get no firmware, so that the world runs as it is");
   verb->callback([file, output, bare, &exit_code] { exit_code = import(*file, *output, *bare); });
 }

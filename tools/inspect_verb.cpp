@@ -226,11 +226,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--at", a->at_s, "run the world's firmware for so many simulated seconds first")
       ->check(between(0, 1e6));
-  verb->add_option("--seed", a->seed, "the world's seed instead of the file's")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--picture", a->picture, "draw the reading: PNG or SVG");
+  verb->add_option("--seed", a->seed, "the world's seed instead of the file's")->check(seed_range());
+  verb->add_option("--picture", a->picture, "draw the reading: PNG or SVG")->check(named());
   verb->add_option("--profile", a->profile, "NAME,NAME or all: response curves of these profiles");
-  verb->add_option("--plot", a->plot, "plot response curves: PNG or SVG");
+  verb->add_option("--plot", a->plot, "plot response curves: PNG or SVG")->check(named());
   verb->add_option("--colour,--color", a->colour, "R,G,B of the wall in curves, each 0 to 1")
       ->delimiter(',')
       ->expected(3)

@@ -214,6 +214,26 @@ void check_together(const LabArguments& a, const std::string& table,
   if (!a.replay.trial.empty() && !a.ids.empty())
     problems.push_back("command line: --replay: got exercise '" + a.ids[0] +
                        "' besides, expected what is replayed alone");
+  if (!a.replay.trial.empty())
+    for (const auto& [file, option] : {std::pair{a.csv, "--csv"},
+                                       {a.runs, "--runs"},
+                                       {a.html, "--html"},
+                                       {a.junit, "--junitxml"},
+                                       {a.plot, "--plot"}})
+      if (!file.empty())
+        problems.push_back(fmt::format(
+            "command line: {}: got --replay besides, expected --picture, --report or --record of one run",
+            option));
+  if (a.setting.full && a.setting.seeds > 0)
+    problems.push_back("command line: --seeds: got --full besides, expected one of them");
+  if (const std::string kind = fs::path(a.plot).extension().string();
+      !a.plot.empty() && kind != ".png" && kind != ".svg")
+    problems.push_back(fmt::format("{}: --plot: got the ending '{}', expected .png or .svg", a.plot, kind));
+  if (!a.plot.empty() && std::none_of(chosen.begin(), chosen.end(), [](const lab::Exercise* e) {
+        return std::any_of(e->steps.begin(), e->steps.end(), has_plot);
+      }))
+    problems.push_back(
+        "command line: --plot: got exercises with one noise scale, expected one with several, S15");
   if (a.replay.trial.empty())
     for (const auto& [file, option] :
          {std::pair{a.replay.picture, "--picture"}, std::pair{a.replay.report, "--report"},
@@ -285,9 +305,10 @@ void add_lab(CLI::App& app, int& exit_code) {
   lab::Setting& setting = a->setting;
   verb->add_option("EXERCISE", a->ids, "such as I1 or S14; all without one");
   verb->add_option(
-      "--mine", a->mine,
-      "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
-      "in the place of the lab's solutions; or a folder of such folders, one a student");
+          "--mine", a->mine,
+          "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
+          "in the place of the lab's solutions; or a folder of such folders, one a student")
+      ->check(named());
   add_hal(*verb, setting.hal);
   verb->add_option("--seeds", setting.seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
@@ -298,14 +319,17 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->add_option("--jobs", setting.jobs, "processes that share the runs; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--csv", a->csv, "file for every run's measures; of a class, for its table");
-  verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)");
+  verb->add_option("--csv", a->csv, "file for every run's measures; of a class, for its table")
+      ->check(named());
+  verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)")
+      ->check(named());
   verb->add_flag("--no-times", a->no_times, "leave out what depends on the PC: same text every time");
-  verb->add_option("--table", a->table, "another table than docs/lab.toml");
+  verb->add_option("--table", a->table, "another table than docs/lab.toml")->check(named());
   verb->option_defaults()->group("Tables");
-  verb->add_option("--html", a->html, "page with the table, and why what failed");
-  verb->add_option("--junitxml", a->junit, "JUnit XML: a suite a student, a case an exercise");
-  verb->add_option("--runs", a->runs, "file for every run's measures, of a class, too");
+  verb->add_option("--html", a->html, "page with the table, and why what failed")->check(named());
+  verb->add_option("--junitxml", a->junit, "JUnit XML: a suite a student, a case an exercise")
+      ->check(named());
+  verb->add_option("--runs", a->runs, "file for every run's measures, of a class, too")->check(named());
   verb->add_option(
           "--limit", a->limit_s,
           "of a class: real seconds that a build, or an exercise of one student, may take (60; 900 with "
@@ -318,9 +342,9 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("One run again");
   verb->add_option("--replay", a->replay.trial,
                    "EXERCISE:WORLD:SEED of a run, as a line that failed shows it: I1:corners:3");
-  verb->add_option("--picture", a->replay.picture, "PNG or SVG of it, from above");
-  verb->add_option("--report", a->replay.report, "HTML file of it, to look through");
-  verb->add_option("--record", a->replay.record, "CSV of poses, steps, sensors and LEDs");
+  verb->add_option("--picture", a->replay.picture, "PNG or SVG of it, from above")->check(named());
+  verb->add_option("--report", a->replay.report, "HTML file of it, to look through")->check(named());
+  verb->add_option("--record", a->replay.record, "CSV of poses, steps, sensors and LEDs")->check(named());
   verb->footer(
       "Examples: twinpuck lab I1 --mine .\n"
       "          twinpuck lab --mine class --jobs 4 --html class.html --junitxml class.xml\n"

@@ -43,6 +43,7 @@ struct RunArguments {
   std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs, fault_files, faults;
   std::string replay;
   double seconds = 60;
+  bool has_end = false;  // seconds were given
   std::string speed = "max";
   long long seed = -1;
   int threads = 1;
@@ -185,6 +186,10 @@ std::optional<sim::WorldDesc> CommandRun::read_world() {
   if (!a_.replay.empty()) {
     replay_ = inputs::Replay::open(a_.replay, problems_);
     if (replay_) replay_->resume(options_);
+    if (replay_ && replay_->end() >= 0 && a_.has_end)
+      problems_.push_back(
+          "command line: --for: got one besides --replay, expected the recording alone, which says it");
+    if (replay_ && replay_->end() < 0) complain({replay_->cut_off(a_.replay)});
   }
   const std::string file = replay_ || !problems_.empty() ? "" : find_world(a_.world, problems_);
   if (!problems_.empty()) return {};
@@ -389,7 +394,9 @@ int CommandRun::close() {
   profile_->write(problems_);
   complain(problems_);
   if (!a_.quiet) {
-    const std::vector<std::string> written = outputs_->written();
+    std::vector<std::string> written = outputs_->written();
+    if (!a_.profile.file.empty()) written.push_back(a_.profile.file);
+    written = outputs::without_lost(std::move(written), problems_);
     std::cout << to_text(summary);
     if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
   }
@@ -466,7 +473,8 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(between(0, 1e7));
   auto* replay =
       verb->add_option("--replay", a->replay,
-                       "do again what a page did, from view --record-inputs; the world is the recording's");
+                       "do again what a page did, from view --record-inputs; the world is the recording's")
+          ->check(named());
   verb->option_defaults()->group("Faults");
   one_each(
       verb->add_option("--faults", a->fault_files,
@@ -498,10 +506,16 @@ void add_run(CLI::App& app, int& exit_code) {
       "Exit codes: 0 good, 1 --strict, --budgets or a supervisor found a fault, 2 bad input, 3 firmware "
       "trapped, "
       "7 an output was lost or a fault never took effect, 124 --host-limit, 130 interrupted");
-  verb->callback([a, world, replay, speed, &exit_code] {
+  verb->callback([a, verb, world, replay, speed, &exit_code] {
     if (a->live && speed->count() == 0) a->speed = "1";
-    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
-    exit_code = run(*a);
+    a->has_end = verb->get_option("--for")->count() > 0;
+    std::vector<std::string> problems;
+    want_one_world(*world, *replay, problems);
+    if (replay->count() > 0)
+      refuse_with_replay(*verb, {"--fw", "--hal", "--opt", "--supervisor", "--seed"}, problems);
+    refuse_without_output(*verb, problems);
+    complain(problems);
+    exit_code = problems.empty() ? run(*a) : int{kBadInput};
   });
 }
 

@@ -60,6 +60,7 @@ inputs::Opening opening_of(const ViewArguments& a, std::vector<std::string>& pro
 int view(const ViewArguments& a) {
   std::vector<std::string> problems;
   auto replay = a.replay.empty() ? nullptr : inputs::Replay::open(a.replay, problems);
+  if (replay && replay->end() < 0) complain({replay->cut_off(a.replay)});
   inputs::Opening opening;
   if (problems.empty()) opening = replay ? opening_of(*replay) : opening_of(a, problems);
   if (!problems.empty() || (!replay && !split_choices(a.firmware, "--fw", opening.options.firmware))) {
@@ -115,9 +116,13 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input, 7 the "
       "recording could not be written");
-  verb->callback([a, world, replay, &exit_code] {
-    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
-    exit_code = view(*a);
+  verb->callback([a, verb, world, replay, &exit_code] {
+    std::vector<std::string> problems;
+    want_one_world(*world, *replay, problems);
+    if (replay->count() > 0)
+      refuse_with_replay(*verb, {"--fw", "--hal", "--opt", "--supervisor", "--seed"}, problems);
+    complain(problems);
+    exit_code = problems.empty() ? view(*a) : int{kBadInput};
   });
 }
 

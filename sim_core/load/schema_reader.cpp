@@ -57,7 +57,9 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
   switch (k.type) {
     case ValueType::Integer: {
       const auto* i = node.as_integer();
-      if (!i || !in_range(k, static_cast<double>(i->get()))) return false;
+      // not as doubles, which pass over numbers this large
+      if (!i || i->get() < static_cast<std::int64_t>(k.least) || i->get() > static_cast<std::int64_t>(k.most))
+        return false;
       v.integer = i->get();
       return true;
     }
