@@ -133,14 +133,19 @@ const toml::table* SchemaReader::parse(std::string_view text) {
 }
 
 void SchemaReader::sort_problems() {
+  more_ += problems_.size() > kMostProblems ? problems_.size() - kMostProblems : 0;
   if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
   std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
   });
+  if (more_ > 0) problems_.push_back({0, 0, fmt::format("and {} mistakes more", more_)});
 }
 
 void SchemaReader::problem(const toml::source_region& where, std::string text) {
-  if (problems_.size() >= kMostProblems) return;
+  if (problems_.size() >= kMostProblems) {
+    ++more_;
+    return;
+  }
   problems_.push_back(
       {static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
 }
