@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "outputs/output_folder.h"
-#include "programs/team/names.h"
 #include "sim_core/load/world_loader.h"
 
 namespace outputs {
@@ -20,11 +19,7 @@ void note_world(const sim::WorldDesc& world, twin::Options options,
   named(world.floor.image, "the world's floor.image");
   named(world.webots.world, "the world's webots.world");
   for (const sim::SoundDesc& sound : world.sounds) named(sound.file, "the world's sound.file");
-  std::vector<std::string> missing;  // told when it is to run
-  for (const auto& supervisor : programs::supervisors_of(world, options.world_folder, supervisors, missing))
-    files.reads_program(twin::find_firmware(supervisor.desc.program, supervisor.folder, missing));
-  twin::note_programs(world, options, files);
-  twin::note_uart_files(world, options, files);
+  runs::note_programs(world, options, supervisors, files);
 }
 
 void note_outputs(const OutputArguments& a, const sim::WorldDesc& world, sim::FileUses& files) {

@@ -279,8 +279,11 @@ int lab(const LabArguments& given) {
   options.hal = a.setting.hal;
   if (!a.replay.trial.empty()) return replay(a, all, options);
   if (a.setting.is_mine &&
-      lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty()))
-    return judge_class(a, chosen, options);
+      lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty())) {
+    if (a.plot.empty()) return judge_class(a, chosen, options);
+    complain({a.mine + ": --mine: got a class's folder, expected one student's with --plot"});
+    return kBadInput;
+  }
   lab::Programs programs = a.setting.is_mine
                                ? lab::own_programs(a.mine, options, chosen, !a.ids.empty(), false)
                                : lab::reference_programs(chosen, options, problems);
