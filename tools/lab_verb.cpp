@@ -252,6 +252,14 @@ void check_together(const LabArguments& a, const std::string& table,
   sim::FileUses uses;
   uses.reads(table, "--table");
   if (!a.mine.empty()) uses.reads_program(a.mine);
+  std::vector<std::string> missing;  // told when they are to run
+  for (const lab::Exercise* e : chosen)
+    for (const lab::Step& step : e->steps) {
+      for (const std::string& world : step.worlds)
+        uses.reads((places::share_root() / "worlds" / (world + ".toml")).string(), "the world");
+      if (a.mine.empty() && !step.firmware.empty())
+        uses.reads_program(twin::find_firmware(step.firmware, "", missing));
+    }
   for (const auto& [file, option] : files) uses.writes(file, option);
   uses.check(problems);
   if (problems.empty())

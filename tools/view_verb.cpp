@@ -7,9 +7,10 @@
 #include <iostream>
 #include <thread>
 
+#include "hal_sim/twin/world_file.h"
 #include "install/places.h"
 #include "outputs/output_folder.h"
-#include "sim_core/base/file_uses.h"
+#include "outputs/run_files.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -70,7 +71,9 @@ int view(const ViewArguments& a) {
   opening.options.threads = a.threads;
 
   sim::FileUses files;
-  files.reads(opening.file, "the world");
+  const sim::LoadedWorld loaded = twin::parse_world(opening.text, opening.file);
+  outputs::note_world(loaded.world ? *loaded.world : loaded.draft, opening.options, opening.supervisors,
+                      files);
   files.writes(a.record, "--record-inputs");
   files.check(problems);
   if (!problems.empty() || !outputs::can_write(a.record, "--record-inputs", problems)) {
