@@ -162,6 +162,9 @@ std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, c
   if (is(CLI::ExitCodes::ConversionError) && !option.empty())
     return option + ": got '" + given_for(option, argc, argv) + "', expected a number" +
            (option == "--for" ? " of seconds" : "") + ", without a unit";
+  if (is(CLI::ExitCodes::ArgumentMismatch) && said.find(": 1 required") != std::string::npos &&
+      !option.empty())
+    return option + ": got nothing, expected a value";
   const auto verb_is = [&](const std::string& word) {
     return "verb: got '" + word + "', expected one of those that `twinpuck --help` lists" +
            sim::did_you_mean_tail(word, known_words(*root_of(at)));

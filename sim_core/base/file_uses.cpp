@@ -55,6 +55,17 @@ bool is_under(const fs::path& file, const fs::path& folder) {
   return !rest.empty() && rest != "." && *rest.begin() != "..";
 }
 
+/// Whether one of the files in the folder is `file` under another name, a hard link.
+bool holds(const fs::path& folder, const fs::path& file) {
+  std::error_code none;
+  if (fs::hard_link_count(file, none) < 2 || none) return false;
+  const auto skip = fs::directory_options::skip_permission_denied;
+  for (fs::recursive_directory_iterator it(folder, skip, none), end; !none && it != end; it.increment(none))
+    if (std::error_code gone; !is_left_behind(it->path()) && fs::equivalent(it->path(), file, gone))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 void FileUses::reads_program(const std::string& path) {
@@ -86,9 +97,10 @@ void FileUses::check(std::vector<std::string>& problems) const {
     // a source may be a link to a file elsewhere
     const fs::path whole = whole_path(use.path), named = fs::absolute(use.path, none).lexically_normal();
     for (const std::string& folder : programs_)
-      if ((is_under(whole, whole_path(folder)) ||
-           is_under(named, fs::absolute(folder, none).lexically_normal())) &&
-          !is_left_behind(whole)) {
+      if (((is_under(whole, whole_path(folder)) ||
+            is_under(named, fs::absolute(folder, none).lexically_normal())) &&
+           !is_left_behind(whole)) ||
+          holds(folder, use.path)) {
         refuse(use, "a file of the program " + folder);
         break;
       }
