@@ -546,6 +546,7 @@ void Walk::ranging(const Node& n, const Affine& at, Device& made) {
   if (lidar) made.vertical_fov_rad = std::clamp(n.number("verticalFieldOfView", 0.2), 0.0, 3.14);
   made.near_m = std::clamp(n.number("minRange", 0.01), 0.0, kFarthestM);
   made.far_m = std::clamp(n.number("maxRange", 1), 0.001, kFarthestM);
+  if (*made.near_m >= *made.far_m) made.near_m = 0;
   if (n.number("noise", 0) > 0) report_.add(n, *n.field("noise"), "noise of distances", "they are exact");
 }
 

@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <map>
 
 #include "sim_core/world/world_desc.h"
 
@@ -43,25 +42,13 @@ bool can_write(const std::string& path, const char* option, std::vector<std::str
   return false;
 }
 
-void check_files_differ(const std::vector<std::pair<std::string, std::string>>& files,
-                        std::vector<std::string>& problems) {
-  std::error_code none;
-  std::map<std::string, std::string> taken;
-  for (const auto& [path, option] : files) {
-    if (path.empty() || path.rfind("/dev/", 0) == 0) continue;
-    const std::filesystem::path whole = std::filesystem::weakly_canonical(path, none);
-    const auto [it, fresh] = taken.emplace(whole.empty() ? path : whole.string(), option);
-    if (!fresh)
-      problems.push_back(path + ": " + option + ": got the file of " + it->second +
-                         ", expected another; give them different names");
-  }
-}
-
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot) {
   std::string name = world.robots[static_cast<std::size_t>(robot)].name;
   if (name.find('/') != std::string::npos || name[0] == '.') {
     std::replace(name.begin(), name.end(), '/', '_');
     name = std::to_string(robot) + "_" + name;
+    const auto is_taken = [&](const sim::RobotDesc& other) { return other.name == name; };
+    while (std::any_of(world.robots.begin(), world.robots.end(), is_taken)) name += '_';
   }
   return folder + "/" + name;
 }

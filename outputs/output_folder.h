@@ -2,7 +2,6 @@
 // Where a run leaves things behind: folders with a file for each robot, and whether a file can be written.
 #pragma once
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace sim {
@@ -19,12 +18,8 @@ bool make_output_folder(const std::string& folder, const char* option, std::vect
 /// a line in `problems`.
 bool can_write(const std::string& path, const char* option, std::vector<std::string>& problems);
 
-/// Files and what names each ("--record", "the world"): no file twice, or a line in `problems`.
-void check_files_differ(const std::vector<std::pair<std::string, std::string>>& files,
-                        std::vector<std::string>& problems);
-
 /// FOLDER/NAME of a robot, without an ending: its name, '/' replaced by '_'; names that had one, or begin
-/// with a dot, get the robot's number before them, so that no two robots share a file.
+/// with a dot, get the robot's number before them, and '_' behind while that is another robot's name.
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot);
 
 }  // namespace outputs

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "outputs/profile_outputs.h"
 
-#include <cstring>
-#include <fstream>
 #include <iostream>
 
 #include "outputs/output_folder.h"
+#include "sim_core/base/output_file.h"
 
 namespace outputs {
 
@@ -25,16 +24,19 @@ bool ProfileOutputs::open(std::vector<std::string>& problems) {
   return problems.size() == before;
 }
 
-bool ProfileOutputs::finish(std::vector<std::string>& problems) {
+void ProfileOutputs::write(std::vector<std::string>& problems) {
+  if (arguments_.file.empty()) return;
+  sim::OutputFile out(arguments_.file, "--profile-json");
+  out.append(to_json(profiles_.reports()));
+  out.close();
+  if (!out.error().empty()) problems.push_back(out.error());
+}
+
+bool ProfileOutputs::tell() const {
   bool kept = true;
   const auto reports = profiles_.reports();
   if (arguments_.profile)
     for (const auto& [robot, report, program] : reports) std::cout << '\n' << to_text(robot, report);
-  if (!arguments_.file.empty()) {
-    std::ofstream out(arguments_.file, std::ios::binary | std::ios::trunc);
-    if (!(out << to_json(reports)).flush())
-      problems.push_back(arguments_.file + ": --profile-json: cannot be written: " + std::strerror(errno));
-  }
   if (arguments_.budgets.empty()) return true;
   for (const auto& [robot, report, program] : reports)
     for (const Budgets::Verdict& v : budgets_.judge(report, *program)) {

@@ -20,8 +20,10 @@ class ProfileOutputs {
       : arguments_(std::move(arguments)), twin_(twin), profiles_(twin) {}
   /// False and one line per problem: no robot that runs firmware, a bad file of budgets.
   bool open(std::vector<std::string>& problems);
+  /// The run is over: the file, and a line where it cannot be written.
+  void write(std::vector<std::string>& problems);
   /// Text goes to stdout. False: a budget was not kept.
-  bool finish(std::vector<std::string>& problems);
+  bool tell() const;
 
  private:
   const ProfileArguments arguments_;

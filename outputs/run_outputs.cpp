@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "outputs/run_outputs.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -29,6 +30,18 @@ bool write_text(const std::string& path, const std::string& text, const char* op
 
 }  // namespace
 
+std::vector<std::string> without_lost(std::vector<std::string> files,
+                                      const std::vector<std::string>& problems) {
+  const auto is_lost = [&](const std::string& file) {
+    // "FILE: cannot be written", "FOLDER/FILE: cannot be written"
+    return std::any_of(problems.begin(), problems.end(), [&](const std::string& problem) {
+      return problem.rfind(file + ":", 0) == 0 || problem.rfind(file + "/", 0) == 0;
+    });
+  };
+  files.erase(std::remove_if(files.begin(), files.end(), is_lost), files.end());
+  return files;
+}
+
 RunOutputs::RunOutputs(const OutputArguments& arguments, runs::Run& run)
     : arguments_(arguments),
       run_(run),
@@ -40,22 +53,8 @@ RunOutputs::~RunOutputs() = default;
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
-  std::vector<std::pair<std::string, std::string>> files{{twin_.world().file, "the world"},
-                                                         {a.record, "--record"},
-                                                         {a.summary, "--summary"},
-                                                         {a.coverage, "--coverage"},
-                                                         {a.pictures.picture, "--picture"},
-                                                         {a.pictures.film, "--film"},
-                                                         {a.traces.vcd, "--vcd"},
-                                                         {a.traces.timeline, "--trace"},
-                                                         {a.report, "--report"}};
-  for (const std::string& file : a.pictures.heatmaps) files.emplace_back(file, "--heatmap");
-  check_files_differ(files, problems);
-  if (problems.size() != before) return false;
   can_write(a.summary, "--summary", problems);
-  // counts are added to those of earlier runs
-  if (run_.coverage() && !std::ofstream(a.coverage, std::ios::app))
-    problems.push_back(a.coverage + ": --coverage: cannot be written: " + std::strerror(errno));
+  can_write(a.coverage, "--coverage", problems);  // counts are added to those of earlier runs
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);
@@ -120,11 +119,12 @@ std::vector<std::string> RunOutputs::written() const {
   for (const std::string& file : {a.record, a.summary, a.pictures.picture, a.pictures.film, a.traces.vcd,
                                   a.traces.timeline, a.coverage, a.images, a.sound_folder, a.report})
     if (!file.empty()) files.push_back(file);
-  return files;
+  return without_lost(std::move(files), lost_);
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
   const auto& a = arguments_;
+  const std::size_t before = problems.size();
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
   if (images_ && images_->failed())
     problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
@@ -141,6 +141,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   }
   pictures_.finish(summary, problems);
   traces_.finish(problems);
+  lost_.assign(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end());
 }
 
 }  // namespace outputs

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "outputs/trace_outputs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
+#include "outputs/complain.h"
 #include "outputs/output_folder.h"
 #include "sim_core/load/world_loader.h"
 
@@ -249,6 +252,14 @@ void TraceOutputs::finish(std::vector<std::string>& problems) {
     if (!timeline_->error().empty()) problems.push_back(timeline_->error());
   }
   traced_.clear();
+  const auto tell_cut = [](const std::string& file, const char* option, double at_s) {
+    complain({fmt::format("{}: {}: ends at {:.6f} s: it would grow beyond {}-max-mb", file, option, at_s,
+                          option)});
+  };
+  if (vcd_ && vcd_->error().empty() && vcd_->cut_at() >= 0)
+    tell_cut(arguments_.vcd, "--vcd", sim::to_seconds(vcd_->cut_at()));
+  if (timeline_ && timeline_->error().empty() && timeline_->cut_at_ns() >= 0)
+    tell_cut(arguments_.timeline, "--trace", static_cast<double>(timeline_->cut_at_ns()) / 1e9);
 }
 
 }  // namespace outputs

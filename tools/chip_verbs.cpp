@@ -13,6 +13,8 @@
 #include "dspic30/core/disassembler.h"
 #include "dspic30/load/firmware_file.h"
 #include "dspic30/memory/program_memory.h"
+#include "outputs/output_folder.h"
+#include "sim_core/base/file_uses.h"
 #include "sim_core/base/pattern.h"
 #include "tools/command_line.h"
 #include "tools/program_file.h"
@@ -78,6 +80,9 @@ int assemble(const std::string& name, const std::string& output) {
   }
   const fs::path folder = fs::path(name).parent_path();
   bool is_no_file = false;
+  sim::FileUses uses;
+  uses.reads(name, "the assembler text");
+  uses.writes(output, "-o");
   const dspic::assembly::Image image =
       dspic::assembly::assemble(text, name, [&](const std::string& other) -> std::optional<std::string> {
         // a pipe may never end
@@ -89,6 +94,7 @@ int assemble(const std::string& name, const std::string& output) {
           is_no_file = true;
           return std::nullopt;
         }
+        uses.reads(file.string(), ".include");
         std::string included;
         return read_file(file.string(), included) ? std::optional(included) : std::nullopt;
       });
@@ -99,6 +105,12 @@ int assemble(const std::string& name, const std::string& output) {
   if (!image.is_whole()) {
     std::cerr << image.report();
     return kTestFailed;
+  }
+  std::vector<std::string> problems;
+  uses.check(problems);
+  if (!problems.empty() || !outputs::can_write(output, "-o", problems)) {
+    complain(problems);
+    return kBadInput;
   }
   dspic::FirmwareFile file;
   file.words = image.program;
@@ -125,7 +137,7 @@ void add_asm(CLI::App& app, int& exit_code) {
   auto name = std::make_shared<std::string>();
   auto output = std::make_shared<std::string>();
   verb->add_option("FILE", *name, "assembler text in XC16's syntax")->required();
-  verb->add_option("-o", *output, "the .hex file")->required();
+  verb->add_option("-o", *output, "the .hex file")->required()->check(named());
   verb->callback([=, &exit_code] { exit_code = assemble(*name, *output); });
 }
 

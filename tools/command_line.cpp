@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <iostream>
 #include <regex>
@@ -25,6 +26,40 @@ CLI::Validator between(double least, double most) {
         return fmt::format("got {}, expected {:g} to {:g}", text, least, most);
       },
       fmt::format("{:g} to {:g}", least, most));
+}
+
+CLI::Validator named() {
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? "got '', expected the name of a file" : std::string(); },
+      "");
+}
+
+CLI::Validator seed_range() {
+  static constexpr long long kMost = 9'000'000'000'000'000'000;  // as a world file may have it
+  return CLI::Validator(
+      [](std::string& text) {
+        long long seed = 0;
+        const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), seed);
+        if (wrong == std::errc() && end == text.data() + text.size() && seed >= 0 && seed <= kMost)
+          return std::string();
+        return fmt::format("got {}, expected 0 to {}", text, kMost);
+      },
+      "NONNEGATIVE");
+}
+
+void refuse_with_replay(const CLI::App& verb, const std::vector<std::string>& options,
+                        std::vector<std::string>& problems) {
+  for (const std::string& option : options)
+    if (verb.get_option(option)->count() > 0)
+      problems.push_back("command line: " + option +
+                         ": got one besides --replay, expected the recording alone, which says it");
+}
+
+void want_one_world(const CLI::Option& world, const CLI::Option& replay, std::vector<std::string>& problems) {
+  if (world.count() + replay.count() == 0) throw CLI::RequiredError("WORLD or --replay");
+  if (world.count() > 0 && replay.count() > 0)
+    problems.push_back("command line: WORLD: got '" + world.results().front() +
+                       "' besides --replay, expected the recording alone, which holds its world");
 }
 
 CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }
@@ -51,8 +86,7 @@ void add_firmware(CLI::App& verb, std::vector<std::string>& firmware) {
 }
 
 void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads) {
-  verb.add_option("--seed", seed, "the world's seed, 0 or more, instead of the file's")
-      ->check(CLI::NonNegativeNumber);
+  verb.add_option("--seed", seed, "the world's seed, 0 or more, instead of the file's")->check(seed_range());
   verb.add_option("--threads", threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
@@ -128,6 +162,9 @@ std::string in_the_houses_grammar(const CLI::App& at, const std::string& path, c
   if (is(CLI::ExitCodes::ConversionError) && !option.empty())
     return option + ": got '" + given_for(option, argc, argv) + "', expected a number" +
            (option == "--for" ? " of seconds" : "") + ", without a unit";
+  if (is(CLI::ExitCodes::ArgumentMismatch) && said.find(": 1 required") != std::string::npos &&
+      !option.empty())
+    return option + ": got nothing, expected a value";
   const auto verb_is = [&](const std::string& word) {
     return "verb: got '" + word + "', expected one of those that `twinpuck --help` lists" +
            sim::did_you_mean_tail(word, known_words(*root_of(at)));

@@ -14,6 +14,16 @@ namespace tools {
 /// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
 CLI::Validator between(double least, double most);
 
+/// Of options that name a file to be written: not an empty one.
+CLI::Validator named();
+/// A world's seed, exactly.
+CLI::Validator seed_range();
+/// A recording says what these options of `verb` say: a line in `problems` for each that was given with it.
+void refuse_with_replay(const CLI::App& verb, const std::vector<std::string>& options,
+                        std::vector<std::string>& problems);
+/// WORLD or --replay, one of them: else a line in `problems`, or CLI's error where both are missing.
+void want_one_world(const CLI::Option& world, const CLI::Option& replay, std::vector<std::string>& problems);
+
 /// The world file that a name means (twin/world_file.h), told when it could mean another one. Empty, with a
 /// line in `problems`, when there is none.
 std::string find_world(const std::string& name, std::vector<std::string>& problems);

@@ -145,7 +145,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
       ->check(between(0, 1e7));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
-      ->check(CLI::NonNegativeNumber);
+      ->check(seed_range());
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/looking.md");
   verb->add_flag("--dap", a->dap, "speak the Debug Adapter Protocol with an editor, which says what to run");
   verb->add_option("--opt", a->optimisation,

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The verbs that look at firmware without running it: build, lint; and check, which looks at a world.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <map>
 
 #include "compiler/build/build.h"
 #include "hal_sim/twin/firmware_store.h"
@@ -126,12 +129,22 @@ int lint(const std::string& name) {
 /// What a world names and is not there: firmware and supervisors.
 std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::string& file) {
   const std::string folder = fs::path(file).parent_path().string();
-  std::vector<std::string> found, missing;
+  std::vector<std::string> missing, programs;
+  std::map<std::string, std::vector<std::string>> robots;  // by what they run
   for (const auto& robot : world.robots) {
-    if (robot.firmware.empty() || std::count(found.begin(), found.end(), robot.firmware)) continue;
-    found.push_back(robot.firmware);
-    if (twin::find_firmware(robot.firmware, folder, missing).empty())
-      missing.back() = file + ": robot '" + robot.name + "': " + missing.back();
+    if (robot.firmware.empty()) continue;
+    if (robots[robot.firmware].empty()) programs.push_back(robot.firmware);
+    robots[robot.firmware].push_back("'" + robot.name + "'");
+  }
+  constexpr std::size_t kMostNames = 4;
+  for (const std::string& program : programs) {
+    if (!twin::find_firmware(program, folder, missing).empty()) continue;
+    std::vector<std::string>& names = robots[program];
+    const std::size_t all = names.size();
+    names.resize(std::min(all, kMostNames));
+    missing.back() =
+        fmt::format("{}: {} {}{}: {}", file, all == 1 ? "robot" : "robots", fmt::join(names, ", "),
+                    all > kMostNames ? fmt::format(" and {} more", all - kMostNames) : "", missing.back());
   }
   for (const auto& program : world.supervisors)
     if (twin::find_firmware(program.program, folder, missing).empty())
@@ -173,7 +186,8 @@ void add_build(CLI::App& app, int& exit_code) {
   verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name; Webots' too")
       ->required();
   verb->add_option("-o,--output", o->output,
-                   "the image to write, an .elf; without it, where runs keep theirs");
+                   "the image to write, an .elf; without it, where runs keep theirs")
+      ->check(named());
   verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: the project's, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));

@@ -42,7 +42,8 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     complain({output + ": -o: got the world itself, expected another name"});
     return kBadInput;
   }
-  if (output.empty()) output = fs::path(file).replace_extension(".toml").string();
+  const bool was_named = !output.empty();
+  if (!was_named) output = fs::path(file).replace_extension(".toml").string();
   wbt::Options options;
   options.file = fs::path(file).filename().string();
   options.folder = fs::absolute(file).parent_path().string();
@@ -61,6 +62,14 @@ int import(const std::string& file, std::string output, bool without_firmware) {
   }
   for (const wbt::Remark& r : made.report) complain({place(file, r)});
   std::vector<std::string> problems;
+  // a world of that name may be somebody's work
+  std::string there;
+  if (!was_named && fs::exists(output, none) &&
+      (!sim::read_input_file(output, sim::kLongestWorld, there).empty() || there != made.toml)) {
+    complain({output + ": world: got a file that is another already, expected a new name; -o " + output +
+              " writes over it"});
+    return kBadInput;
+  }
   if (!outputs::can_write(output, "world", problems)) {
     complain(problems);
     return kBadInput;
@@ -91,7 +100,8 @@ void add_import(CLI::App& app, int& exit_code) {
   auto output = std::make_shared<std::string>();
   auto bare = std::make_shared<bool>(false);
   verb->add_option("FILE", *file, "the .wbt file")->required();
-  verb->add_option("-o,--output", *output, "the world file to write; FILE.toml beside it otherwise");
+  verb->add_option("-o,--output", *output, "the world file to write; FILE.toml beside it otherwise")
+      ->check(named());
   verb->add_flag("--without-firmware", *bare, "robots get no firmware, so that the world runs as it is");
   verb->callback([file, output, bare, &exit_code] { exit_code = import(*file, *output, *bare); });
 }

@@ -9,6 +9,8 @@
 
 #include "hal_sim/twin/twin.h"
 #include "outputs/curve_report.h"
+#include "outputs/output_folder.h"
+#include "outputs/run_files.h"
 #include "outputs/sensor_report.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
@@ -111,6 +113,17 @@ int show_reading(const InspectArguments& a, const outputs::SensorReport& report,
   return show_curves(a, curves);
 }
 
+/// Whether picture and plot are files of their own that can be written.
+bool can_draw(const InspectArguments& a, const sim::WorldDesc* world, std::vector<std::string>& problems) {
+  sim::FileUses files;
+  if (world) outputs::note_world(*world, {}, {}, files);
+  files.writes(a.picture, "--picture");
+  files.writes(a.plot, "--plot");
+  files.check(problems);
+  return problems.empty() && outputs::can_write(a.picture, "--picture", problems) &&
+         outputs::can_write(a.plot, "--plot", problems);
+}
+
 int inspect_world(const InspectArguments& a) {
   std::vector<std::string> problems;
   std::optional<sim::WorldDesc> opened = open_world(a.world, problems);
@@ -146,6 +159,10 @@ int inspect_world(const InspectArguments& a) {
   if (a.at_s == 0)
     for (sim::RobotDesc& r : world.robots) r.firmware.clear();  // nothing runs: no need to build anything
   for (const std::string& notice : sim::proximity_notices(world)) std::cerr << notice << '\n';
+  if (!can_draw(a, &world, problems)) {
+    complain(problems);
+    return kBadInput;
+  }
   auto twin = twin::Twin::open(std::move(world), options, problems);
   if (!twin) {
     complain(problems);
@@ -189,7 +206,11 @@ int inspect(const InspectArguments& a) {
     return wrong(
         "inspect: got --robot, --sensor, --at or --picture without a world, expected a WORLD with them");
   const std::vector<outputs::CurveRequest> curves = profiles_of(a.profile);
-  if (curves.empty()) return kBadInput;
+  std::vector<std::string> problems;
+  if (curves.empty() || !can_draw(a, nullptr, problems)) {
+    complain(problems);
+    return kBadInput;
+  }
   if (a.json) std::cout << outputs::curve_json(curves, surface_of(a)).dump(2) << '\n';
   return show_curves(a, curves);
 }
@@ -205,11 +226,10 @@ void add_inspect(CLI::App& app, int& exit_code) {
       ->check(CLI::NonNegativeNumber);
   verb->add_option("--at", a->at_s, "run the world's firmware for so many simulated seconds first")
       ->check(between(0, 1e6));
-  verb->add_option("--seed", a->seed, "the world's seed instead of the file's")
-      ->check(CLI::NonNegativeNumber);
-  verb->add_option("--picture", a->picture, "draw the reading: PNG or SVG");
+  verb->add_option("--seed", a->seed, "the world's seed instead of the file's")->check(seed_range());
+  verb->add_option("--picture", a->picture, "draw the reading: PNG or SVG")->check(named());
   verb->add_option("--profile", a->profile, "NAME,NAME or all: response curves of these profiles");
-  verb->add_option("--plot", a->plot, "plot response curves: PNG or SVG");
+  verb->add_option("--plot", a->plot, "plot response curves: PNG or SVG")->check(named());
   verb->add_option("--colour,--color", a->colour, "R,G,B of the wall in curves, each 0 to 1")
       ->delimiter(',')
       ->expected(3)

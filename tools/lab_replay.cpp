@@ -11,7 +11,7 @@
 #include <optional>
 #include <sstream>
 
-#include "outputs/run_outputs.h"
+#include "outputs/run_files.h"
 #include "outputs/summary.h"
 #include "sim_core/base/did_you_mean.h"
 #include "tools/command_line.h"
@@ -33,6 +33,12 @@ class ReplayLooker final : public lab::TrialOnlooker {
   }
   bool open(runs::Run& run, std::vector<std::string>& problems) override {
     twin_ = &run.twin();
+    sim::FileUses files;
+    outputs::note_world(twin_->world(), {}, {}, files);
+    outputs::note_outputs(outputs_wanted_, twin_->world(), files);
+    files.check(problems);
+    was_opened = problems.empty();
+    if (!was_opened) return false;
     outputs_ = std::make_unique<outputs::RunOutputs>(outputs_wanted_, run);
     was_opened = outputs_->open(problems);
     if (!was_opened) outputs_.reset();  // they look at the twin, which goes

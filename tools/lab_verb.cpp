@@ -18,6 +18,7 @@
 #include "install/places.h"
 #include "outputs/output_folder.h"
 #include "sim_core/base/did_you_mean.h"
+#include "sim_core/base/file_uses.h"
 #include "tools/command_line.h"
 #include "tools/lab_replay.h"
 #include "tools/verbs.h"
@@ -118,16 +119,15 @@ int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& 
   return kPass;
 }
 
-/// The share against the noise scale, of the steps that have several; how many plots.
-int draw_plots(const std::string& file, const lab::Cell& cell, std::vector<std::string>& problems) {
-  int plots = 0;
+bool has_plot(const lab::Step& step) { return step.noise_scales.size() >= 2; }
+
+/// The share against the noise scale, of the steps that have several.
+void draw_plots(const std::string& file, const lab::Cell& cell, std::vector<std::string>& problems) {
   for (const lab::StepResult& step : cell.steps) {
-    if (file.empty() || step.step->noise_scales.size() < 2 || step.trials.empty()) continue;
+    if (file.empty() || !has_plot(*step.step) || step.trials.empty()) continue;
     const std::string wrong = sim::write_share_plot(file, lab::share_plot(step));
     if (!wrong.empty()) problems.push_back(wrong);
-    ++plots;
   }
-  return plots;
 }
 
 int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& chosen,
@@ -153,12 +153,12 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
                    programs,
                    {}};
   if (one.name.empty() || one.name == ".") one.name = fs::canonical(a.mine).filename().string();
-  int passed = 0, failed = 0, seen = 0, missing = 0, plots = 0;
+  int passed = 0, failed = 0, seen = 0, missing = 0;
   for (const lab::Exercise* e : chosen) {
     lab::Cell cell = lab::try_exercise(*e, a.setting, programs, complain);
     for (const lab::StepResult& step : cell.steps)
       if (csv.is_open()) csv << lab::csv_rows(e->id, step);
-    plots += draw_plots(a.plot, cell, problems);
+    draw_plots(a.plot, cell, problems);
     ++(cell.verdict == lab::Verdict::None   ? missing
        : lab::is_failure(cell.verdict)      ? failed
        : cell.verdict == lab::Verdict::Pass ? passed
@@ -171,9 +171,6 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
     one.cells.push_back(std::move(cell));
   }
   all.students.push_back(std::move(one));
-  if (!a.plot.empty() && plots == 0)
-    problems.push_back(
-        "command line: --plot: got exercises with one noise scale, expected one with several, S15");
   csv.flush();
   if (csv.is_open() && !csv) problems.push_back(runs + ": " + runs_option + ": cannot be written");
   write_tables(a, all, problems);
@@ -210,12 +207,33 @@ int replay(const LabArguments& a, const std::vector<lab::Exercise>& all, const t
 }
 
 /// What does not go together.
-void check_together(const LabArguments& a, std::vector<std::string>& problems) {
+void check_together(const LabArguments& a, const std::string& table,
+                    const std::vector<const lab::Exercise*>& chosen, std::vector<std::string>& problems) {
   if (!a.mine.empty() && !fs::is_directory(a.mine))
     problems.push_back(a.mine + ": --mine: got no folder, expected one with your programs");
   if (!a.replay.trial.empty() && !a.ids.empty())
     problems.push_back("command line: --replay: got exercise '" + a.ids[0] +
                        "' besides, expected what is replayed alone");
+  if (!a.replay.trial.empty())
+    for (const auto& [file, option] : {std::pair{a.csv, "--csv"},
+                                       {a.runs, "--runs"},
+                                       {a.html, "--html"},
+                                       {a.junit, "--junitxml"},
+                                       {a.plot, "--plot"}})
+      if (!file.empty())
+        problems.push_back(fmt::format(
+            "command line: {}: got --replay besides, expected --picture, --report or --record of one run",
+            option));
+  if (a.setting.full && a.setting.seeds > 0)
+    problems.push_back("command line: --seeds: got --full besides, expected one of them");
+  if (const std::string kind = fs::path(a.plot).extension().string();
+      !a.plot.empty() && kind != ".png" && kind != ".svg")
+    problems.push_back(fmt::format("{}: --plot: got the ending '{}', expected .png or .svg", a.plot, kind));
+  if (!a.plot.empty() && std::none_of(chosen.begin(), chosen.end(), [](const lab::Exercise* e) {
+        return std::any_of(e->steps.begin(), e->steps.end(), has_plot);
+      }))
+    problems.push_back(
+        "command line: --plot: got exercises with one noise scale, expected one with several, S15");
   if (a.replay.trial.empty())
     for (const auto& [file, option] :
          {std::pair{a.replay.picture, "--picture"}, std::pair{a.replay.report, "--report"},
@@ -223,12 +241,29 @@ void check_together(const LabArguments& a, std::vector<std::string>& problems) {
       if (!file.empty())
         problems.push_back(
             fmt::format("command line: {}: got no --replay, expected the run that is meant", option));
-  std::vector<std::pair<std::string, std::string>> files{
-      {a.csv, "--csv"}, {a.runs, "--runs"}, {a.html, "--html"}, {a.junit, "--junitxml"}, {a.plot, "--plot"}};
-  outputs::check_files_differ(files, problems);
-  files.pop_back();  // plots are tried when they are drawn
-  for (const auto& [file, option] : files)
-    if (!file.empty()) outputs::can_write(file, option.c_str(), problems);
+  const std::pair<std::string, const char*> files[] = {{a.csv, "--csv"},
+                                                       {a.runs, "--runs"},
+                                                       {a.html, "--html"},
+                                                       {a.junit, "--junitxml"},
+                                                       {a.plot, "--plot"},
+                                                       {a.replay.picture, "--picture"},
+                                                       {a.replay.report, "--report"},
+                                                       {a.replay.record, "--record"}};
+  sim::FileUses uses;
+  uses.reads(table, "--table");
+  if (!a.mine.empty()) uses.reads_program(a.mine);
+  std::vector<std::string> missing;  // told when they are to run
+  for (const lab::Exercise* e : chosen)
+    for (const lab::Step& step : e->steps) {
+      for (const std::string& world : step.worlds)
+        uses.reads((places::share_root() / "worlds" / (world + ".toml")).string(), "the world");
+      if (a.mine.empty() && !step.firmware.empty())
+        uses.reads_program(twin::find_firmware(step.firmware, "", missing));
+    }
+  for (const auto& [file, option] : files) uses.writes(file, option);
+  uses.check(problems);
+  if (problems.empty())
+    for (const auto& [file, option] : files) outputs::can_write(file, option, problems);
 }
 
 int lab(const LabArguments& given) {
@@ -243,7 +278,7 @@ int lab(const LabArguments& given) {
   }
   if (a.setting.is_mine) all = lab::own_exercises(std::move(all));
   const auto chosen = choose(all, a.ids, problems);
-  check_together(a, problems);
+  check_together(a, table, chosen, problems);
   if (!problems.empty()) {
     complain(problems);
     return kBadInput;
@@ -252,8 +287,11 @@ int lab(const LabArguments& given) {
   options.hal = a.setting.hal;
   if (!a.replay.trial.empty()) return replay(a, all, options);
   if (a.setting.is_mine &&
-      lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty()))
-    return judge_class(a, chosen, options);
+      lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty())) {
+    if (a.plot.empty()) return judge_class(a, chosen, options);
+    complain({a.mine + ": --mine: got a class's folder, expected one student's with --plot"});
+    return kBadInput;
+  }
   lab::Programs programs = a.setting.is_mine
                                ? lab::own_programs(a.mine, options, chosen, !a.ids.empty(), false)
                                : lab::reference_programs(chosen, options, problems);
@@ -278,9 +316,10 @@ void add_lab(CLI::App& app, int& exit_code) {
   lab::Setting& setting = a->setting;
   verb->add_option("EXERCISE", a->ids, "such as I1 or S14; all without one");
   verb->add_option(
-      "--mine", a->mine,
-      "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
-      "in the place of the lab's solutions; or a folder of such folders, one a student");
+          "--mine", a->mine,
+          "folder with your programs (folders obstacle, u_obstacle, braiten), or one of them: run these "
+          "in the place of the lab's solutions; or a folder of such folders, one a student")
+      ->check(named());
   add_hal(*verb, setting.hal);
   verb->add_option("--seeds", setting.seeds, "runs of everything left to chance, instead of the table's")
       ->check(CLI::Range(1, 100000));
@@ -291,14 +330,17 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->add_option("--jobs", setting.jobs, "processes that share the runs; the result does not depend on it")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--csv", a->csv, "file for every run's measures; of a class, for its table");
-  verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)");
+  verb->add_option("--csv", a->csv, "file for every run's measures; of a class, for its table")
+      ->check(named());
+  verb->add_option("--plot", a->plot, "PNG or SVG of the share against the noise scale (S15)")
+      ->check(named());
   verb->add_flag("--no-times", a->no_times, "leave out what depends on the PC: same text every time");
-  verb->add_option("--table", a->table, "another table than docs/lab.toml");
+  verb->add_option("--table", a->table, "another table than docs/lab.toml")->check(named());
   verb->option_defaults()->group("Tables");
-  verb->add_option("--html", a->html, "page with the table, and why what failed");
-  verb->add_option("--junitxml", a->junit, "JUnit XML: a suite a student, a case an exercise");
-  verb->add_option("--runs", a->runs, "file for every run's measures, of a class, too");
+  verb->add_option("--html", a->html, "page with the table, and why what failed")->check(named());
+  verb->add_option("--junitxml", a->junit, "JUnit XML: a suite a student, a case an exercise")
+      ->check(named());
+  verb->add_option("--runs", a->runs, "file for every run's measures, of a class, too")->check(named());
   verb->add_option(
           "--limit", a->limit_s,
           "of a class: real seconds that a build, or an exercise of one student, may take (60; 900 with "
@@ -311,9 +353,9 @@ void add_lab(CLI::App& app, int& exit_code) {
   verb->option_defaults()->group("One run again");
   verb->add_option("--replay", a->replay.trial,
                    "EXERCISE:WORLD:SEED of a run, as a line that failed shows it: I1:corners:3");
-  verb->add_option("--picture", a->replay.picture, "PNG or SVG of it, from above");
-  verb->add_option("--report", a->replay.report, "HTML file of it, to look through");
-  verb->add_option("--record", a->replay.record, "CSV of poses, steps, sensors and LEDs");
+  verb->add_option("--picture", a->replay.picture, "PNG or SVG of it, from above")->check(named());
+  verb->add_option("--report", a->replay.report, "HTML file of it, to look through")->check(named());
+  verb->add_option("--record", a->replay.record, "CSV of poses, steps, sensors and LEDs")->check(named());
   verb->footer(
       "Examples: twinpuck lab I1 --mine .\n"
       "          twinpuck lab --mine class --jobs 4 --html class.html --junitxml class.xml\n"

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
 #include <cstdint>
 
 namespace tools {
@@ -66,7 +67,15 @@ PrintableStream::~PrintableStream() {
 bool PrintableStream::pass(bool all) {
   const std::string out = take_printable(waiting_, all);
   const auto count = static_cast<std::streamsize>(out.size());
-  return below_->sputn(out.data(), count) == count;
+  errno = 0;
+  if (below_->sputn(out.data(), count) == count) return true;
+  if (error_ == 0) error_ = errno != 0 ? errno : EIO;
+  return false;
+}
+
+int PrintableStream::finish() {
+  sync();
+  return error_;
 }
 
 PrintableStream::int_type PrintableStream::overflow(int_type c) {
@@ -80,6 +89,12 @@ std::streamsize PrintableStream::xsputn(const char* text, std::streamsize count)
   return pass(false) ? count : 0;
 }
 
-int PrintableStream::sync() { return pass(true) ? below_->pubsync() : -1; }
+int PrintableStream::sync() {
+  if (!pass(true)) return -1;
+  errno = 0;
+  const int done = below_->pubsync();
+  if (done != 0 && error_ == 0) error_ = errno != 0 ? errno : EIO;
+  return done;
+}
 
 }  // namespace tools

@@ -21,6 +21,8 @@ class PrintableStream : public std::streambuf {
   ~PrintableStream() override;
   PrintableStream(const PrintableStream&) = delete;
   PrintableStream& operator=(const PrintableStream&) = delete;
+  /// All that was written goes out. The first error there was, an errno; 0: none.
+  int finish();
 
  protected:
   int_type overflow(int_type c) override;
@@ -32,6 +34,7 @@ class PrintableStream : public std::streambuf {
   std::ostream& stream_;
   std::streambuf* below_;
   std::string waiting_;
+  int error_ = 0;
 };
 
 }  // namespace tools

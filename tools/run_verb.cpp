@@ -16,6 +16,7 @@
 #include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
 #include "outputs/progress.h"
+#include "outputs/run_files.h"
 #include "outputs/serial_text.h"
 #include "outputs/summary.h"
 #include "outputs/terminal_screen.h"
@@ -42,6 +43,7 @@ struct RunArguments {
   std::vector<std::string> firmware, uart1, uart2, keys, supervisors, externs, fault_files, faults;
   std::string replay;
   double seconds = 60;
+  bool has_end = false;  // seconds were given
   std::string speed = "max";
   long long seed = -1;
   int threads = 1;
@@ -89,6 +91,22 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
   } catch (const std::runtime_error& e) {
     problems.push_back(e.what());
   }
+  return problems.empty();
+}
+
+/// What the options and the world read and write; false, with lines in `problems`, where one is the other.
+bool check_files(const RunArguments& a, const inputs::Replay* replay, const sim::WorldDesc& world,
+                 const twin::Options& options, std::vector<std::string>& problems) {
+  sim::FileUses files;
+  outputs::note_world(world, options, replay ? replay->opening.supervisors : a.supervisors, files);
+  files.reads(a.replay, "--replay");
+  if (replay)
+    for (const auto& image : replay->opening.images) files.reads(image.file, "--replay");
+  for (const std::string& file : a.fault_files) files.reads(file, "--faults");
+  files.reads(a.profile.budgets, "--budgets");
+  files.writes(a.profile.file, "--profile-json");
+  outputs::note_outputs(a.outputs, world, files);
+  files.check(problems);
   return problems.empty();
 }
 
@@ -168,6 +186,10 @@ std::optional<sim::WorldDesc> CommandRun::read_world() {
   if (!a_.replay.empty()) {
     replay_ = inputs::Replay::open(a_.replay, problems_);
     if (replay_) replay_->resume(options_);
+    if (replay_ && replay_->end() >= 0 && a_.has_end)
+      problems_.push_back(
+          "command line: --for: got one besides --replay, expected the recording alone, which says it");
+    if (replay_ && replay_->end() < 0) complain({replay_->cut_off(a_.replay)});
   }
   const std::string file = replay_ || !problems_.empty() ? "" : find_world(a_.world, problems_);
   if (!problems_.empty()) return {};
@@ -194,7 +216,7 @@ bool CommandRun::open() {
   const auto opens = [this] {
     if (!read_options()) return false;
     auto world = read_world();
-    if (!world) return false;
+    if (!world || !check_files(a_, replay_.get(), *world, options_, problems_)) return false;
     if (!a_.quiet)
       for (const std::string& notice : sim::proximity_notices(*world)) std::cerr << notice << '\n';
     run_ = runs::Run::open(std::move(*world), options_,
@@ -369,9 +391,12 @@ int CommandRun::close() {
   outputs::Summary summary = outputs::summarise(twin, took_s_);
   summary.faults = run_->inputs().faults().statuses();
   outputs_->finish(summary, problems_);
+  profile_->write(problems_);
   complain(problems_);
   if (!a_.quiet) {
-    const std::vector<std::string> written = outputs_->written();
+    std::vector<std::string> written = outputs_->written();
+    if (!a_.profile.file.empty()) written.push_back(a_.profile.file);
+    written = outputs::without_lost(std::move(written), problems_);
     std::cout << to_text(summary);
     if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
   }
@@ -381,7 +406,7 @@ int CommandRun::close() {
       problems_.push_back(line);
       complain({line});
     }
-  const bool kept_budgets = profile_->finish(problems_);
+  const bool kept_budgets = profile_->tell();
   for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
   bool is_clean = true;
   for (const auto& r : summary.robots)
@@ -390,10 +415,9 @@ int CommandRun::close() {
       if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
     }
   if (end_code == kHostTime)
-    complain(
-        {fmt::format("twinpuck: host time: got {} s, expected at most {} s; outputs hold what was simulated",
-                     static_cast<long>(std::chrono::duration<double>(Wall::now() - began_).count()),
-                     static_cast<long>(a_.host_limit_s))});
+    complain({fmt::format(
+        "twinpuck: host time: got {:.3f} s, expected at most {:g} s; outputs hold what was simulated",
+        std::chrono::duration<double>(Wall::now() - began_).count(), a_.host_limit_s)});
   return exit_code(end_code, is_clean, kept_budgets);
 }
 
@@ -449,7 +473,8 @@ void add_run(CLI::App& app, int& exit_code) {
       ->check(between(0, 1e7));
   auto* replay =
       verb->add_option("--replay", a->replay,
-                       "do again what a page did, from view --record-inputs; the world is the recording's");
+                       "do again what a page did, from view --record-inputs; the world is the recording's")
+          ->check(named());
   verb->option_defaults()->group("Faults");
   one_each(
       verb->add_option("--faults", a->fault_files,
@@ -481,10 +506,16 @@ void add_run(CLI::App& app, int& exit_code) {
       "Exit codes: 0 good, 1 --strict, --budgets or a supervisor found a fault, 2 bad input, 3 firmware "
       "trapped, "
       "7 an output was lost or a fault never took effect, 124 --host-limit, 130 interrupted");
-  verb->callback([a, world, replay, speed, &exit_code] {
+  verb->callback([a, verb, world, replay, speed, &exit_code] {
     if (a->live && speed->count() == 0) a->speed = "1";
-    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
-    exit_code = run(*a);
+    a->has_end = verb->get_option("--for")->count() > 0;
+    std::vector<std::string> problems;
+    want_one_world(*world, *replay, problems);
+    if (replay->count() > 0)
+      refuse_with_replay(*verb, {"--fw", "--hal", "--opt", "--supervisor", "--seed"}, problems);
+    refuse_without_output(*verb, problems);
+    complain(problems);
+    exit_code = problems.empty() ? run(*a) : int{kBadInput};
   });
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The command twinpuck: options, help, and what is made of errors. Verbs live in files of their own.
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
@@ -37,8 +39,9 @@ void add_verbs(CLI::App& app, int& exit_code) {
   add_help(app);
 }
 
-int twinpuck(int argc, char** argv) {
-  const PrintableStream out(std::cout), error(std::cerr);
+namespace {
+
+int call(int argc, char** argv) {
   // what cannot be written is an error of the call, not the end of the program
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
@@ -70,6 +73,19 @@ int twinpuck(int argc, char** argv) {
     return kInternal;
   }
   return exit_code;
+}
+
+}  // namespace
+
+int twinpuck(int argc, char** argv) {
+  PrintableStream out(std::cout);
+  const PrintableStream error(std::cerr);
+  const int exit_code = call(argc, argv);
+  const int lost = out.finish();
+  // whoever closes a pipe has seen enough
+  if (lost == 0 || lost == EPIPE) return exit_code;
+  complain({std::string("standard output: cannot be written: ") + std::strerror(lost)});
+  return exit_code == kPass || exit_code == kTestFailed ? kInvalidRun : exit_code;
 }
 
 }  // namespace tools

@@ -7,7 +7,10 @@
 #include <iostream>
 #include <thread>
 
+#include "hal_sim/twin/world_file.h"
 #include "install/places.h"
+#include "outputs/output_folder.h"
+#include "outputs/run_files.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
@@ -58,6 +61,7 @@ inputs::Opening opening_of(const ViewArguments& a, std::vector<std::string>& pro
 int view(const ViewArguments& a) {
   std::vector<std::string> problems;
   auto replay = a.replay.empty() ? nullptr : inputs::Replay::open(a.replay, problems);
+  if (replay && replay->end() < 0) complain({replay->cut_off(a.replay)});
   inputs::Opening opening;
   if (problems.empty()) opening = replay ? opening_of(*replay) : opening_of(a, problems);
   if (!problems.empty() || (!replay && !split_choices(a.firmware, "--fw", opening.options.firmware))) {
@@ -66,6 +70,16 @@ int view(const ViewArguments& a) {
   }
   opening.options.threads = a.threads;
 
+  sim::FileUses files;
+  const sim::LoadedWorld loaded = twin::parse_world(opening.text, opening.file);
+  outputs::note_world(loaded.world ? *loaded.world : loaded.draft, opening.options, opening.supervisors,
+                      files);
+  files.writes(a.record, "--record-inputs");
+  files.check(problems);
+  if (!problems.empty() || !outputs::can_write(a.record, "--record-inputs", problems)) {
+    complain(problems);
+    return kBadInput;
+  }
   auto live =
       viewer::LiveView::open(std::move(opening), a.record, a.port, places::page_folder().string(), problems,
                              std::move(replay), [](const std::string& wrong) { complain({wrong}); });
@@ -105,9 +119,13 @@ void add_view(CLI::App& app, int& exit_code) {
   verb->footer(
       "Example: twinpuck view maze --fw obstacle\nExit codes: 0 ended by Ctrl-C, 2 bad input, 7 the "
       "recording could not be written");
-  verb->callback([a, world, replay, &exit_code] {
-    if (world->count() + replay->count() != 1) throw CLI::RequiredError("WORLD or --replay");
-    exit_code = view(*a);
+  verb->callback([a, verb, world, replay, &exit_code] {
+    std::vector<std::string> problems;
+    want_one_world(*world, *replay, problems);
+    if (replay->count() > 0)
+      refuse_with_replay(*verb, {"--fw", "--hal", "--opt", "--supervisor", "--seed"}, problems);
+    complain(problems);
+    exit_code = problems.empty() ? view(*a) : int{kBadInput};
   });
 }
 

@@ -62,6 +62,15 @@ class FileEnd : public UartEnd {
 
 }  // namespace
 
+bool is_file_end(const std::string& description, std::string& out, std::string& in) {
+  if (description.rfind("file:", 0) != 0) return false;
+  const std::string rest = description.substr(5);
+  const std::size_t comma = rest.find(',');
+  out = rest.substr(0, comma);
+  in = comma == std::string::npos ? "" : rest.substr(comma + 1);
+  return !rest.empty();
+}
+
 std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std::string& default_link,
                                        std::string& error) {
   error.clear();
@@ -81,11 +90,9 @@ std::unique_ptr<UartEnd> open_uart_end(const std::string& description, const std
     }
     return open_tcp_end(static_cast<int>(port), error);
   }
-  if (kind == "file" && !rest.empty()) {
-    const std::size_t comma = rest.find(',');
+  if (std::string out, in; is_file_end(description, out, in)) {
     auto end = std::make_unique<FileEnd>();
-    if (end->open(rest.substr(0, comma), comma == std::string::npos ? "" : rest.substr(comma + 1), error))
-      return end;
+    if (end->open(out, in, error)) return end;
     return nullptr;
   }
   error = "uart: got '" + description + "', expected none, -, pty[:LINK], tcp:PORT or file:OUT[,IN]";

@@ -61,6 +61,9 @@ class UartEnd {
   bool idle_ = false;
 };
 
+/// Whether a description is of files; which bytes go to, and come from; `in` may be empty.
+bool is_file_end(const std::string& description, std::string& out, std::string& in);
+
 /// Opens an end from its description:
 ///   "none"               no end (null)
 ///   "-"                  no end either: whoever runs the robot may show its text

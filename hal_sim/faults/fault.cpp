@@ -45,7 +45,11 @@ sim::SectionSpec section_of(const Kind& kind, const char* path) {
   if (!is_stimulus)
     spec.keys.push_back({"kind", ValueType::Text, "", 0, 0, "", "required", "what is done", nothing});
   if (is_stimulus && kind.parameters.empty())
-    spec.keys.push_back({kind.key, ValueType::Flag, "", 0, 0, "", "required", kind.does, nothing});
+    spec.keys.push_back({kind.key, ValueType::Flag, "", 0, 0, "", "required", kind.does,
+                         [](void*, const sim::Value& v, const sim::WorldDesc&) {
+                           return v.flag ? std::string()
+                                         : "got false, expected true; without it nothing is done";
+                         }});
   for (std::size_t i = 0; i < kind.parameters.size(); ++i) {
     const Parameter& p = kind.parameters[i];
     spec.keys.push_back({is_stimulus && i == 0 ? kind.key : p.name, p.type, p.unit, p.least, p.most,
@@ -146,6 +150,13 @@ std::string quoted(const std::string& text) {
     out += text[i];
   }
   return out + "\"";
+}
+
+/// Of these even "true" and "1" are words.
+bool is_text_key(const Kind& kind, const std::string& key) {
+  return key == "when" || key == "robot" ||
+         std::any_of(kind.parameters.begin(), kind.parameters.end(),
+                     [&](const Parameter& p) { return p.name == key && p.type == ValueType::Text; });
 }
 
 bool is_plain_toml(const std::string& text) {
@@ -259,7 +270,9 @@ bool parse_fault_line(const std::string& line, Fault& fault, std::string& error)
     }
     if (w.key == "at" || w.key == "for") w.key += "_s";
     if (w.key == "at_s" || w.key == "for_s") w.value = seconds_of(w.value);
-    text += w.key + " = " + (!w.is_quoted && is_plain_toml(w.value) ? w.value : quoted(w.value)) + "\n";
+    const bool is_text = is_text_key(*find_kind(words[0].key), w.key);
+    text += w.key + " = " + (!is_text && !w.is_quoted && is_plain_toml(w.value) ? w.value : quoted(w.value)) +
+            "\n";
   }
   const LoadedFaults read = parse_faults(text, "");
   if (!read.problems.empty()) {

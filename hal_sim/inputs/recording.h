@@ -76,6 +76,8 @@ class Replay {
   /// Where the recording ends, and with which digest; negative: it was cut off.
   sim::Clicks end() const { return end_; }
   std::uint64_t digest() const { return digest_; }
+  /// What there is to say of a recording that was cut off; `path`: its file.
+  static std::string cut_off(const std::string& path);
 
  private:
   std::vector<Json> inputs_;

@@ -5,6 +5,13 @@
 
 namespace runs {
 
+void note_programs(const sim::WorldDesc& world, const twin::Options& options,
+                   const std::vector<std::string>& supervisors, sim::FileUses& files) {
+  programs::note_supervisors(world, options.world_folder, supervisors, files);
+  twin::note_programs(world, options, files);
+  twin::note_uart_files(world, options, files);
+}
+
 std::unique_ptr<Run> Run::open(sim::WorldDesc world, twin::Options options,
                                const std::vector<std::string>& supervisors,
                                std::vector<std::string>& problems) {

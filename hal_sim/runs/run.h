@@ -14,9 +14,15 @@
 #include "hal_sim/twin/coverage_run.h"
 #include "hal_sim/twin/twin.h"
 #include "programs/team/team.h"
+#include "sim_core/base/file_uses.h"
 #include "sim_core/world/world_desc.h"
 
 namespace runs {
+
+/// Notes what a run in that world reads because of its programs, robots' and supervisors' (those of the command
+/// line in their places), and the files of serial lines.
+void note_programs(const sim::WorldDesc& world, const twin::Options& options,
+                   const std::vector<std::string>& supervisors, sim::FileUses& files);
 
 class Run {
  public:

@@ -50,6 +50,7 @@ void TimelineWriter::add(const std::string& event) {
   if (done_) return;
   if (bytes_ + static_cast<std::int64_t>(pending_.size() + event.size()) + kEndBytes > most_bytes_) {
     done_ = true;
+    cut_at_ns_ = latest_ns_;
     // an instant of all robots, where the last event ends
     pending_ += fmt::format(
         R"({}{{"name":"the file would grow beyond --trace-max-mb","ph":"i","s":"g","pid":0,"tid":0,"ts":{}}})",

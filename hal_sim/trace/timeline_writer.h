@@ -35,6 +35,8 @@ class TimelineWriter {
 
   bool is_done() const { return done_; }
   const std::string& error() const { return file_.error(); }
+  /// When the file became as large as it may be (ns); negative: it did not.
+  std::int64_t cut_at_ns() const { return cut_at_ns_; }
 
  private:
   void add(const std::string& event);
@@ -44,6 +46,7 @@ class TimelineWriter {
   std::int64_t bytes_ = 0;
   std::int64_t most_bytes_;
   std::int64_t latest_ns_ = 0;  // end of the last slice
+  std::int64_t cut_at_ns_ = -1;
   bool done_ = false;
   bool first_ = true;
   std::map<std::pair<int, std::uintptr_t>, std::string> names_;

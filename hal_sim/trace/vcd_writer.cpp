@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
+#include <set>
 
 namespace trace {
 
@@ -11,6 +13,8 @@ namespace {
 
 // room for the comment and the last time stamp of a file that is cut
 constexpr std::int64_t kVcdEndBytes = 200;
+constexpr std::int64_t kRealBytes = 24;  // of a number with 16 digits
+constexpr double kBytesPerMb = 1e6;
 
 // printable characters, lowest digit first
 std::string code_of(std::size_t number) {
@@ -36,6 +40,22 @@ std::string plain(const std::string& name) {
   return out;
 }
 
+// the scopes' names, each its own; those that are plain already stay
+std::vector<std::string> scope_names(const std::vector<VcdWriter::Scope>& scopes) {
+  std::set<std::string> taken;
+  std::vector<std::string> names;
+  for (const auto& scope : scopes)
+    if (plain(scope.name) == scope.name) taken.insert(scope.name);
+  for (const auto& scope : scopes) {
+    const std::string base = plain(scope.name);
+    std::string name = base;
+    for (int n = 2; base != scope.name && !taken.insert(name).second; ++n)
+      name = fmt::format("{}_{}", base, n);
+    names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace
 
 std::int64_t to_ns(sim::Clicks at) {
@@ -44,10 +64,13 @@ std::int64_t to_ns(sim::Clicks at) {
 }
 
 VcdWriter::VcdWriter(const std::string& path, const std::vector<Scope>& scopes, Window window)
-    : file_(path, "--vcd"), window_(window) {
-  pending_ = "$version twinpuck $end\n$timescale 1 ns $end\n";
-  for (const Scope& scope : scopes) {
-    pending_ += "$scope module " + plain(scope.name) + " $end\n";
+    : window_(window) {
+  pending_ = "$version twinpuck $end\n$timescale 1 ns $end\n";  // written with the first tick
+  const std::vector<std::string> names = scope_names(scopes);
+  std::int64_t values = 0;
+  for (std::size_t s = 0; s < scopes.size(); ++s) {
+    const Scope& scope = scopes[s];
+    pending_ += "$scope module " + names[s] + " $end\n";
     std::string group;
     for (const Signal& signal : scope.signals) {
       if (signal.group != group) {
@@ -63,12 +86,23 @@ VcdWriter::VcdWriter(const std::string& path, const std::vector<Scope>& scopes, 
           signal.width > 1 && !signal.real ? fmt::format(" [{}:0]", signal.width - 1) : "";
       pending_ += fmt::format("$var {} {} {} {}{} $end\n", signal.real ? "real" : "wire", signal.width,
                               line.code, plain(signal.name), range);
+      values += (signal.real ? kRealBytes : signal.width) + static_cast<std::int64_t>(line.code.size()) + 3;
       lines_.push_back(std::move(line));
     }
     if (!group.empty()) pending_ += "$upscope $end\n";
     pending_ += "$upscope $end\n";
   }
-  pending_ += "$enddefinitions $end\n";  // written with the first tick
+  pending_ += "$enddefinitions $end\n";
+  const std::int64_t least = static_cast<std::int64_t>(pending_.size()) + values + kVcdEndBytes;
+  if (least <= window_.most_bytes) {
+    file_.emplace(path, "--vcd");
+    return;
+  }
+  // a dump without its names, or their first values, is none
+  state_ = State::Done;
+  too_small_ = fmt::format("command line: --vcd-max-mb: got {:g} MB, expected at least {:.3f} for {} signals",
+                           static_cast<double>(window_.most_bytes) / kBytesPerMb,
+                           std::ceil(static_cast<double>(least) / kBytesPerMb * 1000) / 1000, lines_.size());
 }
 
 void VcdWriter::arrive(sim::Clicks at) {
@@ -102,7 +136,7 @@ void VcdWriter::change(sim::Clicks at, int signal, std::uint64_t value) {
   if (bytes_ + static_cast<std::int64_t>(pending_.size()) + kVcdEndBytes > window_.most_bytes) {
     pending_.resize(before);
     stamped_ns_ = stamped;
-    cut_ = true;
+    cut_at_ = at;
     end(at, fmt::format("$comment the file would grow beyond --vcd-max-mb at {} ns $end\n", to_ns(at)));
   }
 }
@@ -157,13 +191,13 @@ void VcdWriter::finish(sim::Clicks now) {
     if (state_ == State::Writing) end(now, "");
   }
   flush();
-  file_.close();
+  if (file_) file_->close();
 }
 
 void VcdWriter::flush() {
-  if (pending_.empty() || !error().empty()) return;
+  if (pending_.empty() || !file_ || !error().empty()) return;
   bytes_ += static_cast<std::int64_t>(pending_.size());
-  file_.append(pending_);
+  file_->append(pending_);
   if (!error().empty()) state_ = State::Done;
   pending_.clear();
 }

@@ -6,6 +6,7 @@
 // and all values at its beginning.
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,7 @@ class VcdWriter {
     std::string name;  ///< robot
     std::vector<Signal> signals;
   };
+  /// Where `most_bytes` does not hold names and first values there is no file, and an error.
   VcdWriter(const std::string& path, const std::vector<Scope>& scopes, Window window);
 
   /// A signal has another value from `at` on; times never fall.
@@ -48,7 +50,9 @@ class VcdWriter {
   /// Has the window been reached, and its trigger come?
   bool has_begun() const { return has_begun_; }
   /// Empty while all is well.
-  const std::string& error() const { return file_.error(); }
+  const std::string& error() const { return file_ ? file_->error() : too_small_; }
+  /// When the file became as large as it may be; negative: it did not.
+  sim::Clicks cut_at() const { return cut_at_; }
 
  private:
   enum class State { Before, Writing, Done };
@@ -66,12 +70,13 @@ class VcdWriter {
   void write_value(const Line& line);
   void flush();
 
-  sim::OutputFile file_;
+  std::optional<sim::OutputFile> file_;
+  std::string too_small_;
   Window window_;
   std::vector<Line> lines_;
   State state_ = State::Before;
   bool armed_ = false, has_begun_ = false;
-  bool cut_ = false;
+  sim::Clicks cut_at_ = -1;
   std::int64_t stamped_ns_ = -1;
   std::int64_t bytes_ = 0;
   std::string pending_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "hal_sim/api/host_table.h"
@@ -275,10 +276,35 @@ class FirmwareShelf {
 
 }  // namespace
 
+void note_uart_files(const sim::WorldDesc& world, const Options& options, sim::FileUses& files) {
+  for (const sim::RobotDesc& robot : world.robots)
+    for (int port = 1; port <= 2; ++port) {
+      const std::string choice = port == 1 ? chosen(options.uart1, robot.name, robot.uart1)
+                                           : chosen(options.uart2, robot.name, robot.uart2);
+      const std::string what = "robot '" + robot.name + "' uart" + std::to_string(port);
+      std::string out, in;
+      if (!board::is_file_end(choice, out, in)) continue;
+      files.reads(in, what);
+      files.writes(out, what);
+    }
+}
+
+void note_programs(const sim::WorldDesc& world, const Options& options, sim::FileUses& files) {
+  std::vector<std::string> missing;  // told when it is to run
+  std::set<std::string> known;
+  for (const sim::RobotDesc& robot : world.robots)
+    if (const std::string name = chosen_firmware(options, robot);
+        !name.empty() && name != kExtern && known.insert(name).second)
+      files.reads_program(find_firmware(name, options.world_folder, missing));
+}
+
 std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
                                  std::vector<std::string>& problems) {
   const std::size_t problems_before = problems.size();
   check_choices(world, options, problems);
+  sim::FileUses files;
+  note_uart_files(world, options, files);
+  files.check(problems);
   if (problems.size() != problems_before) return nullptr;
   FirmwareShelf shelf(options, problems);
   std::vector<const Firmware*> firmware;

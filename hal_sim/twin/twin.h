@@ -10,6 +10,7 @@
 #include "hal_sim/host/mind.h"
 #include "hal_sim/twin/firmware_store.h"
 #include "programs/puck/program_runner.h"
+#include "sim_core/base/file_uses.h"
 #include "sim_core/radio/packet_medium.h"
 #include "sim_core/radio/radio_medium.h"
 #include "sim_core/simulation.h"
@@ -22,6 +23,10 @@ class BluetoothModule;
 namespace twin {
 
 struct Firmware;  // twin.cpp
+
+/// Notes the files of robots' serial lines, and those of what they run.
+void note_uart_files(const sim::WorldDesc& world, const Options& options, sim::FileUses& files);
+void note_programs(const sim::WorldDesc& world, const Options& options, sim::FileUses& files);
 
 class Twin {
  public:

@@ -37,6 +37,10 @@ struct Outcome {
   std::string text;      ///< one line; may be empty
 };
 
+/// Notes the files of supervisors' programs; `supervisors` as Team::open() has them.
+void note_supervisors(const sim::WorldDesc& world, const std::string& world_folder,
+                      const std::vector<std::string>& supervisors, sim::FileUses& files);
+
 class Team final : public sim::Attendant, private SupervisorHost {
  public:
   /// The programs of the twin's robots and of its world's supervisors, built and attached to its simulation,

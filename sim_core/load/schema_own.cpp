@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The keys that one kind of robot or part has. Kinds come from the caller (world/own_keys.h), so their tables
 // are made here and not written down.
+#include <fmt/format.h>
+
 #include "sim_core/load/schema.h"
 
 namespace sim {
@@ -33,6 +35,9 @@ ValueType value_type(OwnKeyType type) {
 template <typename T>
 Setter keep(const OwnKey& key, OwnValues T::*values) {
   return [&key, values](void* target, const Value& v, const WorldDesc&) {
+    if (v.integer % key.multiple_of != 0)
+      return fmt::format("got {}, expected a multiple of {} from {} to {}", v.integer, key.multiple_of,
+                         key.least, key.most);
     OwnValue& out = (static_cast<T*>(target)->*values)[key.key];
     out.text = v.text;
     out.flag = v.flag;

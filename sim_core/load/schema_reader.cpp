@@ -57,7 +57,9 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
   switch (k.type) {
     case ValueType::Integer: {
       const auto* i = node.as_integer();
-      if (!i || !in_range(k, static_cast<double>(i->get()))) return false;
+      // not as doubles, which pass over numbers this large
+      if (!i || i->get() < static_cast<std::int64_t>(k.least) || i->get() > static_cast<std::int64_t>(k.most))
+        return false;
       v.integer = i->get();
       return true;
     }
@@ -131,14 +133,19 @@ const toml::table* SchemaReader::parse(std::string_view text) {
 }
 
 void SchemaReader::sort_problems() {
+  more_ += problems_.size() > kMostProblems ? problems_.size() - kMostProblems : 0;
   if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
   std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
     return a.line != b.line ? a.line < b.line : a.column < b.column;
   });
+  if (more_ > 0) problems_.push_back({0, 0, fmt::format("and {} mistakes more", more_)});
 }
 
 void SchemaReader::problem(const toml::source_region& where, std::string text) {
-  if (problems_.size() >= kMostProblems) return;
+  if (problems_.size() >= kMostProblems) {
+    ++more_;
+    return;
+  }
   problems_.push_back(
       {static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
 }

@@ -52,6 +52,7 @@ class SchemaReader {
   }
 
   std::vector<WorldProblem> problems_;
+  std::size_t more_ = 0;  // that are not kept
 
  private:
   static std::string choice_hint(const KeySpec& k, const std::string& got);

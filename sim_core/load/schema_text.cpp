@@ -46,6 +46,8 @@ bool has_range(const KeySpec& k) {
 std::string range_text(const KeySpec& k) {
   if (k.least == k.most) return fmt::format("{}", k.least);
   if (k.least <= -1e8 && k.most >= 1e8) return "any";
+  if (k.type == ValueType::Integer)
+    return fmt::format("{} to {}", static_cast<std::int64_t>(k.least), static_cast<std::int64_t>(k.most));
   return fmt::format("{} to {}", k.least, k.most);
 }
 

@@ -26,7 +26,28 @@ void check_names(const WorldDesc& world, std::vector<WorldProblem>& out) {
            fmt::format("robot.name: got \"{}\" a second time (first on line {}), expected a name of its own",
                        r.name, it->second)});
     }
+    if (r.name == "*")
+      out.push_back({r.line, 1, "robot.name: got \"*\", which means every robot, expected another name"});
   }
+}
+
+/// Second names; those of a world of Webots may be given several times, as there.
+void check_defs(const WorldDesc& world, std::vector<WorldProblem>& out) {
+  std::map<std::string, int> lines;
+  const auto look = [&](const char* path, const auto& all) {
+    for (const auto& thing : all) {
+      if (thing.def.empty() || thing.node > 0) continue;
+      const auto [it, fresh] = lines.emplace(thing.def, thing.line);
+      if (!fresh)
+        out.push_back(
+            {thing.line, 1,
+             fmt::format("{}.def: got \"{}\" a second time (first on line {}), expected a name of its own",
+                         path, thing.def, it->second)});
+    }
+  };
+  look("robot", world.robots);
+  look("supervisor", world.supervisors);
+  look("object", world.objects);
 }
 
 void check_link_numbers(const WorldDesc& world, std::vector<WorldProblem>& out) {
@@ -142,6 +163,7 @@ std::vector<WorldProblem> check_world(const WorldDesc& world) {
     return out;
   }
   check_link_numbers(world, out);
+  check_defs(world, out);
   check_names(world, out);
   check_models(world, out);
   check_planar(world, out);

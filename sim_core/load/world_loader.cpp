@@ -178,6 +178,8 @@ class Reader : private SchemaReader {
         sound.samples = std::move(wav.samples);
         sound.sample_rate_hz = wav.rate_hz;
       }
+      if (t.get("level") && t.get("pressure"))
+        problem(t.get("pressure")->source(), "sound.pressure: got a level besides, expected one of them");
       if (sound.stop_s <= sound.start_s)
         problem(t.get("stop") ? t.get("stop")->source() : t.source(),
                 fmt::format("sound.stop: got {} s, expected more than the start at {} s", sound.stop_s,
@@ -233,6 +235,10 @@ class Reader : private SchemaReader {
           problem(dt.source(), fmt::format("{}.name: got \"{}\" a second time, expected each device once",
                                            path, device.name));
       }
+      if (device.near_m >= device.far_m)
+        problem(dt.get("near") ? dt.get("near")->source() : dt.source(),
+                fmt::format("{}.near: got {} m, expected less than far, {} m", path, device.near_m,
+                            device.far_m));
       devices.push_back(std::move(device));
     });
   }

@@ -17,8 +17,9 @@
 namespace sim {
 namespace {
 
-constexpr std::size_t kLongestFile = 64u << 20;  // bytes: twelve minutes at 44.1 kHz, 16 bits, mono
-constexpr std::size_t kMostRead = 64u << 20;     // samples: a short file may be long when it is unpacked
+constexpr std::size_t kLongestFile = 64u << 20;   // bytes: twelve minutes at 44.1 kHz, 16 bits, mono
+constexpr std::size_t kMostRead = 64u << 20;      // samples: a short file may be long when it is unpacked
+constexpr std::size_t kUnknownSize = 0x7FFF0000;  // and more: what sox and ffmpeg say of a stream
 constexpr int kLowestRateHz = 1000;
 constexpr int kHighestRateHz = 192000;
 constexpr std::int64_t kMostWritten = (INT64_C(1) << 31) - 64;  // sizes in the header have 32 bits
@@ -55,7 +56,8 @@ std::string four_bytes(std::size_t value) {
 
 /// The chunks that samples need, as a file of its own with sizes that are right. libsndfile goes on for minutes through a
 /// chunk of another kind that says it is longer than the file.
-std::string samples_alone(std::string_view bytes) {
+/// `cut`: what is wrong with a file that ends within its samples.
+std::string samples_alone(std::string_view bytes, std::string& cut) {
   constexpr std::size_t kHead = 8;
   std::string chunks = "WAVE";
   for (std::size_t at = 12; at + kHead <= bytes.size();) {
@@ -65,7 +67,12 @@ std::string samples_alone(std::string_view bytes) {
       size |= static_cast<std::size_t>(static_cast<unsigned char>(bytes[at + 4 + i])) << 8 * i;
     const std::size_t rest = bytes.size() - at - kHead;
     const bool is_data = id == "data";
-    if (is_data && (size == 0 || size > rest)) size = rest;  // whoever wrote it did not come to the end
+    // whoever wrote it to a pipe did not know how much would come
+    if (is_data && (size == 0 || size >= kUnknownSize)) size = rest;
+    if (is_data && size > rest) {
+      cut = fmt::format("got {} of {} bytes of samples, expected a whole file", rest, size);
+      return "";
+    }
     if (size > rest) break;
     if (is_data || id == "fmt " || id == "fact") {
       chunks += id;
@@ -90,7 +97,9 @@ std::string parse_wav(std::string_view bytes, WavSound& out) {
   // libsndfile reads other formats, too, by what it finds
   if (bytes.size() < 12 || bytes.substr(0, 4) != "RIFF" || bytes.substr(8, 4) != "WAVE")
     return "got a file that does not begin as a WAV file does, expected \"RIFF....WAVE\"";
-  const std::string alone = samples_alone(bytes);
+  std::string cut;
+  const std::string alone = samples_alone(bytes, cut);
+  if (!cut.empty()) return cut;
   // it would decode MPEG, too, by a library that writes to the terminal
   if (const std::size_t format = alone.find("fmt "); format < alone.size() - 9 && alone[format + 9] == 0)
     if (const char number = alone[format + 8]; number == 0x50 || number == 0x55)

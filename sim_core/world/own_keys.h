@@ -20,6 +20,7 @@ struct OwnKey {
   std::string choices;   ///< Choice: words separated by '|'
   std::string fallback;  ///< as TOML would write it; "" where nothing stands; "required"
   std::string doc;       ///< meaning, a phrase
+  int multiple_of = 1;   ///< Integer: only such numbers
 };
 
 /// A value as written.
