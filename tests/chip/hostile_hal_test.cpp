@@ -99,7 +99,7 @@ const HostileProgram kHostile[] = {
           "< (unsigned *)0x2800) *p++ = 0; }"),
      false},
     {"below_global", MAIN("start(); { int i; for (i = 0; i > -4000; i--) seen[i] = i; }")},
-    {"const_write", MAIN("start(); *(char *)nowhere = 1; ((char *)\"text\")[one] = 3;"), false},
+    {"const_write", MAIN("start(); *(char *)nowhere = 1; ((char *)\"text\")[one] = 3;"), true},
     {"all_sfrs_ff",
      MAIN("start(); { unsigned *p = (unsigned *)0x0020; while (p < (unsigned *)0x0800) *p++ = 0xFFFF; }")},
     {"all_sfrs_00",

@@ -159,9 +159,9 @@ const Hostile kPrograms[] = {
      "(1); }"},
     {"wide_unsigned_remainder_of_zero", "division by zero",
      "int main(void) { unsigned long long z = zero;\n sink = (int)(5ULL % z); /* HERE */\n while (1); }"},
-    {"unreachable_reached", "write out of bounds of any variable",
+    {"unreachable_reached", "the program does what C leaves undefined",
      "__attribute__((noinline)) int f(int n) { if (n == 0) return 1;\n"
-     " __builtin_unreachable();\n }\n"
+     " __builtin_unreachable(); /* HERE */\n }\n"
      "int main(void) { sink = f(one); while (1); }"},
     {"builtin_trap", "abort()", "int main(void) {\n __builtin_trap(); /* HERE */\n }"},
     {"abort_called", "abort()", "int main(void) {\n abort(); /* HERE */\n }"},
