@@ -286,8 +286,7 @@ void refuse_what_is_missing(Unit& unit) {
       const Intrinsic::ID id = call ? call->getIntrinsicID() : Intrinsic::not_intrinsic;
       if (id == Intrinsic::read_register || id == Intrinsic::write_register ||
           id == Intrinsic::read_volatile_register)
-        unit.error(i.getDebugLoc(),
-                   "got a global variable in a working register, expected one in memory");
+        unit.error(i.getDebugLoc(), "got a global variable in a working register, expected one in memory");
       if (isa<AtomicCmpXchgInst>(i) || isa<AtomicRMWInst>(i))
         unit.error(i.getDebugLoc(),
                    "got an atomic operation that reads and writes, expected a plain one between "

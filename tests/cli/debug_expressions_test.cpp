@@ -192,9 +192,9 @@ int main(void) { while (1) zero = 0 * (count + other() + tick() + is_set + big.a
             "set is_set = 5\nset is_set = 0.25\nset is_set = 0\nprint (_Bool)6 + 1\nprint kept\nwatch "
             "big\nwatch big.a[7]\n"),
       {"main.c:count = 3 (0x3)", "other.c:count = 7 (0x7)", "tick:count = 11 (0xb)",
-       "tick:count * 2 + main.c:count = 25 (0x19)", "zero?other.c:count:main.c:count = 3 (0x3)", "unknown symbol 'nosuch'",
-       "other.c:count = 8 (0x8)", "other.c:count = 8 (0x8)", "is_set = 1 (0x1)", "is_set = 1 (0x1)",
-       "is_set = 0 (0x0)", "(_Bool)6 + 1 = 2 (0x2)",
+       "tick:count * 2 + main.c:count = 25 (0x19)", "zero?other.c:count:main.c:count = 3 (0x3)",
+       "unknown symbol 'nosuch'", "other.c:count = 8 (0x8)", "other.c:count = 8 (0x8)", "is_set = 1 (0x1)",
+       "is_set = 1 (0x1)", "is_set = 0 (0x0)", "(_Bool)6 + 1 = 2 (0x2)",
        "unknown symbol 'kept' here, expected one that is known where the program stands; away() has one",
        "got 'big' of 16 bytes, expected at most 8; watch a part of it", "watchpoint 2 on big.a[7]"});
 }
