@@ -107,6 +107,18 @@ print(second.getDevice("ps0") is first.getDevice("ps0"))
 
 
 class Devices(Programs):
+    def test_a_number_is_no_text(self):
+        self.assertEqual(self.lines("""
+from controller import Robot
+robot = Robot()
+camera = robot.getDevice("camera")
+for call in (lambda: robot.getDevice(5), lambda: setattr(robot, "custom_data", 5), lambda: camera.saveImage(5, 1)):
+    try:
+        call()
+    except Exception as wrong:
+        print(str(wrong).split(": ")[-1])
+"""), ["got 5, expected text"] * 3)
+
     def test_a_sensor_has_values_after_its_period(self):
         run = self.run_program("""
 from controller import Robot

@@ -25,6 +25,8 @@ class Text(ctypes.c_char_p):
 
     @classmethod
     def from_param(cls, value):
+        if not isinstance(value, (str, bytes, type(None))):  # a number would be an address
+            raise TypeError("got %r, expected text" % (value,))
         return ctypes.c_char_p(value.encode() if isinstance(value, str) else value)
 
 
