@@ -35,14 +35,13 @@ CLI::Validator named() {
 }
 
 CLI::Validator seed_range() {
-  static constexpr long long kMost = 9'000'000'000'000'000'000;  // as a world file may have it
   return CLI::Validator(
       [](std::string& text) {
         long long seed = 0;
         const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), seed);
-        if (wrong == std::errc() && end == text.data() + text.size() && seed >= 0 && seed <= kMost)
+        if (wrong == std::errc() && end == text.data() + text.size() && seed >= 0 && seed <= kMostSeed)
           return std::string();
-        return fmt::format("got {}, expected 0 to {}", text, kMost);
+        return fmt::format("got {}, expected 0 to {}", text, kMostSeed);
       },
       "NONNEGATIVE");
 }

@@ -16,6 +16,7 @@ CLI::Validator between(double least, double most);
 
 /// Of options that name a file to be written: not an empty one.
 CLI::Validator named();
+inline constexpr long long kMostSeed = 9'000'000'000'000'000'000;  ///< as a world file may have it
 /// A world's seed, exactly.
 CLI::Validator seed_range();
 /// A recording says what these options of `verb` say: a line in `problems` for each that was given with it.

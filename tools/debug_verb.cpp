@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kMostSeconds = 1e7;
+
 struct DebugArguments {
   std::string world, robot, commands, hal, optimisation;
   std::vector<std::string> firmware;
@@ -91,6 +93,13 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
           fmt::format("launch: {}: got '{}', expected {}", key, *value, fmt::join(*known, ", ")));
       return nullptr;
     }
+  const auto seed = launch.find("seed"), seconds = launch.find("seconds");
+  if (seed != launch.end() && !(seed->is_number_unsigned() && *seed <= kMostSeed))
+    problems.push_back(fmt::format("launch: seed: got {}, expected 0 to {}", seed->dump(), kMostSeed));
+  if (seconds != launch.end() && !(seconds->is_number() && *seconds >= 0 && *seconds <= kMostSeconds))
+    problems.push_back(
+        fmt::format("launch: seconds: got {}, expected 0 to {:g} s", seconds->dump(), kMostSeconds));
+  if (!problems.empty()) return nullptr;
   a.seconds = launch.value("seconds", a.seconds);
   a.seed = launch.value("seed", a.seed);
   if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())
@@ -143,7 +152,7 @@ void add_debug(CLI::App& app, int& exit_code) {
   verb->add_option("-x,--commands", a->commands, "file of commands, instead of the terminal");
   verb->add_option("--robot", a->robot, "the robot to look at; else the first");
   verb->add_option("--for", a->seconds, "simulated seconds after which the world ends")
-      ->check(between(0, 1e7));
+      ->check(between(0, kMostSeconds));
   verb->add_option("--seed", a->seed, "the world's seed, 0 or more, instead of the file's")
       ->check(seed_range());
   verb->footer("Commands are read from the terminal, or from a pipe; help lists them. See docs/looking.md");

@@ -5,6 +5,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <iostream>
+
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
 #include "sim_core/base/base64.h"
@@ -17,6 +19,14 @@ using dspic::assembly::trimmed;
 
 constexpr std::size_t kLongestMessage = 16u << 20;
 enum Scope { kRegisters = 1, kVariables, kPeripherals };
+
+/// "0x900", or a number alone, of that key, with its offset. False: it is none.
+bool reference_of(const nlohmann::json& arguments, const char* key, std::int64_t& address) {
+  const std::string text = arguments.at(key);
+  char* end = nullptr;
+  address = std::strtoll(text.c_str(), &end, 0) + arguments.value("offset", std::int64_t{0});
+  return !text.empty() && *end == 0;
+}
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
@@ -73,7 +83,13 @@ bool DapLine::serve(DapServer::Open open) {
   while (!server.has_ended()) {
     if (server.runs()) server.run_on();
     // it has stopped, and somebody will ask something; or somebody has
-    if (!read_message(message)) return !is_broken_;
+    if (!read_message(message)) {
+      if (is_broken_)
+        std::cerr << "dap: got something else, expected messages of the Debug Adapter Protocol: "
+                     "Content-Length, and "
+                     "an object with seq and command\n";
+      return !is_broken_;
+    }
     server.handle(message);
   }
   return true;
@@ -134,6 +150,7 @@ void DapServer::run_on() {
 // --- requests
 
 void DapServer::launch(const Json& request) {
+  if (session_) return refuse(request, "launch: got a second one, expected one a session");
   const Json arguments = request.value("arguments", Json::object());
   std::vector<std::string> problems;
   session_ = open_(
@@ -269,9 +286,12 @@ void DapServer::set_function_breakpoints(const Json& request) {
 void DapServer::set_instruction_breakpoints(const Json& request) {
   set_all(request, of_instructions_,
           [&](const Json& wanted, const std::string& condition, std::string& error) {
-            const std::string reference = wanted.at("instructionReference");
-            const auto address = static_cast<std::int64_t>(std::strtoll(reference.c_str(), nullptr, 0)) +
-                                 wanted.value("offset", std::int64_t{0});
+            std::int64_t address = 0;
+            if (!reference_of(wanted, "instructionReference", address)) {
+              error = "got '" + wanted.at("instructionReference").get<std::string>() +
+                      "', expected an address such as 0x1a0";
+              return static_cast<const Breakpoint*>(nullptr);
+            }
             return session_->add_breakpoint(fmt::format("{:#x}", address), condition, error);
           });
 }
@@ -364,7 +384,7 @@ void DapServer::variables(const Json& request) {
           add(info.name, fmt::format("{:#06x}", session_->values().read(*data)));
       break;
     default:
-      break;
+      return refuse(request, "variablesReference: got none of scopes");
   }
   respond(request, {{"variables", all}});
 }
@@ -372,6 +392,9 @@ void DapServer::variables(const Json& request) {
 void DapServer::set_variable(const Json& request) {
   const Json& arguments = request.at("arguments");
   const std::string name = arguments.at("name");
+  const int scope = arguments.at("variablesReference");
+  if (scope != kVariables && scope != kRegisters && scope != kPeripherals)
+    return refuse(request, "variablesReference: got none of scopes");
   std::string error;
   if (!session_->assign(name, arguments.at("value").get<std::string>(), error)) return refuse(request, error);
   CValue now;
@@ -408,24 +431,12 @@ void DapServer::evaluate(const Json& request) {
 
 // --- memory and instructions
 
-namespace {
-
-/// "0x900", or a number alone. False: it is none.
-bool reference_of(const nlohmann::json& arguments, std::int64_t& address) {
-  const std::string text = arguments.at("memoryReference");
-  char* end = nullptr;
-  address = std::strtoll(text.c_str(), &end, 0) + arguments.value("offset", std::int64_t{0});
-  return !text.empty() && *end == 0;
-}
-
-}  // namespace
-
 void DapServer::read_memory(const Json& request) {
   const Json& arguments = request.at("arguments");
   std::int64_t address = 0;
   const std::int64_t wanted = arguments.at("count").get<std::int64_t>();
   constexpr std::int64_t kMost = 1 << 16;
-  if (!reference_of(arguments, address) || wanted < 0)
+  if (!reference_of(arguments, "memoryReference", address) || wanted < 0)
     return refuse(request, "readMemory: expected an address as a memoryReference, and a count of 0 or more");
   std::vector<std::uint8_t> bytes;
   const Address last = kAddressMask;
@@ -450,7 +461,8 @@ void DapServer::disassemble(const Json& request) {
   const auto count = arguments.at("instructionCount").get<std::int64_t>();
   constexpr std::int64_t kMost = 10000;
   const Machine& machine = session_->machine();
-  if (!reference_of(arguments, wanted) || count < 0 || count > kMost || std::abs(from) > kMost)
+  if (!reference_of(arguments, "memoryReference", wanted) || count < 0 || count > kMost ||
+      std::abs(from) > kMost)
     return refuse(
         request,
         fmt::format("disassemble: expected an address as a memoryReference, and counts up to {}", kMost));

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 """An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE. Exit code 0: all as expected."""
 import base64
+import subprocess
 import sys
 
 from dap import Server
@@ -148,10 +149,21 @@ assert "expected sim, dspic" in ask("launch", hal="boat")["message"]
 event("terminated")
 assert "native is hal sim now" in ask("launch", way="native")["message"]
 event("terminated")
+for wrong, says in (({"seed": -1}, "launch: seed: got -1, expected 0 to 9000000000000000000"),
+                    ({"seed": 1.5}, "launch: seed: got 1.5, expected 0 to 9000000000000000000"),
+                    ({"seconds": -1}, "launch: seconds: got -1, expected 0 to 1e+07 s"),
+                    ({"seconds": "x"}, "launch: seconds: got \"x\", expected 0 to 1e+07 s")):
+    expect(ask("launch", firmware=FIRMWARE, **wrong)["message"], says)
+    event("terminated")
 good("launch", firmware=FIRMWARE, stopOnEntry=True)
 event("initialized")
 good("configurationDone")
 expect(event("stopped")["reason"], "entry")
+expect(ask("launch", firmware=FIRMWARE)["message"], "launch: got a second one, expected one a session")
+expect(good("setInstructionBreakpoints", breakpoints=[{"instructionReference": "zz"}])["breakpoints"],
+       [{"verified": False, "message": "got 'zz', expected an address such as 0x1a0"}])
+for command, more in (("variables", {}), ("setVariable", {"name": "ticks", "value": "7"})):
+    expect(ask(command, variablesReference=99999, **more)["message"], "variablesReference: got none of scopes")
 good("continue", threadId=1)
 good("threads")
 good("pause", threadId=1)
@@ -161,7 +173,8 @@ good("disconnect")
 expect(server.process.wait(10), 0)
 
 # what is no message ends it
-server = Server(TWINPUCK)
-server.process.communicate(b"Content-Length: 5\r\n\r\n[[[[[", timeout=10)
-expect(server.process.returncode, 2)
+for wrong in (b"Content-Length: 5\r\n\r\n[[[[[", b"Content-Length: 2\r\n\r\n[]", b"Garbage\r\n\r\n"):
+    done = subprocess.run([TWINPUCK, "debug", "--dap"], input=wrong, capture_output=True, timeout=10, check=False)
+    expect((done.returncode, done.stderr.decode()), (2, "dap: got something else, expected messages of the Debug Adapter Protocol: "
+                                                        "Content-Length, and an object with seq and command\n"))
 print("all as expected")
