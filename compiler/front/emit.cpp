@@ -56,7 +56,7 @@ void add_underscores(Module& m) {
 /// are told.
 class LateMistakes : public DiagnosticHandler {
  public:
-  LateMistakes(const Facts& facts, bool& has_failed) : facts_(facts), has_failed_(has_failed) {}
+  LateMistakes(const Unit& unit, bool& has_failed) : unit_(unit), has_failed_(has_failed) {}
 
   bool handleDiagnostics(const DiagnosticInfo& info) override {
     if (const auto* of_parser = dyn_cast<DiagnosticInfoSrcMgr>(&info)) {
@@ -91,10 +91,11 @@ class LateMistakes : public DiagnosticHandler {
 
  private:
   std::string place(std::uint64_t number) const {
-    const bool is_known = number > 0 && number <= facts_.assembler_places.size();
-    return is_known ? facts_.assembler_places[number - 1] : "asm";
+    // asm() outside functions has none: its file
+    const auto& known = unit_.facts.assembler_places;
+    return number > 0 && number <= known.size() ? known[number - 1] : unit_.options.input;
   }
-  const Facts& facts_;
+  const Unit& unit_;
   bool& has_failed_;
 };
 
@@ -122,7 +123,7 @@ bool write(Module& m, const Unit& unit, TargetMachine& machine) {
     passes.add(new TargetLibraryInfoWrapperPass(library));
     const auto kind = o.emit_text ? CGFT_AssemblyFile : CGFT_ObjectFile;
     if (machine.addPassesToEmitFile(passes, out.stream(), nullptr, kind)) return false;
-    m.getContext().setDiagnosticHandler(std::make_unique<LateMistakes>(unit.facts, has_failed));
+    m.getContext().setDiagnosticHandler(std::make_unique<LateMistakes>(unit, has_failed));
     passes.run(m);
   }
   return out.finish() && !has_failed;
