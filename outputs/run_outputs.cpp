@@ -119,12 +119,11 @@ std::vector<std::string> RunOutputs::written() const {
   for (const std::string& file : {a.record, a.summary, a.pictures.picture, a.pictures.film, a.traces.vcd,
                                   a.traces.timeline, a.coverage, a.images, a.sound_folder, a.report})
     if (!file.empty()) files.push_back(file);
-  return without_lost(std::move(files), lost_);
+  return files;
 }
 
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
   const auto& a = arguments_;
-  const std::size_t before = problems.size();
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
   if (images_ && images_->failed())
     problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
@@ -141,7 +140,6 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   }
   pictures_.finish(summary, problems);
   traces_.finish(problems);
-  lost_.assign(problems.begin() + static_cast<std::ptrdiff_t>(before), problems.end());
 }
 
 }  // namespace outputs

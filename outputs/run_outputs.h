@@ -49,14 +49,13 @@ class RunOutputs {
   /// The process ends between two ticks that it will not come back from: what is in memory goes to the file.
   void rescue();
   void finish(const Summary& summary, std::vector<std::string>& problems);
-  /// Files and folders that were asked for, for people; after finish() without those that were lost.
+  /// Files and folders that were asked for, for people.
   std::vector<std::string> written() const;
 
  private:
   void sample();
 
   const OutputArguments arguments_;
-  std::vector<std::string> lost_;  // what there is to say of them
   runs::Run& run_;
   twin::Twin& twin_;  // the run's
   std::unique_ptr<sim::CsvRecorder> recorder_;

@@ -46,19 +46,17 @@ CLI::Validator seed_range() {
       "NONNEGATIVE");
 }
 
-void refuse_with_replay(const CLI::App& verb, const std::vector<std::string>& options,
-                        std::vector<std::string>& problems) {
-  for (const std::string& option : options)
+void want_one_world(const CLI::App& verb, const CLI::Option& world, const CLI::Option& replay,
+                    std::vector<std::string>& problems) {
+  if (world.count() + replay.count() == 0) throw CLI::RequiredError("WORLD or --replay");
+  if (replay.count() == 0) return;
+  if (world.count() > 0)
+    problems.push_back("command line: WORLD: got '" + world.results().front() +
+                       "' besides --replay, expected the recording alone, which holds its world");
+  for (const std::string option : {"--fw", "--hal", "--opt", "--supervisor", "--seed"})
     if (verb.get_option(option)->count() > 0)
       problems.push_back("command line: " + option +
                          ": got one besides --replay, expected the recording alone, which says it");
-}
-
-void want_one_world(const CLI::Option& world, const CLI::Option& replay, std::vector<std::string>& problems) {
-  if (world.count() + replay.count() == 0) throw CLI::RequiredError("WORLD or --replay");
-  if (world.count() > 0 && replay.count() > 0)
-    problems.push_back("command line: WORLD: got '" + world.results().front() +
-                       "' besides --replay, expected the recording alone, which holds its world");
 }
 
 CLI::Option* one_each(CLI::Option* option) { return option->allow_extra_args(false); }

@@ -19,11 +19,10 @@ CLI::Validator named();
 inline constexpr long long kMostSeed = 9'000'000'000'000'000'000;  ///< as a world file may have it
 /// A world's seed, exactly.
 CLI::Validator seed_range();
-/// A recording says what these options of `verb` say: a line in `problems` for each that was given with it.
-void refuse_with_replay(const CLI::App& verb, const std::vector<std::string>& options,
-                        std::vector<std::string>& problems);
-/// WORLD or --replay, one of them: else a line in `problems`, or CLI's error where both are missing.
-void want_one_world(const CLI::Option& world, const CLI::Option& replay, std::vector<std::string>& problems);
+/// WORLD or --replay, one of them, and beside a recording nothing that it says itself: else lines in `problems`,
+/// or CLI's error where both are missing.
+void want_one_world(const CLI::App& verb, const CLI::Option& world, const CLI::Option& replay,
+                    std::vector<std::string>& problems);
 
 /// The world file that a name means (twin/world_file.h), told when it could mean another one. Empty, with a
 /// line in `problems`, when there is none.

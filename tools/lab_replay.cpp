@@ -56,7 +56,7 @@ class ReplayLooker final : public lab::TrialOnlooker {
     const std::size_t before = problems.size();
     outputs_->finish(*summary, problems);
     lost_outputs = problems.size() > before || outputs_->failed();
-    written = outputs_->written();
+    written = outputs::without_lost(outputs_->written(), problems);
     outputs_.reset();
   }
 

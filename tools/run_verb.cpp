@@ -510,9 +510,7 @@ void add_run(CLI::App& app, int& exit_code) {
     if (a->live && speed->count() == 0) a->speed = "1";
     a->has_end = verb->get_option("--for")->count() > 0;
     std::vector<std::string> problems;
-    want_one_world(*world, *replay, problems);
-    if (replay->count() > 0)
-      refuse_with_replay(*verb, {"--fw", "--hal", "--opt", "--supervisor", "--seed"}, problems);
+    want_one_world(*verb, *world, *replay, problems);
     refuse_without_output(*verb, problems);
     complain(problems);
     exit_code = problems.empty() ? run(*a) : int{kBadInput};

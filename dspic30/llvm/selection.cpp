@@ -208,9 +208,10 @@ class Selection : public SelectionDAGISel {
       const bool is_use = kind == InlineAsm::Kind_RegUse;
       const bool is_register =
           is_use || kind == InlineAsm::Kind_RegDef || kind == InlineAsm::Kind_RegDefEarlyClobber;
+      const bool is_tied = InlineAsm::isUseOperandTiedToDef(flag, tied);
       const TargetRegisterClass* of = nullptr;
       if (is_register && words == 2) {
-        if (InlineAsm::isUseOperandTiedToDef(flag, tied))
+        if (is_tied)
           of = tied < pairs.size() ? pairs[tied] : nullptr;
         else if (InlineAsm::hasRegClassConstraint(flag, class_id))
           of = registers().getMatchingSuperRegClass(&DSPIC::WPRegClass, registers().getRegClass(class_id),
@@ -235,7 +236,6 @@ class Selection : public SelectionDAGISel {
         fill_pair(pair, low, high, of, operands[InlineAsm::Op_InputChain], glue, where);
       else
         empty_pair(pair, low, high, n, where);
-      const bool is_tied = InlineAsm::isUseOperandTiedToDef(flag, tied);
       flag = InlineAsm::getFlagWord(kind, 1);
       flag = is_tied ? InlineAsm::getFlagWordForMatchingOp(flag, tied)
                      : InlineAsm::getFlagWordForRegClass(flag, of->getID());

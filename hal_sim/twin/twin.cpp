@@ -281,9 +281,9 @@ void note_uart_files(const sim::WorldDesc& world, const Options& options, sim::F
     for (int port = 1; port <= 2; ++port) {
       const std::string choice = port == 1 ? chosen(options.uart1, robot.name, robot.uart1)
                                            : chosen(options.uart2, robot.name, robot.uart2);
-      const std::string what = "robot '" + robot.name + "' uart" + std::to_string(port);
       std::string out, in;
       if (!board::is_file_end(choice, out, in)) continue;
+      const std::string what = "robot '" + robot.name + "' uart" + std::to_string(port);
       files.reads(in, what);
       files.writes(out, what);
     }

@@ -77,6 +77,7 @@ void FileUses::reads_program(const std::string& path) {
 }
 
 void FileUses::check(std::vector<std::string>& problems) const {
+  if (outputs_.empty() && pictures_.empty()) return;
   std::error_code none;
   const auto refuse = [&](const Use& use, const std::string& got) {
     problems.push_back(use.path + ": " + use.what + ": got " + got +

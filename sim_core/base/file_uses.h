@@ -15,7 +15,9 @@ class FileUses {
   /// A program: a file, or a folder whose files are its sources, but for kinds that are left behind by runs.
   void reads_program(const std::string& path);
   /// `path` is written, because of `option`.
-  void writes(const std::string& path, const std::string& option) { outputs_.push_back({path, option}); }
+  void writes(const std::string& path, const std::string& option) {
+    if (!path.empty()) outputs_.push_back({path, option});
+  }
   /// Files FOLDER/STEM_<number>.png are written.
   void writes_pictures(const std::string& stem, const std::string& option) {
     pictures_.push_back({stem, option});
