@@ -100,8 +100,8 @@ class Runner {
   /// The reset button: the program begins anew at the end of the last window, also after a trap. Traps stay
   /// reported.
   virtual void restart() = 0;
-  /// Behind restart(): as when it was first switched on, not as behind the button. For a program of the PC
-  /// that is the same.
+  /// Behind restart(): as when it was first switched on, not as behind the button. The time of a program of
+  /// the PC begins anew.
   virtual void begin_again() {}
 
   // --- how it has gone

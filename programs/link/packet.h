@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-#define LINK_VERSION 1
+#define LINK_VERSION 2
 #define LINK_MOST_BYTES 131072 /* a packet; half of what a socket of Linux takes by default */
 #define LINK_FLUSH_BYTES \
   65536 /* a program that has said so much sends it, and goes on with the next packet */

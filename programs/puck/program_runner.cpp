@@ -95,25 +95,31 @@ void ProgramRunner::fail(host::TrapReport report) {
   end();
 }
 
-void ProgramRunner::begin_anew() {
+void ProgramRunner::reset_processor() {
   board_.processor_reset(end_);
-  began_ = board_.clock().click_at(end_);
-  time_ms_ = 0;
   is_due_ = has_failed_ = false;
   link_clear(&samples_);
   ++turns_;
 }
 
+// the new program finds the time of the world, in whole ms that are over
 void ProgramRunner::restart() {
-  begin_anew();
+  reset_processor();
   puck_.reset();  // its drivers let go of the pins first
   puck_ = std::make_unique<Puck>(board_, end_);
+  time_ms_ = ms_of_clicks(board_.clock().click_at(end_) - began_);
   step_ms_ = 0;
   ++seat_->began;
 }
 
+void ProgramRunner::begin_again() {
+  began_ = board_.clock().click_at(end_);
+  time_ms_ = 0;
+}
+
 void ProgramRunner::reset_under_program() {
-  begin_anew();
+  reset_processor();
+  begin_again();
   const auto kept = puck_->keep();
   puck_.reset();  // its drivers let go of the pins first
   puck_ = std::make_unique<Puck>(board_, end_);

@@ -43,7 +43,7 @@ class ProgramRunner final : public host::Runner {
     is_due_ = false;
     return samples_;
   }
-  /// World time since the program began at the end of its last step, in ms.
+  /// World time since the robot began, at the end of the program's last step, in ms.
   std::int64_t time_ms() const { return time_ms_; }
   /// The next step, of 1 ms or more.
   void begin_step(std::int64_t milliseconds);
@@ -63,7 +63,10 @@ class ProgramRunner final : public host::Runner {
   void pass_to(Cycle end) override { end_ = std::max(end_, end); }
   std::int64_t interrupts_served() const override { return 0; }
   std::uint64_t turns() const override { return turns_; }
+  /// The program begins anew, and time goes on, as in Webots.
   void restart() override;
+  /// Time begins anew.
+  void begin_again() override;
   Cycle cycles() const override { return end_; }
   Cycle idle_cycles() const override { return end_; }
   Cycle waiting_since() const override { return board::kNever; }
@@ -77,7 +80,7 @@ class ProgramRunner final : public host::Runner {
 
  private:
   Cycle step_end() const;
-  void begin_anew();
+  void reset_processor();
   void end_step(Cycle at);
 
   std::shared_ptr<Seat> seat_;
@@ -85,7 +88,7 @@ class ProgramRunner final : public host::Runner {
   std::unique_ptr<Puck> puck_;
   std::unique_ptr<host::ProgramData> data_;
   Cycle end_;
-  sim::Clicks began_;         // world time at which the program began
+  sim::Clicks began_;         // world time at which the program's own begins
   std::int64_t time_ms_ = 0;  // since then, at the end of the last step
   std::int64_t step_ms_ = 0;  // 0: none is under way
   bool is_due_ = false, has_failed_ = false;

@@ -15,6 +15,8 @@ namespace programs {
 /// World time of so many ms since a program began. Rounded from the whole time, for a ms is no
 /// whole number of clicks.
 inline sim::Clicks clicks_of_ms(std::int64_t ms) { return (ms * (sim::kClicksPerSecond / 200) + 2) / 5; }
+/// The last ms that has begun.
+inline std::int64_t ms_of_clicks(sim::Clicks at) { return (5 * at + 2) / (sim::kClicksPerSecond / 200); }
 
 /// DEVICE: `number` counts from 0, its tag from 1.
 inline void put_device(link_packet& to, std::size_t number, int node, const std::string& name,

@@ -192,6 +192,8 @@ void Team::begin(Member& member) {
   };
 }
 
+std::int64_t Team::ns_of(const Member& member) { return member.body->time_ms() * 1000000; }
+
 void Team::hand_over_samples(Member& member, bool with_followed) {
   link_clear(&packet_);
   const std::int64_t passed = member.body->take_samples(packet_);
@@ -208,7 +210,7 @@ void Team::hand_over_samples(Member& member, bool with_followed) {
 /// The answer to a step, behind what is in the packet already.
 void Team::done(Member& member, std::int64_t passed_ms) {
   link_begin(&packet_, LINK_DONE);
-  link_int(&packet_, member.body->time_ms() * 1000000);
+  link_int(&packet_, ns_of(member));
   link_int(&packet_, passed_ms);
   link_end(&packet_);
   member.is_waiting = false;
@@ -357,7 +359,7 @@ void Team::welcome(Member& member) {
   for (const std::int64_t number :
        {std::int64_t{LINK_VERSION}, std::int64_t{member.is_supervisor},
         std::int64_t{world.webots.axes == sim::Axes::Nue}, std::int64_t{is_lab},
-        static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1)})
+        static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1), ns_of(member)})
     link_int(&packet_, number);
   const std::string project = fs::path(member.launch.folder).parent_path().parent_path().string();
   for (const std::string& text : {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""),

@@ -102,6 +102,8 @@ class Team final : public sim::Attendant, private SupervisorHost {
   void begin(Member& member);
   void take_turns();
   void hand_over_samples(Member& member, bool with_followed);
+  /// Of its own time, at the end of its last step.
+  static std::int64_t ns_of(const Member& member);
   void done(Member& member, std::int64_t passed_ms);
   void tell_end(Member& member);
   void reply(Member& member);

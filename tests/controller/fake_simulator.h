@@ -54,6 +54,7 @@ struct World {
   int version = LINK_VERSION;
   bool supervisor = false, nue = false;
   std::int64_t seed = 7;
+  std::int64_t time_ns = 0;
   std::vector<Device> devices;
 };
 

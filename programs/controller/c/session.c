@@ -242,6 +242,7 @@ static void welcome(const struct link_record* r) {
   session.supervisor = r->ints[1] == 1;
   session.nue = r->ints[2] == 1;
   session.seed = r->ints[4];
+  session.time_ns = r->ints[5]; /* of a program that was started anew: the world's goes on */
   session.robot = text_of(r, 0);
   session.model = text_of(r, 1);
   session.project = text_of(r, 2);
