@@ -235,7 +235,7 @@ inline unsigned Processor::handlers(int next_vector) const {
 
 // which handlers known by heart are held off, when the next one comes, and what they take. True: a flag was
 // set, and all is to be looked at again
-bool Processor::follow_host(int next_vector) {
+__attribute__((always_inline)) inline bool Processor::follow_host(int next_vector) {
   Cpu& cpu = *cpu_;
   // nothing has changed since the last time
   const unsigned state = handlers(next_vector);

@@ -9,7 +9,7 @@
 namespace dspic {
 
 // one instruction, by its own function, or the rest of a REPEAT that the last window cut
-void Waits::step(Cpu& cpu) {
+__attribute__((always_inline)) inline void Waits::step(Cpu& cpu) {
   if (cpu.repeating) {
     cpu.next = cpu.run_repeated(cpu.next);
     return;

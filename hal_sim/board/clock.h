@@ -58,8 +58,8 @@ class RobotClock {
 
   /// First click at which cycle `cycle` has begun: cycle_at(click_at(c)) >= c, and click_at(cycle_at(t)) <=
   /// t while it does not boot again.
-  sim::Clicks click_at(Cycle cycle) const {
-    if (begun_ > 0 && cycle < first_) return std::min(begun_, before_cycle(cycle).click_at(cycle));
+  __attribute__((always_inline)) sim::Clicks click_at(Cycle cycle) const {
+    if (begun_ > 0 && cycle < first_) return click_before(cycle);
     return (ppb_ == 0 ? cycle - first_ : clicks_of(cycle - first_)) + boot_;
   }
 
@@ -78,6 +78,9 @@ class RobotClock {
     return clock;
   }
   // questions about what is over are rare
+  __attribute__((noinline)) sim::Clicks click_before(Cycle cycle) const {
+    return std::min(begun_, before_cycle(cycle).click_at(cycle));
+  }
   __attribute__((noinline)) RobotClock before(sim::Clicks at) const {
     std::size_t n = past_.size() - 1;
     while (n > 0 && at < past_[n].begun) --n;

@@ -135,7 +135,7 @@ void Motion::begin_loose_legs() {
 }
 
 /// Brings a body's state up to an instant on its leg.
-void Motion::bring(int body, Clicks at) {
+__attribute__((always_inline)) inline void Motion::bring(int body, Clicks at) {
   const std::size_t i = static_cast<std::size_t>(body);
   if (at_[i] == at) return;
   const Leg& leg = legs_[i];
