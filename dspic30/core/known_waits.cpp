@@ -68,7 +68,8 @@ void CoreState::put_flags(Cpu& c) const {
   c.dc = words[5] & kDc ? 0x100 : 0;
 }
 
-__attribute__((always_inline)) inline bool CoreState::is_of_round(const Cpu& c, unsigned registers, bool sets_flags) const {
+__attribute__((always_inline)) inline bool CoreState::is_of_round(const Cpu& c, unsigned registers,
+                                                                  bool sets_flags) const {
   // one decision for all words: that they are alike is what is asked nearly always
   std::uint64_t other = (words[5] ^ state_word(c, 5)) & ~(sets_flags ? kDc | kZ | kC | kOv | kN : kDc);
 #pragma GCC unroll 11

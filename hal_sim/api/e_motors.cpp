@@ -22,7 +22,8 @@ std::size_t index_of(Wheel wheel) { return wheel == Wheel::Left ? 0 : 1; }
 
 /// What setting takes. The coils go off at once; the agenda's cycle is what the function sets last, or for
 /// speed 0 all but last.
-__attribute__((always_inline)) inline Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed, Cycle at) {
+__attribute__((always_inline)) inline Cycle HostLibrary::set_speed(const Call& call, Wheel wheel, int speed,
+                                                                   Cycle at) {
   const CallCycles& c = cycles_;
   const bool left = wheel == Wheel::Left;
   Cycle cost = speed == 0                    ? (left ? c.left_zero : c.right_zero)

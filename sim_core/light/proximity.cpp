@@ -178,7 +178,8 @@ __attribute__((noinline)) bool shoot_over_ramps(const Scene& scene, int robot, c
 }
 
 /// Returns false when no ray met anything; otherwise fills one end per ray.
-__attribute__((always_inline)) inline bool shoot(const Scene& scene, int robot, const SensorOptics& s, const Surroundings& around, RayEnd* ends) {
+__attribute__((always_inline)) inline bool shoot(const Scene& scene, int robot, const SensorOptics& s,
+                                                 const Surroundings& around, RayEnd* ends) {
   if (scene.layout().ground.has_ramps()) return shoot_over_ramps(scene, robot, s, around, ends);
   bool any = false;
   for (const Surroundings::Item& item : around.items)
