@@ -221,6 +221,15 @@ class UartHandler {
     return static_cast<int>(cpu_.program.read(address & 0x7FFE) >> 8 * (address & 1) & 0xFF);
   }
 
+  /// Do bytes from there on lie among the words that the handler with so many pairs of registers puts on the
+  /// stack?
+  bool is_on_stack(unsigned from, unsigned bytes, unsigned pairs) const {
+    return meet(from, bytes, cpu_.w[15], 2 * (kEntryWords + 2 * pairs));
+  }
+  static bool meet(unsigned a, unsigned a_bytes, unsigned b, unsigned b_bytes) {
+    return a < b + b_bytes && b < a + a_bytes;
+  }
+
   /// When one of the handlers known by heart, which are held off, becomes pending; up to there only their share
   /// is missing. -1: one of them may come into this one.
   Cycle host_horizon() const {
@@ -321,7 +330,7 @@ class UartHandler {
     return true;
   }
 
-  static constexpr unsigned kEntryWords = 3;
+  static constexpr unsigned kEntryWords = 3, kSendsPairs = 1, kReceivesPairs = 2;
   static constexpr Cycle kGivesBack = 3;
   Cpu& cpu_;
   const int vector_;
@@ -343,7 +352,8 @@ bool UartHandler::send(Cycle until) {
   const std::uint32_t* const code = words();
   SendingState s;
   if (!code || !read_code(code, number_, s)) return false;
-  if (!is_plain(s.is_sending) || !is_plain(s.next_byte) || !is_plain(s.left)) return false;
+  for (const unsigned own : {s.is_sending, s.next_byte, s.left})
+    if (!is_plain(own) || is_on_stack(own, 2, kSendsPairs)) return false;
   uart_.advance(cpu_.now);
   // all that it will send can be read, and the shift register takes none of it meanwhile
   const unsigned from = word(s.next_byte), left = word(s.left);
@@ -353,6 +363,10 @@ bool UartHandler::send(Cycle until) {
   const unsigned count = sends ? std::min({kBurst, uart_.room(), left}) : 0;
   if (sends && (!uart_.transmits() || uart_.busy_until() <= cpu_.now + kLongestHandler + kMargin ||
                 !cpu_.parts.bus.was_written(module() + kTxReg)))
+    return false;
+  // bytes that it changes itself, before it comes to them
+  if (is_on_stack(from, count, kSendsPairs) || meet(from, count, s.next_byte, 2) ||
+      meet(from, count, s.left, 2))
     return false;
   for (unsigned i = 0; i < count; ++i) {
     const int byte = byte_at(from + i);
@@ -373,7 +387,7 @@ bool UartHandler::send(Cycle until) {
                           !(count > 0 && (wait_reads(s.left, 2) || wait_reads(s.next_byte, 2)));
 
   // From here on it is done: registers, flag, then byte after byte.
-  enter(1, is_through);
+  enter(kSendsPairs, is_through);
   lower_flag(begin_ + 5);
   if (is_over) put(s.is_sending, 0);
   for (unsigned i = 0; i < count; ++i) {
@@ -404,9 +418,11 @@ bool UartHandler::receive(Cycle until) {
   constexpr unsigned kRing = 64;
   if (!is_plain(s.received) || cpu_.is_elsewhere(s.ring, true) || cpu_.is_elsewhere(s.ring + kRing - 1, true))
     return false;
+  if (is_on_stack(s.received, 2, kReceivesPairs) || is_on_stack(s.ring, kRing, kReceivesPairs)) return false;
 
   const Cycle over = ends(kLongestHandler);
-  enter(2, goes_through(over, kEntryWords + 4) && !wait_reads(s.received, 2) && !wait_reads(s.ring, kRing));
+  enter(kReceivesPairs,
+        goes_through(over, kEntryWords + 4) && !wait_reads(s.received, 2) && !wait_reads(s.ring, kRing));
   lower_flag(begin_ + 7);
   Cycle t = 11;
   for (Cycle round = 11; uart_.has_received(); round += 9) {

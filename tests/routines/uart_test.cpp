@@ -143,6 +143,38 @@ TEST(UartByHeart, is_the_same_on_the_line_and_in_the_program) {
   }
 }
 
+// what it sends is what the handlers change: their variables, and the words that they put on the stack
+TEST(UartByHeart, sends_what_it_changes_itself) {
+  constexpr const char* kSendsItself = R"(
+#include <p30F6014A.h>
+#include <uart/e_uart_char.h>
+int main(void)
+{
+  int here;
+  e_init_uart1();
+  for (;;) {
+    e_send_uart1_char((char *)0x800, 0x400);
+    while (e_uart1_sending()) ;
+    e_send_uart1_char((char *)&here - 20, 80);
+    while (e_uart1_sending()) ;
+  }
+}
+)";
+  dspic::FirmwareFile file;
+  std::string error;
+  ASSERT_TRUE(build(kSendsItself, file, error)) << error;
+  Robot plain(file), by_heart(file);
+  by_heart.cpu->know(handlers());
+  for (Robot* robot : {&plain, &by_heart}) {
+    robot->hear(0, kEnd / 3);
+    ASSERT_FALSE(robot->cpu->run(kEnd / 3));
+  }
+  expect_same_words(by_heart, plain);
+  EXPECT_EQ(by_heart.cpu->state_hash(), plain.cpu->state_hash());
+  EXPECT_GT(plain.outside.sent.size(), 2200u);
+  EXPECT_GT(answers[0], 100);  // of the rest
+}
+
 // one way of waiting each, while a line leaves; the handler comes into all of them
 struct Waiting {
   const char *name, *code;
