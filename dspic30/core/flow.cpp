@@ -60,12 +60,15 @@ const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
 
 // --- returns: 3 cycles, or 2 when an exception is pending
 
+/// All events up to now have been.
+void hurry_to_pending(Cpu& cpu) {
+  const Interrupts& interrupts = cpu.parts.interrupts;
+  if (interrupts.pending(cpu.true_now() + 2, interrupts.cpu().level()) != kNoVector) --cpu.now;
+}
 void hurry_to_exception(Cpu& cpu) {
   if (cpu.deadline > cpu.now + kInterruptReturnCycles) return;  // nothing comes so soon
-  const Cycle now = cpu.true_now();
-  cpu.parts.events.run_to(now);
-  const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.pending(now + 2, interrupts.cpu().level()) != kNoVector) --cpu.now;
+  cpu.parts.events.run_to(cpu.true_now());
+  hurry_to_pending(cpu);
 }
 
 const Decoded* return_from_call(Cpu& cpu, const Decoded* d) {
@@ -119,7 +122,7 @@ const Decoded* return_from_handler(Cpu& cpu, const Decoded* from, Cycle rest) {
   cpu.repeating = cpu.repeat_is_fresh = (top >> 12 & 1) != 0;
   cpu.parts.events.run_to(cpu.now);
   cpu.parts.interrupts.leave_to(static_cast<int>((top >> 13 & 7) | (top >> 4 & 8)), cpu.now);
-  hurry_to_exception(cpu);
+  hurry_to_pending(cpu);  // at the lower level it may be one that was held off
   if (cpu.course) cpu.course->handler_ends(cpu.now + rest);
   cpu.deadline = 0;
   cpu.returned = true;

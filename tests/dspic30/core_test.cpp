@@ -325,6 +325,33 @@ __INT0Interrupt: bclr IFS0, #INT0IF
   EXPECT_EQ(b.w(15), 0x800u);
 }
 
+// a trap that its own level held off shortens the return, wherever windows end
+TEST(Interrupt, a_trap_that_was_held_off_shortens_the_return) {
+  constexpr const char* kTraps = R"(
+__reset: mov #0xFFFF, w0
+    mov w0, PR1
+    bset T1CON, #15
+    mov #0x900, w8
+    clr w2
+    repeat #17
+    div.s w4, w2
+end: bra end
+__MathError: bclr INTCON1, #MATHERR
+    mov TMR1, w3
+    mov w3, [w8++]
+    repeat #17
+    div.s w4, w2
+    retfie)";
+  for (const Cycle window : {1000, 1, 7}) {
+    CoreBench b(kTraps);
+    for (Cycle until = window; until <= 1000; until += window) ASSERT_FALSE(b.cpu->run(until));
+    for (unsigned at = 0x900; at < 0x91C; at += 2) {
+      // 3 to enter, three instructions, the division's 1 + 18, and 2 back
+      EXPECT_EQ(b.word(at + 2) - b.word(at), 3u + 3 + 19 + 2) << window << " " << at;
+    }
+  }
+}
+
 TEST(Interrupt, nstdis_and_disi_hold_them_off) {
   CoreBench b(R"(
 __reset: clr w1
