@@ -37,6 +37,7 @@ api::HostLibrary::Served served_by(const dspic::FirmwareFile& file) {
   return served;
 }
 
+constexpr std::int64_t kUsualResets = 9;           // that a program asks for itself; assumed: more are a loop
 constexpr Cycle kLeastWait = board::kFcyHz / 100;  // a wait is called endless from then on
 
 }  // namespace
@@ -333,13 +334,20 @@ std::string ChipRunner::comment(const dspic::Diagnosis& d) const {
   }
 }
 
-// what the program asked for by RESET goes unsaid
+void ChipRunner::note_own_reset(Cycle at) {
+  if (own_resets_.count++ == 0) own_resets_.first = at;
+  own_resets_.last_place = places_->own(processor_->pc());
+}
+
+// what the program asked for by RESET goes unsaid, unless it does so again and again
 void ChipRunner::reset(dspic::ResetKind kind) {
   const Cycle at = processor_->now();
   if (gives_up_)
     report(endings_->of_giving_up());
   else if (const auto ending = endings_->of_reset(kind))
     report(*ending);
+  else if (kind == dspic::ResetKind::Instruction)
+    note_own_reset(at);
   gives_up_ = false;
   chip_.note_reset(kind);
   tell_reset(at);
@@ -356,6 +364,10 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
             all.end());
   for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
+  if (own_resets_.count > kUsualResets)
+    all.push_back({"resets itself", places_->text_of(own_resets_.last_place),
+                   "the program resets the processor again and again by RESET",
+                   "what stands behind that line never runs", own_resets_.first, 0, own_resets_.count});
   return dated(std::move(all), board_.diagnoses(cycles()));
 }
 

@@ -133,6 +133,7 @@ class ChipRunner final : public host::Runner,
   bool is_ending(const board::Diagnosis& diagnosis) const;
   std::string comment(const dspic::Diagnosis& diagnosis) const;
   void reset(dspic::ResetKind kind);
+  void note_own_reset(Cycle at);
 
   std::shared_ptr<const ChipImage> image_;
   const dspic::FirmwareFile& file_;
@@ -157,6 +158,11 @@ class ChipRunner final : public host::Runner,
   int open_handlers_ = 0, agenda_depth_ = 0;      // how many when it was called
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
+  struct OwnResets {  // by the program's own RESET
+    std::int64_t count = 0;
+    Cycle first = 0;
+    unsigned last_place = 0;
+  } own_resets_;
   std::uint64_t turns_ = 0;
   std::uint64_t seed_;     // of RAM at power-up
   bool has_clock_ = true;  // by its configuration words

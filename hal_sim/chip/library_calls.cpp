@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/chip/library_calls.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "dspic30/memory/hex.h"
@@ -13,6 +15,10 @@ namespace {
 constexpr Cycle kSpeedGrace =
     board::kFcyHz / 10;  // a speed may be set a little before the motors are started
 constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
+// of the steps that a speed asks for a wheel makes less, of speeds set so often a second, steps/s; assumed: far from
+// what rounding and the first step make of it
+constexpr double kSlow = 0.8, kOften = 200, kLeastLook_s = 0.5;
+constexpr int kLeastSlow = 20;
 constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
 constexpr int kAllLeds = 8, kProximity = 8, kAxes = 3, kMicrophones = 3;
 constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
@@ -193,6 +199,8 @@ void LibraryCalls::set_speed(const Site& site, int wheel, int speed) {
     }
   }
   if (speed == 0) look(now);
+  if (speed != w.speed) w.is_steady = false;
+  ++w.again;
   w.speed = speed;
 }
 
@@ -222,12 +230,35 @@ std::int64_t LibraryCalls::steps_of(int wheel, Cycle now) const {
   return wheel == 0 ? board_.motors().left_steps(now) : board_.motors().right_steps(now);
 }
 
+/// The library's motors begin a half step anew with each call: set all the time, one speed is another.
+void LibraryCalls::look_for_slow(int wheel, std::int64_t steps, double span_s) {
+  Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
+  const int asked = std::min(std::abs(w.speed), kMaxSpeed);
+  const double made = static_cast<double>(std::abs(steps - w.looked_steps)) / span_s;
+  if (w.is_steady && w.again > kOften * span_s && asked >= kLeastSlow && made > 0 && made < kSlow * asked) {
+    const std::string side = wheel == 0 ? "left" : "right";
+    note_at(
+        "wheel slow", "e_set_speed_" + side + "()",
+        fmt::format("got {} steps/s, {:.0f} times a second, and the wheel makes {:.0f}: each call stretches "
+                    "the step that is under way; set at {}",
+                    w.speed, w.again / span_s, made, places_.text_of(w.place)),
+        "set a speed when it changes");
+  }
+  w.is_steady = true;
+  w.again = 0;
+  w.looked_steps = steps;
+}
+
 void LibraryCalls::look(Cycle now) {
+  const double span_s = static_cast<double>(now - looked_at_) / board::kFcyHz;
+  const bool is_long = span_s >= kLeastLook_s;
+  if (is_long) looked_at_ = now;
   next_look_ = now + kLookEvery;
   for (int wheel = 0; wheel < 2; ++wheel) {
     Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
     if (w.speed == 0) continue;
     const std::int64_t steps = steps_of(wheel, now);
+    if (is_long) look_for_slow(wheel, steps, span_s);
     if (steps != w.steps) {
       w.steps = steps;
       w.since = now;

@@ -59,7 +59,12 @@ class LibraryCalls final {
     Cycle since = 0;         // when it began to be other than 0, or the wheel was last seen to turn
     std::int64_t steps = 0;  // at that time
     unsigned place = 0;      // of the call that set it
+    // since the last look: calls that set the same speed, or that there was another
+    int again = 0;
+    bool is_steady = false;
+    std::int64_t looked_steps = 0;
   };
+  void look_for_slow(int wheel, std::int64_t steps, double span_s);
 
   void note(const std::string& cause, const std::string& place, const std::string& message,
             const std::string& hint);
@@ -91,7 +96,7 @@ class LibraryCalls final {
   std::int64_t first_steps_ = 0;                       // of both wheels, then
   std::map<unsigned, board::Diagnosis> idle_agendas_;  // by function, until they get a period
   std::vector<board::Diagnosis> diagnoses_;
-  Cycle next_look_ = 0;
+  Cycle looked_at_ = 0, next_look_ = 0;
 };
 
 class LibraryCalls::Functions {

@@ -53,6 +53,44 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   EXPECT_EQ(r.diagnoses()[1].count, 2);
 }
 
+// the original's, too: each call begins the half step anew
+TEST_F(Misuse, a_speed_that_is_set_all_the_time_is_told) {
+  Robot& busy = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  while (1) { e_set_speed_left(500); e_set_speed_right(500); } })");
+  Robot& once = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  e_set_speed_left(500); e_set_speed_right(500); while (1); })")
+                    .at(0.5, 0);
+  Robot& turns = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { int i; e_init_port(); e_init_motors(); e_start_agendas_processing();
+  for (i = 0;; i = (i + 1) % 1000) { e_set_speed_left(500 - i); e_set_speed_right(i - 500); } })")
+                     .at(-0.5, 0);
+  run_for(2.5);
+  ASSERT_EQ(busy.diagnoses().size(), 2u) << busy.diagnoses_text();
+  EXPECT_EQ(busy.diagnoses()[0].cause, "wheel slow");
+  EXPECT_TRUE(
+      wording::reads(busy.diagnoses()[0].message,
+                     "got 500 steps/s, … times a second, and the wheel makes 249: each call stretches "
+                     "the step that is under way; set at main() (main.c:11)"))
+      << busy.diagnoses()[0].message;
+  EXPECT_EQ(once.diagnoses_text() + turns.diagnoses_text(), "");
+}
+
+TEST_F(Misuse, a_program_that_resets_itself_is_told) {
+  Robot& always = add_robot_with_source("#include <p30F6014A.h>\nint main(void) {\n  Reset();\n}\n");
+  Robot& now_and_then = add_robot_with_source(R"(
+#include <p30F6014A.h>
+int main(void) { volatile long i; for (i = 0; i < 200000; i++) ; __asm__ volatile("reset"); return 0; })")
+                            .at(0.5, 0);
+  run_for(0.5);
+  ASSERT_EQ(always.diagnoses().size(), 1u) << always.diagnoses_text();
+  EXPECT_EQ(always.diagnoses()[0].cause, "resets itself");
+  EXPECT_EQ(always.diagnoses()[0].place, "main() (main.c:3)");
+  EXPECT_GT(always.diagnoses()[0].count, 1000);
+  EXPECT_EQ(now_and_then.diagnoses_text(), "");
+}
+
 TEST_F(Misuse, a_speed_without_motors_is_told) {
   Robot& never = add_robot_with_source(std::string(kHead) + R"(
 int main(void) { e_init_port(); e_start_agendas_processing(); while (1) e_set_speed_left(300); })");
