@@ -50,14 +50,31 @@ Battery::Battery(double capacity_wh, double volts, double amps)
     : capacity_as_(capacity_wh * 3600 / mean_rest_v()),
       amps_(amps),
       charge_(charge_at(volts + amps * kInnerResistanceOhm)),
-      rest_v_(rest_v(charge_)),
       resistance_ohm_(kInnerResistanceOhm) {}
 
-double Battery::charge(Cycle at) const { return charge_ - flow(at) * kSecondsPerCycle / capacity_as_; }
+double Battery::charge(Cycle at) const {
+  static const double kNothingLeft = charge_at(0);
+  return std::max(kNothingLeft, charge_ - flow(at) * kSecondsPerCycle / capacity_as_);
+}
 
-double Battery::voltage(Cycle at) const { return rest_v(charge(at)) - drop_v_ - amps_ * resistance_ohm_; }
+double Battery::voltage(Cycle at) const {
+  return std::max(0.0, rest_v(charge(at)) - drop_v_ - amps_ * resistance_ohm_);
+}
 
-double Battery::sound_voltage(Cycle at) const { return rest_v(charge(at)) - amps_ * kInnerResistanceOhm; }
+double Battery::sound_voltage(Cycle at) const {
+  return std::max(0.0, rest_v(charge(at)) - amps_ * kInnerResistanceOhm);
+}
+
+Cycle Battery::empty_since(Cycle at) const {
+  if (empty_since_ < kNever) return empty_since_;
+  return charge_ > 0 && charge(at) <= 0 ? empty_between(at) : kNever;
+}
+
+// the mean current since then, as good as constant between two looks at the curve
+Cycle Battery::empty_between(Cycle at) const {
+  const double share = charge_ * capacity_as_ / (flow(at) * kSecondsPerCycle);
+  return settled_ + static_cast<Cycle>(share * static_cast<double>(at - settled_));
+}
 
 void Battery::weaken(double drop_v, double more_ohm, Cycle at) {
   settle(at);
@@ -65,11 +82,24 @@ void Battery::weaken(double drop_v, double more_ohm, Cycle at) {
   resistance_ohm_ = kInnerResistanceOhm + more_ohm;
 }
 
+// From charge 0 on, V times a share of the whole.
+double Battery::energy(double charge) {
+  if (charge <= 0) return charge * (rest_v(0) + rest_v(charge)) / 2;
+  double sum = 0;
+  for (int i = 1; i < kPoints && kCell[i - 1].charge < charge; ++i) {
+    const double to = i == kPoints - 1 ? charge : std::min(charge, kCell[i].charge);
+    sum += (to - kCell[i - 1].charge) * (kCell[i - 1].rest_v + between(i, to)) / 2;
+  }
+  return sum;
+}
+
 double Battery::used_wh(Cycle at) const {
-  // the voltage at rest falls so slowly that the mean of both ends is exact enough: 1 % of
-  // charge is some 10 mV
-  const double mean_v = (rest_v_ + rest_v(charge(at))) / 2;
-  return (used_j_ + ((mean_v - drop_v_) * flow(at) - resistance_ohm_ * heat(at)) * kSecondsPerCycle) / 3600;
+  const double left = charge(at), given_as = (charge_ - left) * capacity_as_;
+  const double of_cell_j = (energy(charge_) - energy(left)) * capacity_as_;
+  // of what would have flowed an empty one gives no more
+  const double flowed_as = flow(at) * kSecondsPerCycle, share = flowed_as > 0 ? given_as / flowed_as : 0;
+  const double lost_j = share * (drop_v_ * flow(at) + resistance_ohm_ * heat(at)) * kSecondsPerCycle;
+  return (used_j_ + std::max(0.0, of_cell_j - lost_j)) / 3600;
 }
 
 double Battery::minutes_left(Cycle at) const {
@@ -90,8 +120,9 @@ void Battery::draw(double amps, Cycle at) {
 void Battery::settle(Cycle at) {
   used_j_ = used_wh(at) * 3600;
   drawn_as_ += flow(at) * kSecondsPerCycle;
+  empty_since_ = empty_since(at);
   charge_ = charge(at);
-  rest_v_ = rest_v(charge_);
+  settled_ = at;
   flow_ = heat_ = 0;
   since_ = at;
 }
@@ -99,7 +130,6 @@ void Battery::settle(Cycle at) {
 void Battery::set_voltage(double volts, Cycle at) {
   settle(at);
   charge_ = charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
-  rest_v_ = rest_v(charge_);
 }
 
 void Battery::begin_again(double volts, double amps, Cycle at) {
@@ -108,7 +138,7 @@ void Battery::begin_again(double volts, double amps, Cycle at) {
 }
 
 Cycle Battery::below(double volts, Cycle at) const {
-  if (voltage(at) < volts || amps_ <= 0) return kNever;
+  if (voltage(at) < volts || amps_ <= 0 || volts <= 0) return kNever;
   if (volts <= -drop_v_ - amps_ * resistance_ohm_) return kNever;  // an empty one is not below either
   const double left = charge(at) - charge_at(volts + drop_v_ + amps_ * resistance_ohm_);
   const double cycles = std::floor(left * capacity_as_ / amps_ * static_cast<double>(kFcyHz));

@@ -32,10 +32,14 @@ class Battery {
   double sound_voltage(Cycle at) const;
 
   double amps() const { return amps_; }
-  /// V at the terminals.
+  /// V at the terminals, 0 or more.
   double voltage(Cycle at) const;
-  /// Share of a full battery, 1 full, 0 empty; above 1 and below 0 beyond 4.2 V and 3.0 V.
+  /// Share of a full battery, 1 full, 0 empty; above 1 and below 0 beyond 4.2 V and 3.0 V, where it
+  /// ends at a voltage of 0.
   double charge(Cycle at) const;
+  /// Cycle at which the charge was used up for the first time, but for what the current changed since it was
+  /// looked at last; kNever: it is not yet.
+  Cycle empty_since(Cycle at) const;
   /// Energy that left the terminals since cycle 0, Wh.
   double used_wh(Cycle at) const;
   /// Until empty at the mean current so far, minutes, 0 or more; negative when nothing was drawn yet.
@@ -50,19 +54,22 @@ class Battery {
 
  private:
   static double between(int point, double charge);
+  static double energy(double charge);
   /// What has flowed from settled_ to `at`: ampere cycles, and their squares, of which the inner
   /// resistance makes heat.
   double flow(Cycle at) const { return flow_ + amps_ * static_cast<double>(at - since_); }
   double heat(Cycle at) const { return heat_ + amps_ * amps_ * static_cast<double>(at - since_); }
   void settle(Cycle at);
+  Cycle empty_between(Cycle at) const;
 
   double capacity_as_;  // ampere seconds
   double amps_;
-  Cycle since_ = 0;  // the present current flows since
+  Cycle since_ = 0;    // the present current flows since
+  Cycle settled_ = 0;  // the state is of then
+  Cycle empty_since_ = kNever;
   // the state when it was settled last, and what has flowed from then to since_: emitters flash hundreds of
   // times a second, and the state matters to whoever asks
   double charge_;
-  double rest_v_;        // of that charge
   double used_j_ = 0;    // joule
   double drawn_as_ = 0;  // ampere seconds
   double drop_v_ = 0, resistance_ohm_;

@@ -64,6 +64,10 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
                         line, ms(p.longest), 1000 * 2 * kIrEmitterA),
                    "lower the pulse after the lit sample, 0.3 ms after it rose", p.first, 0, p.count});
   }
+  if (const Cycle empty = power_.battery().empty_since(at); empty < kNever)
+    all.push_back({"battery empty", "battery",
+                   text("the %.3g Wh are used up; an e-puck stops, this one goes on", setup().battery_wh),
+                   "give it battery_wh or battery_v for so long a run", empty, 0, 1});
   if (i2c_.unstopped() > 0)
     all.push_back({"I2C bus not stopped", "I2CCON.PEN",
                    "a transfer begins although the one before was not ended by a stop condition",

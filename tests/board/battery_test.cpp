@@ -93,10 +93,10 @@ TEST(Battery, falls_below_a_voltage_in_that_cycle_and_not_before) {
     EXPECT_GE(battery.voltage(low - 1), volts) << i;
   }
   EXPECT_GT(found, 1000);
-  // empty it has nothing, less what 2 A lose in 0.2 ohm
+  // empty it has nothing, and no less
   Battery empty(0.001, 3.5, 2);
-  EXPECT_LT(empty.below(-0.39, 0), board::kNever);
-  EXPECT_EQ(empty.below(-0.4, 0), board::kNever);
+  EXPECT_LT(empty.below(0.01, 0), board::kNever);
+  EXPECT_EQ(empty.below(0, 0), board::kNever);
   EXPECT_EQ(empty.below(-1, 3600 * kSecond), board::kNever);
 }
 
@@ -162,6 +162,33 @@ TEST(Power, low_battery_pin_falls_by_itself_and_says_when) {
   ASSERT_LT(falls, board::kNever);
   EXPECT_EQ(robot.pins().read('F', Register::Port, falls - 1) >> 1 & 1, 1);
   EXPECT_EQ(robot.pins().read('F', Register::Port, falls) >> 1 & 1, 0);
+}
+
+// 3.0 V at rest are 0; below, the curve falls by 9 V for a full charge. 0.001 Wh of 3.7 V are 1 As: 8 s
+TEST(Power, an_empty_battery_ends_at_0_v_and_is_told) {
+  board::Setup setup;
+  setup.battery_wh = 0.001;
+  setup.battery_v = 4.2 - 0.2 * kIdleA;
+  Board robot(setup);
+  robot.pins().init(0);
+  const Battery& battery = robot.power().battery();
+  EXPECT_TRUE(robot.diagnoses(7 * kSecond).empty());
+  double before_wh = 0;
+  for (Cycle s = 1; s < 60; ++s) {
+    EXPECT_GE(battery.voltage(s * kSecond), 0) << s;
+    EXPECT_GE(battery.charge(s * kSecond), -1 / 3.0 - 1e-9) << s;
+    EXPECT_GE(battery.used_wh(s * kSecond), before_wh - 1e-6)
+        << s;  // its own resistance takes the last of it
+    before_wh = battery.used_wh(s * kSecond);
+    if (s == 30) robot.pins().write_bit('C', 13, true, s * kSecond);  // another current
+  }
+  EXPECT_EQ(battery.voltage(60 * kSecond), 0);
+  ASSERT_EQ(robot.diagnoses(60 * kSecond).size(), 1u);
+  const board::Diagnosis told = robot.diagnoses(60 * kSecond)[0];
+  EXPECT_EQ(told.cause, "battery empty");
+  // as long as its charge lasts at one current
+  const double mean_v = 0.001 * 3600 / (kIdleA * static_cast<double>(told.first) / kSecond);
+  EXPECT_NEAR(mean_v, 3.8, 0.1);
 }
 
 TEST(Power, revision_1_3_measures_the_sag) {
