@@ -149,7 +149,7 @@ void Profile::was_reset(Cycle) {
   here().waited = waited;
   here().frames.push_back({function_of(0), 0, 0, to_});
   flags_ = 0;
-  for (auto& [target, loop] : loops_) loop.last = -1;
+  for (auto& [target, loop] : loops_) loop.last = loop.long_last = -1;
 }
 
 // --- calls
@@ -300,6 +300,9 @@ void Profile::turn_loop(const Step& step) {
   loop.end = std::max(loop.end, step.pc);
   if (loop.last >= 0) loop.turn.add(step.end - loop.last, loop.last);
   loop.last = step.end;
+  if (loop.waits_by.count(step.pc)) return;
+  if (loop.long_last >= 0) loop.long_turn.add(step.end - loop.long_last, loop.long_last);
+  loop.long_last = step.end;
 }
 
 void Profile::look_for_wait(const Step& step) {
@@ -320,7 +323,12 @@ void Profile::look_for_wait(const Step& step) {
     }
     round.wait += waited;
     context.waited += waited;
-    loops_[step.next].polled += counts ? 0 : waited;
+    Loop& loop = loops_[step.next];
+    loop.polled += counts ? 0 : waited;
+    if (loop.waits_by.insert(step.pc).second) {  // some were rounds of this wait
+      loop.long_turn = {};
+      loop.long_last = -1;
+    }
   } else {
     end_wait(round);
   }
@@ -466,7 +474,9 @@ ProfileReport Profile::report() const {
                       (main_loop->depth == loop.depth && main_loop->end - main_loop->begin >= span)))
       continue;
     main_loop = &loop;
-    report.turn = loop.turn;
+    const bool has_more =
+        !loop.waits_by.empty() && loop.long_turn.count >= 2 && loop.end > *loop.waits_by.rbegin();
+    report.turn = has_more ? loop.long_turn : loop.turn;
     report.turn_place = file_.code.describe(target);
   }
   std::stable_sort(report.waits.begin(), report.waits.end(),

@@ -14,6 +14,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,11 @@ class Profile final : public StepWatch {
   struct Loop {
     Spread turn;
     Cycle last = -1;
+    // of the branches that close it those behind which it only waited, as `while (1) while (!flag) ;` has one;
+    // and the turns by the others
+    std::set<unsigned> waits_by;
+    Spread long_turn;
+    Cycle long_last = -1;
     unsigned begin = 0, end = 0;
     std::size_t depth = 0;
     int pointers = -1;  // registers that form addresses in it; -1: not looked for

@@ -149,6 +149,26 @@ delay: dec w1, w1
   EXPECT_LT(report.load(), 0.01);
 }
 
+// without optimisation `while (1) { while (!flag) ; ... }` has one beginning for both loops
+TEST_F(ProfileTest, rounds_of_a_wait_at_the_head_are_no_turns) {
+  const ProfileReport report = profile(R"(
+__reset: mov #__SP_init, w15
+    mov #9999, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+main: btss IFS0, #3
+    bra main
+    bclr IFS0, #3
+    repeat #300
+    nop
+    bra main
+)",
+                                       0.1);
+  EXPECT_NEAR(static_cast<double>(report.turn.min), 10000, 5);
+  EXPECT_NEAR(static_cast<double>(report.turn.max), 10000, 5);
+}
+
 // a main loop of some 200 instructions that calls a function three times, which only reads, while a handler
 // counts: the handler is the load. With work in it, all is
 TEST_F(ProfileTest, a_long_round_that_changes_nothing_is_a_wait) {
