@@ -75,6 +75,7 @@ std::string state_of(Machine& machine, int vector) {
 
 /// The timer that a handler serves, if it stands still.
 std::string idle_timer(Machine& machine, int vector) {
+  if (machine.runner().is_known_by_heart(vector)) return "";
   return told_timer(std::string(dspic::vector_name(vector)),
                     [&](unsigned address) { return machine.word(address); });
 }
@@ -115,8 +116,10 @@ std::string Machine::interrupts() {
                                  interrupts.disi_active(machine.now()) ? ", DISI" : "", interrupts.nesting());
   for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
     if (interrupts.is_enabled(v) || interrupts.has_flag(v, machine.now()))
-      text += fmt::format("  {}{}, served {} times\n", state_of(machine, v), idle_timer(machine, v),
-                          interrupts.served(v));
+      text += fmt::format("  {}{}, {}\n", state_of(machine, v), idle_timer(machine, v),
+                          machine.runner().is_known_by_heart(v)
+                              ? "served by hal_sim's driver, without a count"
+                              : fmt::format("served {} times", interrupts.served(v)));
   return text;
 }
 

@@ -127,7 +127,7 @@ TEST_P(DebugEndings, a_program_that_waits_for_ever_is_paused) {
 TEST_P(DebugEndings, the_librarys_functions_and_agendas_are_frames) {
   const std::string commands =
       write("commands",
-            "break control_tick\nc\nbt\ndelete\nbreak e_set_speed_left\nc\nbt\ndelete\n"
+            "break control_tick\nc\nbt\ninfo interrupts\ndelete\nbreak e_set_speed_left\nc\nbt\ndelete\n"
             "c\ninfo world\n");
   const auto said = twinpuck("debug maze --fw obstacle --hal " + hal() + " --for 1 -x '" + commands + "'");
   EXPECT_EQ(said.exit_code, 0) << said.text;
@@ -135,6 +135,12 @@ TEST_P(DebugEndings, the_librarys_functions_and_agendas_are_frames) {
   expect_in_order(said.text, {"> c\nbreakpoint 1", "control_tick() (main.c:", "_T2Interrupt", "<-- interrupt",
                               "main()", "> c\nbreakpoint 2", "e_set_speed_left()", "> bt\n#0", "main()",
                               "the end of the world", run.text.substr(run.text.find("digest "), 23)});
+  // what plays the handler has no timer that runs, and no count
+  EXPECT_EQ(said.text.find("timer 2 is off"), std::string::npos);
+  EXPECT_NE(
+      said.text.find(hal() == "sim" ? "flag clear, served by hal_sim's driver" : "flag clear, served "),
+      std::string::npos)
+      << said.text;
 }
 
 }  // namespace
