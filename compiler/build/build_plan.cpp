@@ -80,6 +80,21 @@ std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& p
 
 }  // namespace
 
+ReadableFiles readable_files(const BuildOptions& o) {
+  if (o.within.empty()) return {};
+  // of the product's files what programs are compiled with: solutions lie among the others
+  const fs::path libc = places::product_share() / "firmware/libc";
+  std::vector<std::string> places = {o.within.string(), include_root(o).string(), libc.string()};
+  for (const fs::path& folder : o.include_dirs) places.push_back(fs::absolute(folder).string());
+  return ReadableFiles(places);
+}
+
+std::vector<std::string> flags_of(const ReadableFiles& readable) {
+  std::vector<std::string> flags;
+  for (const std::string& place : readable.places()) flags.insert(flags.end(), {"--within", place});
+  return flags;
+}
+
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   const fs::path libc = places::product_share() / "firmware/libc";
   const fs::path contract = include_root(o);
@@ -123,6 +138,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
     flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
+  const std::vector<std::string> within = flags_of(readable_files(o));
+  flags.insert(flags.end(), within.begin(), within.end());
   // One job a file. The names of all headers go into its key: a new one may be found before another.
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
@@ -132,6 +149,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& s : program.assembler)
     if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {
       p.assembler.push_back({s, assembler_flags(o, program, own), salt, contract.string()});
+      auto& of_file = p.assembler.back().flags;
+      of_file.insert(of_file.end(), within.begin(), within.end());
       if (role == AssemblerRole::Member) p.assembler_members.insert(s);
     }
   return p;

@@ -28,6 +28,7 @@
 #include "forward_calls.h"
 #include "implicit_functions.h"
 #include "include_finder.h"
+#include "include_messages.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/Metadata.h"
 #include "llvm/Support/Host.h"
@@ -45,7 +46,8 @@ using namespace clang;
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
-  IncludeWatch(CompilerInstance& ci, const Options& options) : ci_(ci), options_(options) {}
+  IncludeWatch(CompilerInstance& ci, const Options& options, const std::set<std::string>& refused)
+      : ci_(ci), options_(options), refused_(refused) {}
   void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
                           const FileEntry* file, StringRef, StringRef, const Module*,
                           SrcMgr::CharacteristicKind) override {
@@ -55,7 +57,7 @@ class IncludeWatch : public PPCallbacks {
       d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
                                                    "#include <%0>: a robot has no operating system; %1"))
           << name << instead;
-    } else if (!file) {
+    } else if (!file && !is_refused(refused_, name)) {
       auto folders = options_.fallback;
       if (!options_.project.empty()) folders.push_back(options_.project);
       const std::string guess = header_like(name.str(), folders);
@@ -68,6 +70,7 @@ class IncludeWatch : public PPCallbacks {
  private:
   CompilerInstance& ci_;
   const Options& options_;
+  const std::set<std::string>& refused_;  // include_messages.h
 };
 
 /// Turns declarations into what the chip has of them.
@@ -217,15 +220,16 @@ class ConfigPragma : public PragmaHandler {
 
 class RobotAction : public EmitLLVMOnlyAction {
  public:
-  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
-      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
+  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options,
+              const std::set<std::string>& refused)
+      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options), refused_(refused) {}
   bool BeginInvocation(CompilerInstance& ci) override {
     ci.setTarget(make_chip_target(ci.getInvocation().TargetOpts));
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
-    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_, refused_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
     pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
@@ -242,6 +246,7 @@ class RobotAction : public EmitLLVMOnlyAction {
  private:
   Facts& facts_;
   const Options& options_;
+  const std::set<std::string>& refused_;
   std::shared_ptr<AttributeFilter> filter_;
 };
 
@@ -401,15 +406,15 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   memory->addFile(std::string(kVendorRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty())
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
-  std::set<std::string> missing;
-  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
-      forgiving_file_system(options.fallback, options.project, missing));
+  std::set<std::string> missing, refused;
+  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(bounded_file_system(
+      forgiving_file_system(options.fallback, options.project, missing), options.readable, refused));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
-  ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
+  ci.createDiagnostics(new IncludeMessages(out, &invocation->getDiagnosticOpts(), options.readable, refused));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
-  RobotAction action(context, facts, options);
+  RobotAction action(context, facts, options, refused);
   const bool is_done = ci.ExecuteAction(action);
   if (!options.depfile.empty() && !note_missing(options.depfile + ".missing", missing)) return nullptr;
   auto module = is_done ? action.takeModule() : nullptr;

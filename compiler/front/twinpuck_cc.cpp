@@ -6,6 +6,7 @@
 #include "chip.h"
 #include "compiler/cache/memory_limit.h"
 #include "dspic30/link/link.h"
+#include "dspic30/llvm/target.h"
 #include "install/places.h"
 #include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/raw_ostream.h"
@@ -16,6 +17,7 @@ namespace {
 using namespace llvm;
 
 bool parse(int argc, char** argv, cc::Options& o) {
+  std::vector<std::string> readable;
   for (int i = 1; i < argc; ++i) {
     StringRef a = argv[i];
     auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
@@ -49,6 +51,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.emit_ir = true;
     else if (a == "--project")
       o.project = value();
+    else if (a == "--within")
+      readable.push_back(value());
     else if (a.startswith("-std="))
       o.standard = a.substr(5).str();
     else if (a == "--depfile")
@@ -78,6 +82,7 @@ bool parse(int argc, char** argv, cc::Options& o) {
       return false;
     }
   }
+  o.readable = cc::ReadableFiles(readable);
   if (o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
     for (const char* folder : {"firmware/include", "firmware/libc/include"})
       o.passed_on.push_back("-I" + (places::product_share() / folder).string());
@@ -124,9 +129,10 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 ///   of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
 ///     [--host-shortcut DRIVER:FUNCTION=PLACE]... [--register DRIVER:VARIABLE=BYTES]...
 ///     [--owned DRIVER:T2CON]...; --fill SUM fills them
-///   --no-texts: neither .lst nor .map
+///   --no-texts: neither .lst nor .map; --within FOLDER: the .lst quotes no other files
 int link(int argc, char** argv) {
   dspic::link::Options o;
+  std::vector<std::string> readable;
   o.moved_from = places::kUsualShare;
   o.moved_to = places::product_share().string();
   for (int i = 2; i < argc; ++i) {
@@ -158,6 +164,8 @@ int link(int argc, char** argv) {
     } else if (a == "--host-library") {
       o.libraries.push_back(value());
       o.host_library = o.libraries.back();
+    } else if (a == "--within") {
+      readable.push_back(value());
     } else if (a == "--no-texts") {
       o.with_texts = false;
     } else if (a == "--fill") {
@@ -178,6 +186,7 @@ int link(int argc, char** argv) {
               "BYTES]\n";
     return 2;
   }
+  o.may_quote = [files = cc::ReadableFiles(readable)](const std::string& file) { return files.has(file); };
   limit_memory(o.output);
   return dspic::link::run(o) ? 0 : 1;
 }
@@ -190,6 +199,13 @@ int main(int argc, char** argv) {
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
   limit_memory(options.input);
+  if (!options.readable.has(options.input)) {
+    errs() << options.input << ": " << options.readable.refusal("source", options.input) << "\n";
+    return 1;
+  }
+  check_dspic_files([&](const std::string& file) {
+    return options.readable.has(file) ? "" : options.readable.refusal("include", file);
+  });
   if (StringRef(options.input).endswith_insensitive(".s")) return cc::assemble_for_chip(options);
   LLVMContext context;
   cc::Facts facts;

@@ -2,6 +2,7 @@
 // Assembler text, inline and in .s files. LLVM reads labels, directives and macros; an instruction's text
 // goes to the chip's own assembler (dspic30/asm), which knows every form from the instruction table, and
 // comes back as words. Operands with symbols are left to the linker, by the kind of field they stand in.
+#include <functional>
 #include <map>
 
 #include "dspic30/asm/device_names.h"
@@ -71,6 +72,12 @@ bool holds_value(const assembly::Written& operand, dspic::Operand kind) {
     return false;  // "A" is a name
   return operand.kind == Written::Immediate || operand.kind == Written::Plain ||
          operand.kind == Written::IndirectLiteral;
+}
+
+/// See check_dspic_files().
+std::function<std::string(const std::string&)>& file_check() {
+  static std::function<std::string(const std::string&)> check;
+  return check;
 }
 
 /// An operand that waits for the linker.
@@ -155,20 +162,26 @@ class Parser : public MCTargetAsmParser {
   }
 
  private:
-  /// Of .include and .incbin: a pipe without a writer would never be open, a device never end.
+  /// Of .include and .incbin: a pipe without a writer would never be open, a device never end; and not every file
+  /// may be read.
   bool names_no_file(StringRef directive) {
     const std::string what = directive.lower();
     if ((what != ".include" && what != ".incbin") || getLexer().isNot(AsmToken::String)) return false;
-    const StringRef name = getTok().getStringContents();
+    // the name as LLVM reads it, with what backslashes mean; then the token stands there again
+    const AsmToken token = getTok();
+    std::string name;
+    if (getParser().parseEscapedString(name)) return true;
+    getLexer().UnLex(token);
     // LLVM's order
-    std::vector<std::string> places = {name.str()};
-    for (const std::string& folder : getTargetOptions().IASSearchPaths)
-      places.push_back(folder + "/" + name.str());
+    std::vector<std::string> places = {name};
+    for (const std::string& folder : getTargetOptions().IASSearchPaths) places.push_back(folder + "/" + name);
     const auto first = find_if(places, [](const std::string& place) { return sys::fs::exists(place); });
-    if (first == places.end() || sys::fs::is_regular_file(*first)) return false;
-    Error(getTok().getLoc(),
-          Twine(what) + ": " + *first + ": got a pipe, a device or a folder, expected a file");
-    return true;
+    if (first == places.end()) return false;
+    std::string wrong = file_check() ? file_check()(*first) : "";
+    if (wrong.empty() && !sys::fs::is_regular_file(*first))
+      wrong = what + ": " + *first + ": got a pipe, a device or a folder, expected a file";
+    if (!wrong.empty()) Error(token.getLoc(), wrong);
+    return !wrong.empty();
   }
   /// A file that includes itself would never end.
   bool has_too_many_includes(SMLoc at) {
@@ -240,6 +253,10 @@ class Parser : public MCTargetAsmParser {
 };
 
 }  // namespace
+
+void check_dspic_files(std::function<std::string(const std::string&)> check) {
+  file_check() = std::move(check);
+}
 
 bool is_dspic_device_file(const std::string& name) { return assembly::is_device_file(name); }
 

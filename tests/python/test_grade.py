@@ -245,6 +245,36 @@ def test_programs_see_no_files_but_their_own_and_no_network(tmp_path, command):
     listening.close()
 
 
+READER = """#include <uart/e_uart_char.h>
+__asm__(".pushsection .const, code\\n .global _stolen\\n_stolen: .incbin \\"{}\\"\\n .popsection");
+int main(void) {{ while (1) ; }}
+"""
+
+
+def test_what_is_compiled_sees_no_tests_and_no_other_submission(small, command):
+    hidden = small / "tests" / "test_a.py"
+    webots = "#include <webots/robot.h>\nint main() { wb_robot_init(); return 0; }\n"
+    for name, file, text in (("bytes", "main.c", READER.format(hidden)), ("header", "main.c", f'#include "{hidden}"\n'),
+                             ("other", "main.c", '#include "../good/good.h"\n'),
+                             ("webots", "webots.c", f'#include "{hidden}"\n' + webots),
+                             ("webots_bytes", "webots_bytes.c",
+                              f'__asm__(".section .rodata\\n.global s\\ns: .incbin \\"{hidden}\\"\\n.text");\n' + webots)):
+        (small / "class" / name).mkdir()
+        (small / "class" / name / file).write_text(text)
+    (small / "class" / "good" / "good.h").write_text("int main(void) { while (1) ; }")
+    (small / "class" / "link").mkdir()
+    (small / "class" / "link" / "main.c").symlink_to(hidden)
+    done = command("grade", "tests", "--submissions", "class", *TABLES, cwd=small)
+    assert done.returncode == 0 and re.search(r"^good +pass", done.stdout, re.M), done.stdout + done.stderr
+    said = {name: "\n".join(messages(small, name)) for name in ("bytes", "header", "other", "webots", "webots_bytes", "link")}
+    outside = f"which lies outside {small}/class/"
+    for name in ("bytes", "header", "link"):
+        assert outside + name in said[name], said[name]
+    assert "'../good/good.h' file not found" in said["other"], said["other"]
+    assert "does not compile" in said["webots"] and "does not compile" in said["webots_bytes"], said
+    assert "world.run(0.1)" not in "".join(said.values()), "the hidden test's text"
+
+
 def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command):
     tests = tmp_path / "tests"
     tests.mkdir()
