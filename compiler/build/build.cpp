@@ -374,6 +374,10 @@ static std::vector<std::string> no_sources(const fs::path& folder) {
         wrong.push_back(it->path().string() + ": source: got a pipe or a device, expected a file");
   }
   ec.clear();
+  if (const std::size_t files = files_below(folder, {".c", ".s"}).size(); files > kMostSources)
+    wrong.push_back(folder.string() + ": project: got " + std::to_string(files) +
+                    " files in C and assembler, expected at most " + std::to_string(kMostSources) +
+                    "; is it one program's folder?");
   for (const char* kind : {".c", ".h", ".mcp", ".xml"})
     for (const fs::path& file : files_below(folder, kind))
       if (const auto bytes = fs::file_size(file, ec); !ec && bytes > kLongestSourceBytes)

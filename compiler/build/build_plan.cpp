@@ -72,9 +72,9 @@ std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& p
   folders.insert(folders.end(), program.include_dirs.begin(), program.include_dirs.end());
   for (const fs::path& file : files_below(o.source_dir, ".inc")) folders.push_back(file.parent_path());
   folders.insert(folders.end(), own.begin(), own.end());
-  std::set<fs::path> known;
+  std::set<std::string> known;
   for (const fs::path& folder : folders)
-    if (known.insert(folder).second) flags.push_back("-I" + folder.string());
+    if (known.insert(folder.string()).second) flags.push_back("-I" + folder.string());
   return flags;
 }
 
@@ -107,15 +107,16 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   user_include.push_back(kVendorHeaders);
   auto headers = files_below(o.source_dir, ".h");
   std::vector<fs::path> own = {o.source_dir};
+  // by their text: paths are compared part by part
+  std::set<std::string> known = {o.source_dir.string()};
   for (const auto& h : headers)
-    if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
+    if (known.insert(h.parent_path().string()).second) own.push_back(h.parent_path());
   for (const auto& d : own) user_include.push_back("-I" + d.string());
   for (const auto& d : contract_folders(contract)) user_include.push_back("-I" + d.string());
   // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
   for (const auto& d : own)
     if (const fs::path above = d.parent_path(); d != o.source_dir)
-      if (std::find(own.begin(), own.end(), above) == own.end())
-        user_include.push_back("-I" + above.string());
+      if (!known.count(above.string())) user_include.push_back("-I" + above.string());
   user_include.insert(
       user_include.end(),
       {"-include", (libc / "include/xc16_builtins.h").string(), "-I" + (libc / "include").string(),

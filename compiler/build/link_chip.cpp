@@ -8,6 +8,7 @@
 
 #include "build_plan.h"
 #include "build_record.h"
+#include "compiler/cache/crash_words.h"
 #include "hal_sim/api/host_table.h"
 #include "link_messages.h"
 
@@ -102,6 +103,8 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   if (o.sanitize) argv.insert(argv.end(), {"--gap", kGapBytes});
   const auto run = run_process(argv);
   sort_messages(with_hints(run.output), result, run.status != 0);
+  if (run.status > kBySignal)
+    result.errors.push_back(o.source_dir.string() + ": link: " + crash_words(run.status - kBySignal));
   if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {
     std::string report = run.output.substr(at);
     take_drivers(report, o.hal == "sim", result);

@@ -24,6 +24,7 @@
 #include "clang/Frontend/TextDiagnosticPrinter.h"
 #include "clang/Lex/PPCallbacks.h"
 #include "clang/Lex/Preprocessor.h"
+#include "compiler/cache/crash_words.h"
 #include "field_widths.h"
 #include "forward_calls.h"
 #include "implicit_functions.h"
@@ -36,6 +37,7 @@
 #include "output_file.h"
 #include "program_checks.h"
 #include "refused.h"
+#include "token_watch.h"
 #include "union_values.h"
 
 namespace cc {
@@ -76,13 +78,15 @@ class IncludeWatch : public PPCallbacks {
 /// Turns declarations into what the chip has of them.
 class DeclarationConsumer : public ASTConsumer {
  public:
-  explicit DeclarationConsumer(const Options& options)
-      : checks_(!options.library && !options.weak), strict_(options.lint) {}
+  DeclarationConsumer(const Options& options, Facts& facts)
+      : checks_(!options.library && !options.weak), strict_(options.lint), facts_(facts) {}
   void Initialize(ASTContext& context) override { context_ = &context; }
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     // an erroneous expression may have no type
     if (context_->getDiagnostics().hasErrorOccurred()) return true;
     for (Decl* decl : group) {
+      note_place(place_text(context_->getSourceManager(), decl->getLocation()));  // its code is made next
+      if (auto* text = dyn_cast<FileScopeAsmDecl>(decl)) place_text_of(*text);
       if (auto* var = dyn_cast<VarDecl>(decl)) make_register(var);
       compute_in_field_widths(decl, *context_);
       clear_unions(decl, *context_);
@@ -92,11 +96,19 @@ class DeclarationConsumer : public ASTConsumer {
     return true;
   }
   void HandleTranslationUnit(ASTContext& context) override {
+    note_place("");  // what follows looks at the whole file
     if (checks_ && !context.getDiagnostics().hasErrorOccurred()) check_program(context, strict_);
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
 
  private:
+  void place_text_of(const FileScopeAsmDecl& assembler) {
+    const StringRef text = assembler.getAsmString()->getString();
+    facts_.assembler_texts.emplace_back(
+        assembler_lines_ + 1,
+        place_text(context_->getSourceManager(), assembler.getAsmString()->getBeginLoc()));
+    assembler_lines_ += unsigned(text.count('\n')) + (text.endswith("\n") ? 0 : 1);
+  }
   /// A variable that the program puts into a register's place is that register.
   void make_register(VarDecl* var) {
     auto* section = var->getAttr<SectionAttr>();
@@ -106,6 +118,8 @@ class DeclarationConsumer : public ASTConsumer {
     var->setStorageClass(SC_Extern);
   }
   const bool checks_, strict_;  // program_checks.h
+  Facts& facts_;
+  unsigned assembler_lines_ = 0;
   ASTContext* context_ = nullptr;
 };
 
@@ -232,13 +246,17 @@ class RobotAction : public EmitLLVMOnlyAction {
     pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_, refused_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
-    pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
+    watch_ = std::make_shared<TokenWatch>(pp);
+    pp.setTokenWatcher([f = filter_, w = watch_](const Token& token) {
+      (*w)(token);
+      (*f)(token);
+    });
     if (!options_.library) ci.setExternalSemaSource(implicit_functions(options_.strict || options_.lint));
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
     std::vector<std::unique_ptr<ASTConsumer>> all;
-    all.push_back(std::make_unique<DeclarationConsumer>(options_));
+    all.push_back(std::make_unique<DeclarationConsumer>(options_, facts_));
     all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
     return std::make_unique<MultiplexConsumer>(std::move(all));
   }
@@ -248,6 +266,7 @@ class RobotAction : public EmitLLVMOnlyAction {
   const Options& options_;
   const std::set<std::string>& refused_;
   std::shared_ptr<AttributeFilter> filter_;
+  std::shared_ptr<TokenWatch> watch_;
 };
 
 // another chip of 16 bits for the driver; target.cpp is what the compiler itself gets. DWARF 3: its
@@ -349,14 +368,10 @@ bool note_missing(const std::string& file, const std::set<std::string>& missing)
 void place_assembler(llvm::Module& module, const SourceManager& sources, Facts& facts) {
   const auto number = [&](const llvm::MDOperand& of_clang) {
     const auto* raw = llvm::mdconst::dyn_extract<llvm::ConstantInt>(of_clang);
-    const PresumedLoc at =
-        raw ? sources.getPresumedLoc(sources.getExpansionLoc(
-                  SourceLocation::getFromRawEncoding(SourceLocation::UIntTy(raw->getZExtValue()))))
-            : PresumedLoc();
-    facts.assembler_places.push_back(at.isValid() ? std::string(at.getFilename()) + ":" +
-                                                        std::to_string(at.getLine()) + ":" +
-                                                        std::to_string(at.getColumn())
-                                                  : "");
+    facts.assembler_places.push_back(
+        raw ? place_text(sources,
+                         SourceLocation::getFromRawEncoding(SourceLocation::UIntTy(raw->getZExtValue())))
+            : "");
     return llvm::ConstantAsMetadata::get(
         llvm::ConstantInt::get(llvm::Type::getInt64Ty(module.getContext()), facts.assembler_places.size()));
   };
@@ -378,6 +393,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
   auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
+  printer->setPrefix(options.input);  // of the options: no line has them
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
   auto arguments = clang_arguments(options, standard);
   if (!declarations.empty()) {

@@ -40,6 +40,8 @@ struct Options {
 struct Facts {
   std::map<std::string, unsigned> configuration;  // "fosc", "fwdt": words given by #pragma config
   std::vector<std::string> assembler_places;      // "main.c:12:9" of a number in !srcloc, from 1
+  std::vector<std::pair<unsigned, std::string>>
+      assembler_texts;  // of asm() outside functions: its first line in the module's text, its place
 };
 
 /// What XC16 v1.22 for this chip predefines.

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "chip.h"
+#include "compiler/cache/crash_words.h"
 #include "compiler/cache/memory_limit.h"
 #include "dspic30/link/link.h"
 #include "dspic30/llvm/target.h"
@@ -93,9 +94,11 @@ bool parse(int argc, char** argv, cc::Options& o) {
   return true;
 }
 
-/// What is too large ends with a message, whichever way it asks for memory.
-void limit_memory(const std::string& what) {
+/// What is too large ends with a message, whichever way it asks for memory, and so does what takes too long.
+void limit_use(const std::string& what) {
   cc::limit_own_memory(what);
+  cc::limit_own_time(what);
+  cc::tell_crashes(what);
   install_bad_alloc_error_handler([](void*, const char*, bool) { cc::end_without_memory(); });
 }
 
@@ -187,7 +190,7 @@ int link(int argc, char** argv) {
     return 2;
   }
   o.may_quote = [files = cc::ReadableFiles(readable)](const std::string& file) { return files.has(file); };
-  limit_memory(o.output);
+  limit_use(o.output);
   return dspic::link::run(o) ? 0 : 1;
 }
 
@@ -198,7 +201,7 @@ int main(int argc, char** argv) {
   if (argc > 1 && StringRef(argv[1]) == "--link") return link(argc, argv);
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
-  limit_memory(options.input);
+  limit_use(options.input);
   if (!options.readable.has(options.input)) {
     errs() << options.input << ": " << options.readable.refusal("source", options.input) << "\n";
     return 1;

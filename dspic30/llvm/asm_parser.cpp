@@ -102,6 +102,7 @@ class Parser : public MCTargetAsmParser {
   void convertToMapAndConstraints(unsigned, const OperandVector&) override {}
 
   bool ParseInstruction(ParseInstructionInfo&, StringRef name, SMLoc at, OperandVector&) override {
+    if (is_too_deep(at)) return true;
     mnemonic_ = name.str();
     const char* begin = at.getPointer() + name.size();
     while (getLexer().isNot(AsmToken::EndOfStatement)) Lex();
@@ -144,6 +145,10 @@ class Parser : public MCTargetAsmParser {
 
   // beside LLVM's. True: it is none of these
   bool ParseDirective(AsmToken directive) override {
+    if (is_too_deep(directive.getLoc())) {
+      getParser().eatToEndOfStatement();
+      return false;
+    }
     if (directive.getString().lower() == ".include" && has_too_many_includes(directive.getLoc())) {
       getParser().eatToEndOfStatement();
       Error(directive.getLoc(), "includes are nested too deeply, or too many");
@@ -162,6 +167,22 @@ class Parser : public MCTargetAsmParser {
   }
 
  private:
+  /// Who reads brackets of a statement within one another needs stack for each.
+  bool is_too_deep(SMLoc at) {
+    constexpr unsigned kDeepest = 250;
+    unsigned depth = 0, deepest = 0, signs = 0;
+    bool is_text = false;
+    for (const char* c = at.getPointer(); *c && *c != '\n' && (is_text || *c != ';'); ++c) {
+      if (*c == '"') is_text = !is_text;
+      if (is_text) continue;
+      if (c[0] == '/' && (c[1] == '/' || c[1] == '*')) break;
+      depth = *c == '(' ? depth + 1 : *c == ')' && depth > 0 ? depth - 1 : depth;
+      signs = StringRef("+-~!").contains(*c) ? signs + 1 : *c == ' ' ? signs : 0;
+      deepest = std::max(deepest, depth + signs);
+    }
+    return deepest > kDeepest && Error(at, "expression: got brackets or signs more than " + Twine(kDeepest) +
+                                               " within one another, expected at most that");
+  }
   /// Of .include and .incbin: a pipe without a writer would never be open, a device never end; and not every file
   /// may be read.
   bool names_no_file(StringRef directive) {
