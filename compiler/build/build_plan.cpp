@@ -125,7 +125,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
   // What holds for all C files of the program.
   Plan p;
+  // what it may read comes first: no option of its own stands before it
+  const std::vector<std::string> within = flags_of(readable_files(o));
   std::vector<std::string> flags = {o.optimisation};
+  flags.insert(flags.end(), within.begin(), within.end());
   if (o.sanitize) flags.push_back("--sanitize");
   p.is_webots = names_webots(copies.kept, headers);
   if (p.is_webots) {
@@ -139,8 +142,6 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   if (const std::string& standard = o.standard.empty() ? program.standard : o.standard; !standard.empty())
     flags.push_back("-std=" + standard);
   flags.insert(flags.end(), user_include.begin(), user_include.end());
-  const std::vector<std::string> within = flags_of(readable_files(o));
-  flags.insert(flags.end(), within.begin(), within.end());
   // One job a file. The names of all headers go into its key: a new one may be found before another.
   const std::string salt = names_of_headers({o.source_dir, contract});
   for (const auto& s :
@@ -151,7 +152,7 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
     if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {
       p.assembler.push_back({s, assembler_flags(o, program, own), salt, contract.string()});
       auto& of_file = p.assembler.back().flags;
-      of_file.insert(of_file.end(), within.begin(), within.end());
+      of_file.insert(of_file.begin(), within.begin(), within.end());
       if (role == AssemblerRole::Member) p.assembler_members.insert(s);
     }
   return p;

@@ -14,7 +14,7 @@ void IncludeMessages::HandleDiagnostic(clang::DiagnosticsEngine::Level level, co
                                ? info.getArgCStr(0)
                                : info.getArgStdStr(0);
   if (!is_refused(refused_, name)) return TextDiagnosticPrinter::HandleDiagnostic(level, info);
-  DiagnosticConsumer::HandleDiagnostic(level, info);  // counts it
+  ++NumErrors;  // what is not printed by the parent is not counted by it
   if (const clang::PresumedLoc at = info.getSourceManager().getPresumedLoc(info.getLocation()); at.isValid())
     out_ << at.getFilename() << ":" << at.getLine() << ":" << at.getColumn() << ": ";
   out_ << "error: " << readable_.refusal("include", name) << "\n";

@@ -186,8 +186,10 @@ def cases_of(result: pathlib.Path) -> list[Case]:
 def unreadable(options: argparse.Namespace, mine: pathlib.Path, base: pathlib.Path) -> str:
     """What is wrong with the tests themselves, of which nobody could get a point; empty: nothing."""
     result, log = base / "tests.json", base / "tests.txt"
-    code = wait_for([*words_of(options, result, mine), "--collect-only"],
-                    {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}, log, options.limit_s)
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    if not options.trusted:  # tests may make a world as they are read
+        environment["TWINPUCK_SUBMISSION"] = str(mine.resolve())
+    code = wait_for([*words_of(options, result, mine), "--collect-only"], environment, log, options.limit_s)
     tests = ", ".join(map(str, options.tests))
     if failed := [case for case in cases_of(result) if case.outcome == "failed"]:
         return "\n".join(f"{case.name}: {case.text}" for case in failed)

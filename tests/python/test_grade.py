@@ -275,6 +275,19 @@ def test_what_is_compiled_sees_no_tests_and_no_other_submission(small, command):
     assert "world.run(0.1)" not in "".join(said.values()), "the hidden test's text"
 
 
+def test_a_program_may_share_files_of_its_submission_and_is_no_link_out_of_it(small, command):
+    for name, below in (("shares", "#include \"../common/n.h\"\n"), ("far", "#include \"../../good/n.h\"\n")):
+        for folder in ("p", "common"):
+            (small / "class" / name / folder).mkdir(parents=True)
+        (small / "class" / name / "common" / "n.h").write_text("volatile int n = 1;\n")
+        (small / "class" / name / "p" / "main.c").write_text(below + "int main(void) { while (1) ; }\n")
+    (small / "class" / "leads_out").mkdir()
+    (small / "class" / "leads_out" / "p").symlink_to(small / "tests")
+    done = command("grade", "tests", "--submissions", "class", "--program", "p", cwd=small)
+    assert re.search(r"^shares +pass +1$", done.stdout, re.M) and re.search(r"^far +FAIL +0$", done.stdout, re.M), done.stdout + done.stderr
+    assert f"leads_out: got a link to {small}/tests for 'p', expected a folder of the submission" in done.stdout
+
+
 def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command):
     tests = tmp_path / "tests"
     tests.mkdir()
