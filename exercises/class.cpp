@@ -79,7 +79,9 @@ void build_all(const std::vector<Build>& builds, const twin::Options& options, d
                std::vector<Student>& students, std::vector<std::vector<std::string>>& errors) {
   const auto build = [&](std::size_t i) {
     std::vector<std::string> wrong;
-    const std::string image = build_own_program(builds[i].folder, options, wrong);
+    twin::Options of_student = options;
+    if (!options.within.empty()) of_student.within = students[builds[i].student].folder;
+    const std::string image = build_own_program(builds[i].folder, of_student, wrong);
     return nlohmann::json{{"image", image}, {"errors", wrong}}.dump(-1, ' ', false,
                                                                     nlohmann::json::error_handler_t::replace);
   };

@@ -192,7 +192,9 @@ void add_build(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
   one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
   one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
-  verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's");
+  verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's")
+      ->check(
+          CLI::IsMember({"c89", "c90", "c99", "c11", "c17", "gnu89", "gnu90", "gnu99", "gnu11", "gnu17"}));
   add_hal(*verb, o->hal);
   verb->add_flag("--sanitize", o->sanitize, "as run --sanitize builds it");
   auto counts_lines = std::make_shared<bool>();

@@ -285,6 +285,7 @@ int lab(const LabArguments& given) {
   }
   twin::Options options;
   options.hal = a.setting.hal;
+  if (!a.trusted) options.within = a.mine;
   if (!a.replay.trial.empty()) return replay(a, all, options);
   if (a.setting.is_mine &&
       lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty())) {
@@ -346,10 +347,10 @@ void add_lab(CLI::App& app, int& exit_code) {
           "of a class: real seconds that a build, or an exercise of one student, may take (60; 900 with "
           "--full)")
       ->check(between(0.001, 1e6));
-  verb->add_flag(
-      "--trusted", a->trusted,
-      "of a class: programs for Webots run as programs of this PC, with all that you may do there; "
-      "else on the chip's machine, which lets them reach nothing");
+  verb->add_flag("--trusted", a->trusted,
+                 "builds may read all that you may, not only the student's folder; of a class: programs for "
+                 "Webots run as "
+                 "programs of this PC, else on the chip's machine, which lets them reach nothing");
   verb->option_defaults()->group("One run again");
   verb->add_option("--replay", a->replay.trial,
                    "EXERCISE:WORLD:SEED of a run, as a line that failed shows it: I1:corners:3");

@@ -7,12 +7,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <iterator>
 #include <set>
 
 #include "build_plan.h"
 #include "build_record.h"
 #include "compiler/cache/elf_reader.h"
+#include "compiler/cache/inputs.h"
 #include "compiler/cache/object_cache.h"
 #include "compiler/cache/shared_variables.h"
 #include "compiler/projects/driver_variants.h"
@@ -143,6 +145,20 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
                               o.optimisation + " may read it once and wait for ever");
 }
 
+/// Whether all files of the program may be read; those of a submission must be its own.
+bool is_readable(const Plan& p, const Program& program, BuildResult& result) {
+  BuildInputs& inputs = *inputs_of_build();
+  const auto check = [&](const fs::path& file, const char* what) {
+    if (!may_read(file)) inputs.refuse(file, what);
+  };
+  for (const auto* jobs : {&p.user, &p.assembler})
+    for (const CompileJob& job : *jobs) check(job.source, "source");
+  for (const fs::path& file : program.objects) check(file, "object");
+  const std::vector<std::string> refusals = inputs.refusals();
+  result.errors.insert(result.errors.end(), refusals.begin(), refusals.end());
+  return refusals.empty();
+}
+
 /// A build on its way from a folder to an image. Each step returns whether there is anything to go on with;
 /// `result` says why not.
 class Building {
@@ -197,7 +213,7 @@ bool Building::find() {
   if (const std::string told = library_copies_message(o.source_dir, copies); !told.empty())
     result.warnings.push_back(told);
   p = plan(o, copies, program, false);
-  return true;
+  return is_readable(p, program, result);
 }
 
 /// A program for Webots' interfaces gets what the world says of them as one more file.
@@ -210,6 +226,7 @@ bool Building::add_settings() {
       return refuse(settings.string() + ": cannot be written");
     CompileJob job = p.user.front();
     job.source = settings;
+    if (!o.within.empty()) job.flags.insert(job.flags.end(), {"--within", settings.string()});
     p.user.push_back(job);
   }
   if (p.is_webots) own = p.user.size();
@@ -326,8 +343,9 @@ static BuildResult lint_here(const BuildOptions& options) {
   const LibraryCopies copies = find_library_members(o.source_dir, sources);
   const Program program = program_of(o, of_project);
   if (o.optimisation.empty()) o.optimisation = "-O1";  // what would be said of -O0 holds at no other level
-  for (const auto& outcome :
-       compile_all(plan(o, copies, program, true).user, compiler_path(), {o.cache_dir, {}}, o.jobs))
+  const Plan p = plan(o, copies, program, true);
+  if (!is_readable(p, program, result)) return result;
+  for (const auto& outcome : compile_all(p.user, compiler_path(), {o.cache_dir, {}}, o.jobs))
     sort_messages(outcome.messages, result, !outcome.ok);
   if (result.errors.empty()) lint_shared_variables(o, copies, program, result);
   std::vector<std::pair<std::string, std::string>> texts;
@@ -356,6 +374,10 @@ static std::vector<std::string> no_sources(const fs::path& folder) {
         wrong.push_back(it->path().string() + ": source: got a pipe or a device, expected a file");
   }
   ec.clear();
+  if (const std::size_t files = files_below(folder, {".c", ".s"}).size(); files > kMostSources)
+    wrong.push_back(folder.string() + ": project: got " + std::to_string(files) +
+                    " files in C and assembler, expected at most " + std::to_string(kMostSources) +
+                    "; is it one program's folder?");
   for (const char* kind : {".c", ".h", ".mcp", ".xml"})
     for (const fs::path& file : files_below(folder, kind))
       if (const auto bytes = fs::file_size(file, ec); !ec && bytes > kLongestSourceBytes)
@@ -368,7 +390,10 @@ static std::vector<std::string> no_sources(const fs::path& folder) {
 template <typename Work>
 static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const Work& work) {
   BuildResult refused;
-  refused.errors = no_sources(options.source_dir);
+  inputs.readable = readable_files(options);
+  if (!inputs.readable.has(options.source_dir)) inputs.refuse(options.source_dir, "project");
+  refused.errors = inputs.refusals();
+  if (refused.errors.empty()) refused.errors = no_sources(options.source_dir);
   if (!refused.errors.empty()) return refused;
   return on_large_stack([&] {
     const NotingInputs noting(inputs);
@@ -378,7 +403,19 @@ static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const
 
 constexpr int kAttempts = 4;  // where somebody removes the cache meanwhile
 
+/// The submission that a folder belongs to; empty: it is the user's own. Who grades a class says where one lies, by the
+/// environment: tests build programs of theirs as well.
+static fs::path submission_of(const fs::path& folder) {
+  const char* const said = std::getenv("TWINPUCK_SUBMISSION");
+  if (!said || !*said) return {};
+  const ReadableFiles submission({said});
+  const fs::path given = fs::absolute(folder).lexically_normal().lexically_relative(said);
+  const bool is_given_below = !given.empty() && *given.begin() != "..";
+  return is_given_below || submission.has(folder) ? fs::path(said) : fs::path();
+}
+
 static BuildOptions with_cache(BuildOptions o) {
+  if (o.within.empty()) o.within = submission_of(o.source_dir);
   if (o.cache_dir.empty()) o.cache_dir = places::cache_folder("objects");
   o.cache_dir = fs::absolute(o.cache_dir);
   if (o.hal.empty()) o.hal = "dspic";

@@ -72,13 +72,28 @@ std::vector<std::string> assembler_flags(const BuildOptions& o, const Program& p
   folders.insert(folders.end(), program.include_dirs.begin(), program.include_dirs.end());
   for (const fs::path& file : files_below(o.source_dir, ".inc")) folders.push_back(file.parent_path());
   folders.insert(folders.end(), own.begin(), own.end());
-  std::set<fs::path> known;
+  std::set<std::string> known;
   for (const fs::path& folder : folders)
-    if (known.insert(folder).second) flags.push_back("-I" + folder.string());
+    if (known.insert(folder.string()).second) flags.push_back("-I" + folder.string());
   return flags;
 }
 
 }  // namespace
+
+ReadableFiles readable_files(const BuildOptions& o) {
+  if (o.within.empty()) return {};
+  // of the product's files what programs are compiled with: solutions lie among the others
+  const fs::path libc = places::product_share() / "firmware/libc";
+  std::vector<std::string> places = {o.within.string(), include_root(o).string(), libc.string()};
+  for (const fs::path& folder : o.include_dirs) places.push_back(fs::absolute(folder).string());
+  return ReadableFiles(places);
+}
+
+std::vector<std::string> flags_of(const ReadableFiles& readable) {
+  std::vector<std::string> flags;
+  for (const std::string& place : readable.places()) flags.insert(flags.end(), {"--within", place});
+  return flags;
+}
 
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint) {
   const fs::path libc = places::product_share() / "firmware/libc";
@@ -92,15 +107,16 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   user_include.push_back(kVendorHeaders);
   auto headers = files_below(o.source_dir, ".h");
   std::vector<fs::path> own = {o.source_dir};
+  // by their text: paths are compared part by part
+  std::set<std::string> known = {o.source_dir.string()};
   for (const auto& h : headers)
-    if (std::find(own.begin(), own.end(), h.parent_path()) == own.end()) own.push_back(h.parent_path());
+    if (known.insert(h.parent_path().string()).second) own.push_back(h.parent_path());
   for (const auto& d : own) user_include.push_back("-I" + d.string());
   for (const auto& d : contract_folders(contract)) user_include.push_back("-I" + d.string());
   // "motor/speed.h" below a folder that the project's makefile names: the folder above the header's
   for (const auto& d : own)
     if (const fs::path above = d.parent_path(); d != o.source_dir)
-      if (std::find(own.begin(), own.end(), above) == own.end())
-        user_include.push_back("-I" + above.string());
+      if (!known.count(above.string())) user_include.push_back("-I" + above.string());
   user_include.insert(
       user_include.end(),
       {"-include", (libc / "include/xc16_builtins.h").string(), "-I" + (libc / "include").string(),
@@ -109,7 +125,10 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
 
   // What holds for all C files of the program.
   Plan p;
+  // what it may read comes first: no option of its own stands before it
+  const std::vector<std::string> within = flags_of(readable_files(o));
   std::vector<std::string> flags = {o.optimisation};
+  flags.insert(flags.end(), within.begin(), within.end());
   if (o.sanitize) flags.push_back("--sanitize");
   p.is_webots = names_webots(copies.kept, headers);
   if (p.is_webots) {
@@ -132,6 +151,8 @@ Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& pro
   for (const auto& s : program.assembler)
     if (const AssemblerRole role = role_of(s, o.source_dir, program); role != AssemblerRole::Ours) {
       p.assembler.push_back({s, assembler_flags(o, program, own), salt, contract.string()});
+      auto& of_file = p.assembler.back().flags;
+      of_file.insert(of_file.begin(), within.begin(), within.end());
       if (role == AssemblerRole::Member) p.assembler_members.insert(s);
     }
   return p;

@@ -7,6 +7,7 @@
 
 #include "build.h"
 #include "compiler/cache/object_cache.h"
+#include "compiler/cache/readable_files.h"
 #include "compiler/projects/library_copies.h"
 #include "compiler/projects/program_files.h"
 
@@ -17,6 +18,11 @@ struct Plan {
   std::set<std::filesystem::path> assembler_members;
   bool is_webots = false;  // a program for Webots' interfaces, with the library behind them
 };
+
+/// What a build may read (BuildOptions::within).
+ReadableFiles readable_files(const BuildOptions& o);
+/// The same for the compiler.
+std::vector<std::string> flags_of(const ReadableFiles& readable);
 
 /// `lint`: what is told beyond what a build needs.
 Plan plan(const BuildOptions& o, const LibraryCopies& copies, const Program& program, bool lint);

@@ -80,7 +80,8 @@ BuildRecord::BuildRecord(const BuildOptions& o) {
                                     o.webots_settings,
                                     o.standard,
                                     o.api_dir.string(),
-                                    o.include_root.string()};
+                                    o.include_root.string(),
+                                    o.within.string()};
   put(asked, o.defines);
   for (const auto* paths : {&o.include_dirs, &o.sources}) {
     asked.push_back(std::to_string(paths->size()));

@@ -11,6 +11,7 @@
 namespace cc {
 
 inline constexpr std::size_t kLargeStackBytes = std::size_t{2} << 30;
+inline constexpr std::size_t kMostSources = 2000;  // of a project: ten times the largest, and a minute's work
 inline constexpr std::size_t kLongestSourceBytes = std::size_t{2} << 20;
 
 /// Calls `work` on a large stack and waits for it; where there is none, on the usual one.

@@ -6,7 +6,9 @@
 #include <cstring>
 #include <sstream>
 
+#include "build_plan.h"
 #include "build_record.h"
+#include "compiler/cache/crash_words.h"
 #include "hal_sim/api/host_table.h"
 #include "link_messages.h"
 
@@ -96,10 +98,13 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   for (const auto& m : members) argv.insert(argv.end(), {"--library", m.object.string()});
   add_host_table(argv, library.archive, o.hal == "sim", o.optimisation);
   if (o.hal == "sim" && !o.with_texts) argv.push_back("--no-texts");
+  for (const std::string& word : flags_of(readable_files(o))) argv.push_back(word);
   constexpr const char* kGapBytes = "4";
   if (o.sanitize) argv.insert(argv.end(), {"--gap", kGapBytes});
   const auto run = run_process(argv);
   sort_messages(with_hints(run.output), result, run.status != 0);
+  if (run.status > kBySignal)
+    result.errors.push_back(o.source_dir.string() + ": link: " + crash_words(run.status - kBySignal));
   if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {
     std::string report = run.output.substr(at);
     take_drivers(report, o.hal == "sim", result);

@@ -110,7 +110,7 @@ ProcessResult run_process(const std::vector<std::string>& argv) {
   forget_child(slot);
   int status = 0;
   while (waitpid(pid, &status, 0) < 0 && errno == EINTR) continue;
-  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  result.status = WIFEXITED(status) ? WEXITSTATUS(status) : kBySignal + WTERMSIG(status);
   return result;
 }
 

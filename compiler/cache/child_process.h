@@ -10,8 +10,9 @@
 
 namespace cc {
 
+constexpr int kBySignal = 128;
 struct ProcessResult {
-  int status = -1;     ///< exit code; 128 and a signal's number
+  int status = -1;     ///< exit code; kBySignal and a signal's number
   std::string output;  ///< standard output and error together
 };
 

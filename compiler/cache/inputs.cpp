@@ -66,11 +66,25 @@ std::string BuildInputs::look_at(const fs::path& path, std::int64_t since_ns) {
 
 std::string BuildInputs::read(const fs::path& path) {
   const std::string name = fs::absolute(path).string();
+  if (!readable.has(name)) return "";
   const FileState state = state_of(name);  // before reading: a later change shows
   std::string text = bytes_of(path);
   std::lock_guard<std::mutex> lock(mutex_);
   if (!all.count(name)) all[name] = {settled(state), state.number ? content_hash(text) : "gone"};
   return text;
+}
+
+void BuildInputs::refuse(const fs::path& file, const std::string& what) {
+  std::error_code none;
+  const fs::path real = fs::weakly_canonical(file, none);
+  const std::string text = file.string() + ": " + readable.refusal(what, real.string());
+  std::lock_guard<std::mutex> lock(mutex_);
+  if (std::find(refusals_.begin(), refusals_.end(), text) == refusals_.end()) refusals_.push_back(text);
+}
+
+std::vector<std::string> BuildInputs::refusals() const {
+  std::lock_guard<std::mutex> lock(mutex_);
+  return refusals_;
 }
 
 void BuildInputs::take(const fs::path& file) {
@@ -91,5 +105,7 @@ BuildInputs* inputs_of_build() { return noted; }
 void look_at(const fs::path& path) {
   if (noted) noted->look_at(path);
 }
+
+bool may_read(const fs::path& path) { return !noted || noted->readable.has(path); }
 
 }  // namespace cc

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "readable_files.h"
+
 namespace cc {
 
 /// What is compared first: it changes with every write, whatever the program that writes does to the times.
@@ -32,6 +34,13 @@ class BuildInputs {
   std::string look_at(const std::filesystem::path& path, std::int64_t since_ns = INT64_MAX);
   /// Content of a file.
   std::string read(const std::filesystem::path& path);
+  /// What may be read; of other files there is no content.
+  ReadableFiles readable;
+  /// A file that the build needs and may not read.
+  void refuse(const std::filesystem::path& file, const std::string& what);
+  /// What was said of them.
+  std::vector<std::string> refusals() const;
+
   /// By absolute path.
   std::map<std::string, Input> all;
 
@@ -42,7 +51,8 @@ class BuildInputs {
 
  private:
   std::vector<std::filesystem::path> taken_;
-  std::mutex mutex_;
+  std::vector<std::string> refusals_;
+  mutable std::mutex mutex_;
 };
 
 /// While this lives, what its thread looks at is noted in `inputs`.
@@ -59,6 +69,8 @@ class NotingInputs {
 BuildInputs* inputs_of_build();
 /// Notes a file, a folder or a name that may not be there.
 void look_at(const std::filesystem::path& path);
+/// Whether this thread's build may read what lies there.
+bool may_read(const std::filesystem::path& path);
 
 /// The clock of FileState.
 std::int64_t now_ns();

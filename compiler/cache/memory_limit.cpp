@@ -12,7 +12,7 @@ namespace cc {
 namespace {
 
 struct LastWords {
-  std::string of_memory, of_file;
+  std::string of_memory, of_file, of_time;
 };
 LastWords& last_words() {
   static LastWords words;
@@ -24,10 +24,10 @@ LastWords& last_words() {
   _exit(written < 0 ? 2 : 1);
 }
 
-void bound(int what, std::uint64_t bytes) {
+void bound(int what, std::uint64_t most) {
   rlimit limit;
   if (getrlimit(what, &limit) != 0) return;
-  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, bytes);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_cur, most);
   setrlimit(what, &limit);
 }
 
@@ -40,13 +40,25 @@ void limit_own_memory(const std::string& what) {
     return what + ": " + of + ": got more than " + std::to_string(bytes >> 20) +
            " MB, expected at most that; does a macro, an array or .space grow without end?\n";
   };
-  last_words() = {words("memory", kMostToolBytes), words("output", kMostToolFileBytes)};
+  last_words().of_memory = words("memory", kMostToolBytes);
+  last_words().of_file = words("output", kMostToolFileBytes);
   bound(RLIMIT_FSIZE, kMostToolFileBytes);
   signal(SIGXFSZ, [](int) { say_and_end(last_words().of_file); });
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
   bound_memory(kMostToolBytes);
   std::set_new_handler(end_without_memory);
 #endif
+}
+
+void limit_own_time(const std::string& what) {
+  bound(RLIMIT_CPU, kMostToolSeconds);
+  rlimit limit{kMostToolSeconds, 0};
+  getrlimit(RLIMIT_CPU, &limit);  // somebody may have said less
+  last_words().of_time =
+      what + ": compile time: got more than " + std::to_string(limit.rlim_cur) +
+      " s of processor time, expected at most that; does a macro grow without end, or is a "
+      "function or a switch huge? split it\n";
+  signal(SIGXCPU, [](int) { say_and_end(last_words().of_time); });
 }
 
 void end_without_memory() { say_and_end(last_words().of_memory); }

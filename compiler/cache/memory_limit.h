@@ -17,11 +17,16 @@ inline constexpr std::uint64_t kMostChildBytes = std::uint64_t{3}
 inline constexpr std::uint64_t kMostToolFileBytes =
     std::uint64_t{64} << 20;  // [measured: ten times the largest image with its debug information]
 
+/// Processor time of one of these, s.
+inline constexpr unsigned kMostToolSeconds = 60;  // [measured: the slowest file of our programs takes 2 s]
+
 /// Bounds this process's memory, as far as it is not bounded more tightly. Only system calls.
 void bound_memory(std::uint64_t bytes);
 /// Does so, and says `what`: "FILE: memory: got more than 1024 MB, expected at most that; ...", exit code 1,
 /// when more is asked for; the same of the files that it writes. Builds with a sanitizer bound files alone.
 void limit_own_memory(const std::string& what);
+/// The same of its processor time: "FILE: compile time: got more than 60 s of processor time, ...".
+void limit_own_time(const std::string& what);
 /// The words of limit_own_memory(), and its end.
 [[noreturn]] void end_without_memory();
 

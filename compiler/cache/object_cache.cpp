@@ -20,6 +20,7 @@
 #include <sstream>
 #include <thread>
 
+#include "crash_words.h"
 #include "inputs.h"
 #include "install/cache_bound.h"
 
@@ -252,7 +253,10 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
     }
   } else if (result.status != 1) {
     outcome.messages +=
-        job.source.string() + ": the compiler stopped with status " + std::to_string(result.status) + "\n";
+        job.source.string() + ": " +
+        (result.status > kBySignal ? crash_words(result.status - kBySignal)
+                                   : "the compiler stopped with status " + std::to_string(result.status)) +
+        "\n";
   }
   for (const char* kind : {"", ".d", ".facts", ".d.missing"}) fs::remove(half + kind, ec);
   return outcome;

@@ -24,6 +24,9 @@ struct BuildOptions {
   /// chip; empty: what that file says.
   std::string webots_settings;
   std::string standard;  ///< of C, as -std= has it; default: the project's, or XC16's gnu89
+  /// A submission's folder, real: what is read must lie below it, be the library's, or in `include_dirs`
+  /// (readable_files.h). Empty: whatever the user may read.
+  std::filesystem::path within;
   std::vector<std::filesystem::path> include_dirs;  ///< searched first
   std::vector<std::filesystem::path> sources;       ///< instead of every .c of source_dir
   std::filesystem::path api_dir, include_root;      ///< default: hal_dspic and firmware/include of this tree

@@ -57,6 +57,9 @@ void optimise_for_chip(Unit& unit, llvm::TargetMachine& machine);
 int compile_for_chip(Unit& unit);
 /// A .s file instead of a .c file. The exit code of twinpuck-cc.
 int assemble_for_chip(const Options& options);
+/// Counts a message of assembler text, and ends the process, with exit code 1, after too many: a macro that uses
+/// itself has a million.
+void end_after_many(const std::string& file, unsigned& told);
 /// What the vendor's compiler does with a .S file: #include, #define, #if. `text`: of the file, then the
 /// result, with lines that say where each part is from; `found`: what it includes. False after an error.
 bool preprocess_assembler(const Options& options, std::string& text, std::vector<std::string>& found);

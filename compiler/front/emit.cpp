@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The last stage for the chip: names as the linker knows them, then the code generator.
+#include <unistd.h>
+
 #include "chip.h"
 #include "dspic30/llvm/target.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
@@ -52,6 +54,25 @@ void add_underscores(Module& m) {
   for (GlobalAlias& a : m.aliases()) rename(a);
 }
 
+}  // namespace
+
+void end_after_many(const std::string& file, unsigned& told) {
+  constexpr unsigned kMost = 200;
+  if (++told <= kMost) return;
+  errs() << file << ": error: assembler: got more than " << kMost
+         << " messages, expected fewer; does a macro use itself?\n";
+  errs().flush();
+  _exit(1);
+}
+
+namespace {
+
+/// A line of assembler text, which a program may have made very long.
+std::string shortened(StringRef line) {
+  constexpr std::size_t kMost = 200;
+  return line.size() > kMost ? (line.take_front(kMost) + " ...").str() : line.str();
+}
+
 /// Mistakes that show late, in assembler text of C or in what a function needs: each with its place, so that all of them
 /// are told.
 class LateMistakes : public DiagnosticHandler {
@@ -65,13 +86,14 @@ class LateMistakes : public DiagnosticHandler {
                          : d.getKind() == SourceMgr::DK_Warning ? "warning"
                                                                 : "note";
       has_failed_ |= d.getKind() == SourceMgr::DK_Error;
-      errs() << place(of_parser->getLocCookie()) << ": " << kind << ": " << d.getMessage() << "; in asm(\""
-             << d.getLineContents().trim() << "\")\n";
+      end_after_many(unit_.options.input, told_);
+      errs() << place(of_parser->getLocCookie(), &d) << ": " << kind << ": " << d.getMessage()
+             << "; in asm(\"" << shortened(d.getLineContents().trim()) << "\")\n";
       return true;
     }
     if (const auto* of_operands = dyn_cast<DiagnosticInfoInlineAsm>(&info)) {
       has_failed_ |= info.getSeverity() == DS_Error;
-      errs() << place(of_operands->getLocCookie()) << ": "
+      errs() << place(of_operands->getLocCookie(), nullptr) << ": "
              << (info.getSeverity() == DS_Error ? "error" : "warning")
              << ": asm: " << of_operands->getMsgStr() << "\n";
       return true;
@@ -90,13 +112,31 @@ class LateMistakes : public DiagnosticHandler {
   }
 
  private:
-  std::string place(std::uint64_t number) const {
-    // asm() outside functions has none: its file
+  std::string place(std::uint64_t number, const SMDiagnostic* of_text) const {
     const auto& known = unit_.facts.assembler_places;
-    return number > 0 && number <= known.size() ? known[number - 1] : unit_.options.input;
+    if (number > 0 && number <= known.size()) return known[number - 1];
+    // asm() outside functions has none: that which has the line
+    std::string found = unit_.options.input;
+    const unsigned line = of_text && of_text->getSourceMgr() ? line_of(*of_text) : 0;
+    for (const auto& [first, at] : unit_.facts.assembler_texts)
+      if (first <= line) found = at;
+    return found;
+  }
+  /// In the text itself, wherever a macro or a file of it may be.
+  static unsigned line_of(const SMDiagnostic& d) {
+    const SourceMgr& sources = *d.getSourceMgr();
+    SMLoc at = d.getLoc();
+    for (unsigned buffer = sources.FindBufferContainingLoc(at); buffer;
+         buffer = sources.FindBufferContainingLoc(at)) {
+      const SMLoc from = sources.getParentIncludeLoc(buffer);
+      if (!from.isValid()) return sources.FindLineNumber(at, buffer);
+      at = from;
+    }
+    return 0;
   }
   const Unit& unit_;
   bool& has_failed_;
+  unsigned told_ = 0;
 };
 
 std::unique_ptr<TargetMachine> make_machine(const Options& o) {

@@ -24,10 +24,12 @@
 #include "clang/Frontend/TextDiagnosticPrinter.h"
 #include "clang/Lex/PPCallbacks.h"
 #include "clang/Lex/Preprocessor.h"
+#include "compiler/cache/crash_words.h"
 #include "field_widths.h"
 #include "forward_calls.h"
 #include "implicit_functions.h"
 #include "include_finder.h"
+#include "include_messages.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/Metadata.h"
 #include "llvm/Support/Host.h"
@@ -35,6 +37,7 @@
 #include "output_file.h"
 #include "program_checks.h"
 #include "refused.h"
+#include "token_watch.h"
 #include "union_values.h"
 
 namespace cc {
@@ -45,7 +48,8 @@ using namespace clang;
 /// Refuses headers of an operating system, and writes down every file read.
 class IncludeWatch : public PPCallbacks {
  public:
-  IncludeWatch(CompilerInstance& ci, const Options& options) : ci_(ci), options_(options) {}
+  IncludeWatch(CompilerInstance& ci, const Options& options, const std::set<std::string>& refused)
+      : ci_(ci), options_(options), refused_(refused) {}
   void InclusionDirective(SourceLocation, const Token&, StringRef name, bool, CharSourceRange range,
                           const FileEntry* file, StringRef, StringRef, const Module*,
                           SrcMgr::CharacteristicKind) override {
@@ -55,7 +59,7 @@ class IncludeWatch : public PPCallbacks {
       d.Report(range.getBegin(), d.getCustomDiagID(DiagnosticsEngine::Fatal,
                                                    "#include <%0>: a robot has no operating system; %1"))
           << name << instead;
-    } else if (!file) {
+    } else if (!file && !is_refused(refused_, name)) {
       auto folders = options_.fallback;
       if (!options_.project.empty()) folders.push_back(options_.project);
       const std::string guess = header_like(name.str(), folders);
@@ -68,18 +72,21 @@ class IncludeWatch : public PPCallbacks {
  private:
   CompilerInstance& ci_;
   const Options& options_;
+  const std::set<std::string>& refused_;  // include_messages.h
 };
 
 /// Turns declarations into what the chip has of them.
 class DeclarationConsumer : public ASTConsumer {
  public:
-  explicit DeclarationConsumer(const Options& options)
-      : checks_(!options.library && !options.weak), strict_(options.lint) {}
+  DeclarationConsumer(const Options& options, Facts& facts)
+      : checks_(!options.library && !options.weak), strict_(options.lint), facts_(facts) {}
   void Initialize(ASTContext& context) override { context_ = &context; }
   bool HandleTopLevelDecl(DeclGroupRef group) override {
     // an erroneous expression may have no type
     if (context_->getDiagnostics().hasErrorOccurred()) return true;
     for (Decl* decl : group) {
+      note_place(place_text(context_->getSourceManager(), decl->getLocation()));  // its code is made next
+      if (auto* text = dyn_cast<FileScopeAsmDecl>(decl)) place_text_of(*text);
       if (auto* var = dyn_cast<VarDecl>(decl)) make_register(var);
       compute_in_field_widths(decl, *context_);
       clear_unions(decl, *context_);
@@ -89,11 +96,19 @@ class DeclarationConsumer : public ASTConsumer {
     return true;
   }
   void HandleTranslationUnit(ASTContext& context) override {
+    note_place("");  // what follows looks at the whole file
     if (checks_ && !context.getDiagnostics().hasErrorOccurred()) check_program(context, strict_);
   }
   void HandleTopLevelDeclInObjCContainer(DeclGroupRef) override {}
 
  private:
+  void place_text_of(const FileScopeAsmDecl& assembler) {
+    const StringRef text = assembler.getAsmString()->getString();
+    facts_.assembler_texts.emplace_back(
+        assembler_lines_ + 1,
+        place_text(context_->getSourceManager(), assembler.getAsmString()->getBeginLoc()));
+    assembler_lines_ += unsigned(text.count('\n')) + (text.endswith("\n") ? 0 : 1);
+  }
   /// A variable that the program puts into a register's place is that register.
   void make_register(VarDecl* var) {
     auto* section = var->getAttr<SectionAttr>();
@@ -103,6 +118,8 @@ class DeclarationConsumer : public ASTConsumer {
     var->setStorageClass(SC_Extern);
   }
   const bool checks_, strict_;  // program_checks.h
+  Facts& facts_;
+  unsigned assembler_lines_ = 0;
   ASTContext* context_ = nullptr;
 };
 
@@ -217,24 +234,29 @@ class ConfigPragma : public PragmaHandler {
 
 class RobotAction : public EmitLLVMOnlyAction {
  public:
-  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options)
-      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options) {}
+  RobotAction(llvm::LLVMContext& context, Facts& facts, const Options& options,
+              const std::set<std::string>& refused)
+      : EmitLLVMOnlyAction(&context), facts_(facts), options_(options), refused_(refused) {}
   bool BeginInvocation(CompilerInstance& ci) override {
     ci.setTarget(make_chip_target(ci.getInvocation().TargetOpts));
     return EmitLLVMOnlyAction::BeginInvocation(ci);
   }
   bool BeginSourceFileAction(CompilerInstance& ci) override {
     auto& pp = ci.getPreprocessor();
-    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_));
+    pp.addPPCallbacks(std::make_unique<IncludeWatch>(ci, options_, refused_));
     pp.AddPragmaHandler(new ConfigPragma(facts_));
     filter_ = std::make_shared<AttributeFilter>(pp);
-    pp.setTokenWatcher([f = filter_](const Token& token) { (*f)(token); });
+    watch_ = std::make_shared<TokenWatch>(pp);
+    pp.setTokenWatcher([f = filter_, w = watch_](const Token& token) {
+      (*w)(token);
+      (*f)(token);
+    });
     if (!options_.library) ci.setExternalSemaSource(implicit_functions(options_.strict || options_.lint));
     return EmitLLVMOnlyAction::BeginSourceFileAction(ci);
   }
   std::unique_ptr<ASTConsumer> CreateASTConsumer(CompilerInstance& ci, StringRef file) override {
     std::vector<std::unique_ptr<ASTConsumer>> all;
-    all.push_back(std::make_unique<DeclarationConsumer>(options_));
+    all.push_back(std::make_unique<DeclarationConsumer>(options_, facts_));
     all.push_back(EmitLLVMOnlyAction::CreateASTConsumer(ci, file));
     return std::make_unique<MultiplexConsumer>(std::move(all));
   }
@@ -242,7 +264,9 @@ class RobotAction : public EmitLLVMOnlyAction {
  private:
   Facts& facts_;
   const Options& options_;
+  const std::set<std::string>& refused_;
   std::shared_ptr<AttributeFilter> filter_;
+  std::shared_ptr<TokenWatch> watch_;
 };
 
 // another chip of 16 bits for the driver; target.cpp is what the compiler itself gets. DWARF 3: its
@@ -344,14 +368,10 @@ bool note_missing(const std::string& file, const std::set<std::string>& missing)
 void place_assembler(llvm::Module& module, const SourceManager& sources, Facts& facts) {
   const auto number = [&](const llvm::MDOperand& of_clang) {
     const auto* raw = llvm::mdconst::dyn_extract<llvm::ConstantInt>(of_clang);
-    const PresumedLoc at =
-        raw ? sources.getPresumedLoc(sources.getExpansionLoc(
-                  SourceLocation::getFromRawEncoding(SourceLocation::UIntTy(raw->getZExtValue()))))
-            : PresumedLoc();
-    facts.assembler_places.push_back(at.isValid() ? std::string(at.getFilename()) + ":" +
-                                                        std::to_string(at.getLine()) + ":" +
-                                                        std::to_string(at.getColumn())
-                                                  : "");
+    facts.assembler_places.push_back(
+        raw ? place_text(sources,
+                         SourceLocation::getFromRawEncoding(SourceLocation::UIntTy(raw->getZExtValue())))
+            : "");
     return llvm::ConstantAsMetadata::get(
         llvm::ConstantInt::get(llvm::Type::getInt64Ty(module.getContext()), facts.assembler_places.size()));
   };
@@ -373,6 +393,7 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
   auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
+  printer->setPrefix(options.input);  // of the options: no line has them
   DiagnosticsEngine diagnostics(new DiagnosticIDs, &*diagnostic_options, printer);
   auto arguments = clang_arguments(options, standard);
   if (!declarations.empty()) {
@@ -401,15 +422,15 @@ std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext&
   memory->addFile(std::string(kVendorRoot) + "/.root", 0, llvm::MemoryBuffer::getMemBuffer(""));
   if (!declarations.empty())
     memory->addFile(kDeclarations, 0, llvm::MemoryBuffer::getMemBufferCopy(declarations));
-  std::set<std::string> missing;
-  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(
-      forgiving_file_system(options.fallback, options.project, missing));
+  std::set<std::string> missing, refused;
+  auto overlay = llvm::makeIntrusiveRefCnt<llvm::vfs::OverlayFileSystem>(bounded_file_system(
+      forgiving_file_system(options.fallback, options.project, missing), options.readable, refused));
   overlay->pushOverlay(memory);
   CompilerInstance ci;
   ci.setInvocation(invocation);
-  ci.createDiagnostics(new TextDiagnosticPrinter(out, &invocation->getDiagnosticOpts()));
+  ci.createDiagnostics(new IncludeMessages(out, &invocation->getDiagnosticOpts(), options.readable, refused));
   ci.setFileManager(new FileManager(FileSystemOptions(), overlay));
-  RobotAction action(context, facts, options);
+  RobotAction action(context, facts, options, refused);
   const bool is_done = ci.ExecuteAction(action);
   if (!options.depfile.empty() && !note_missing(options.depfile + ".missing", missing)) return nullptr;
   auto module = is_done ? action.takeModule() : nullptr;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/cache/readable_files.h"
 #include "llvm/IR/LLVMContext.h"
 #include "llvm/IR/Module.h"
 
@@ -19,7 +20,8 @@ struct Options {
   std::vector<std::string> passed_on;  // -I, -D, -U, -W..., -include
   std::vector<std::string> fallback;   // folders searched by trailing path components, in order
   std::string project;                 // the controller's own folder, absolute; empty: none
-  std::string standard;                // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
+  ReadableFiles readable;
+  std::string standard;  // of C, "gnu99"; empty: gnu89 as XC16, gnu99 where that fails
   std::string
       depfile;  // a rule with every file read; beside it .missing, names that were not there, a line each
   std::string facts;        // where what this file does with addresses is written (shared_variables.h)
@@ -38,6 +40,8 @@ struct Options {
 struct Facts {
   std::map<std::string, unsigned> configuration;  // "fosc", "fwdt": words given by #pragma config
   std::vector<std::string> assembler_places;      // "main.c:12:9" of a number in !srcloc, from 1
+  std::vector<std::pair<unsigned, std::string>>
+      assembler_texts;  // of asm() outside functions: its first line in the module's text, its place
 };
 
 /// What XC16 v1.22 for this chip predefines.

@@ -148,7 +148,46 @@ class ForgivingFileSystem : public llvm::vfs::ProxyFileSystem {
   std::set<std::string>& missing_;
 };
 
+class BoundedFileSystem : public llvm::vfs::ProxyFileSystem {
+ public:
+  BoundedFileSystem(llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> files, const ReadableFiles& readable,
+                    std::set<std::string>& refused)
+      : ProxyFileSystem(std::move(files)), readable_(readable), refused_(refused) {}
+
+  llvm::ErrorOr<llvm::vfs::Status> status(const llvm::Twine& path) override {
+    const auto nothing = std::make_error_code(std::errc::no_such_file_or_directory);
+    const std::string name = path.str();
+    // a file of another name does not stand in for one that is there
+    if (StringRef asked = name; asked.consume_front(kFallbackRoot) && is_refused(refused_, asked.ltrim('/')))
+      return nothing;
+    auto found = ProxyFileSystem::status(path);
+    if (!found || found->isDirectory() || readable_.has(found->getName().str())) return found;
+    refused_.insert(name);
+    return nothing;
+  }
+  llvm::ErrorOr<std::unique_ptr<llvm::vfs::File>> openFileForRead(const llvm::Twine& path) override {
+    if (auto found = status(path); !found) return found.getError();
+    return ProxyFileSystem::openFileForRead(path);
+  }
+
+ private:
+  const ReadableFiles& readable_;
+  std::set<std::string>& refused_;
+};
+
 }  // namespace
+
+bool is_refused(const std::set<std::string>& refused, llvm::StringRef name) {
+  return !name.empty() && std::any_of(refused.begin(), refused.end(), [&](const StringRef path) {
+    return path == name || (path.endswith(name) && path.drop_back(name.size()).endswith("/"));
+  });
+}
+
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> bounded_file_system(
+    llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> files, const ReadableFiles& readable,
+    std::set<std::string>& refused) {
+  return new BoundedFileSystem(std::move(files), readable, refused);
+}
 
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(std::vector<std::string> folders,
                                                                       std::string project,

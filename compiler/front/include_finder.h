@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compiler/cache/readable_files.h"
 #include "llvm/Support/VirtualFileSystem.h"
 
 namespace cc {
@@ -26,6 +27,14 @@ inline constexpr const char* kVendorRoot = "/twinpuck-vendor";
 /// for: a file of such a name would be taken.
 llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> forgiving_file_system(
     std::vector<std::string> fallback_folders, std::string project, std::set<std::string>& missing);
+
+/// `files`, in which there are only those that may be read. `refused`: names of others that were asked for.
+llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> bounded_file_system(
+    llvm::IntrusiveRefCntPtr<llvm::vfs::FileSystem> files, const ReadableFiles& readable,
+    std::set<std::string>& refused);
+
+/// Whether one of them is meant by an #include of `name`.
+bool is_refused(const std::set<std::string>& refused, llvm::StringRef name);
 
 /// The header below the folders whose name is most like `name`, as an #include would have it; "" for none.
 std::string header_like(const std::string& name, const std::vector<std::string>& folders);

@@ -17,6 +17,7 @@
 #include "clang/Lex/PreprocessorOptions.h"
 #include "dspic30/llvm/target.h"
 #include "include_finder.h"
+#include "include_messages.h"
 
 namespace cc {
 namespace {
@@ -116,12 +117,15 @@ bool preprocess_assembler(const Options& options, std::string& text, std::vector
   invocation->getPreprocessorOpts().addRemappedFile(
       options.input,
       llvm::MemoryBuffer::getMemBufferCopy(with_device_files_left(text), options.input).release());
-  std::set<std::string> missing;
+  std::set<std::string> missing, refused;
   CompilerInstance ci;
   ci.setInvocation(invocation);
-  ci.createDiagnostics(new TextDiagnosticPrinter(llvm::errs(), &invocation->getDiagnosticOpts()));
-  ci.setFileManager(new FileManager(FileSystemOptions(),
-                                    forgiving_file_system(options.fallback, options.project, missing)));
+  ci.createDiagnostics(
+      new IncludeMessages(llvm::errs(), &invocation->getDiagnosticOpts(), options.readable, refused));
+  ci.setFileManager(
+      new FileManager(FileSystemOptions(),
+                      bounded_file_system(forgiving_file_system(options.fallback, options.project, missing),
+                                          options.readable, refused)));
   ToText action(text, found);
   return ci.ExecuteAction(action);
 }

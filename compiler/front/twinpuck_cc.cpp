@@ -4,8 +4,10 @@
 #include <unistd.h>
 
 #include "chip.h"
+#include "compiler/cache/crash_words.h"
 #include "compiler/cache/memory_limit.h"
 #include "dspic30/link/link.h"
+#include "dspic30/llvm/target.h"
 #include "install/places.h"
 #include "llvm/Support/ErrorHandling.h"
 #include "llvm/Support/raw_ostream.h"
@@ -16,6 +18,7 @@ namespace {
 using namespace llvm;
 
 bool parse(int argc, char** argv, cc::Options& o) {
+  std::vector<std::string> readable;
   for (int i = 1; i < argc; ++i) {
     StringRef a = argv[i];
     auto value = [&]() -> std::string { return i + 1 < argc ? argv[++i] : ""; };
@@ -49,6 +52,8 @@ bool parse(int argc, char** argv, cc::Options& o) {
       o.emit_ir = true;
     else if (a == "--project")
       o.project = value();
+    else if (a == "--within")
+      readable.push_back(value());
     else if (a.startswith("-std="))
       o.standard = a.substr(5).str();
     else if (a == "--depfile")
@@ -78,6 +83,7 @@ bool parse(int argc, char** argv, cc::Options& o) {
       return false;
     }
   }
+  o.readable = cc::ReadableFiles(readable);
   if (o.fallback.empty())  // called by hand: the library's and the libc's headers after all others
     for (const char* folder : {"firmware/include", "firmware/libc/include"})
       o.passed_on.push_back("-I" + (places::product_share() / folder).string());
@@ -88,9 +94,11 @@ bool parse(int argc, char** argv, cc::Options& o) {
   return true;
 }
 
-/// What is too large ends with a message, whichever way it asks for memory.
-void limit_memory(const std::string& what) {
+/// What is too large ends with a message, whichever way it asks for memory, and so does what takes too long.
+void limit_use(const std::string& what) {
   cc::limit_own_memory(what);
+  cc::limit_own_time(what);
+  cc::tell_crashes(what);
   install_bad_alloc_error_handler([](void*, const char*, bool) { cc::end_without_memory(); });
 }
 
@@ -124,9 +132,10 @@ dspic::link::HostDriver& host_driver(dspic::link::Options& o, StringRef text, st
 ///   of drivers that the host can fill: [--host-library A.a] [--host DRIVER:FUNCTION=PLACE]...
 ///     [--host-shortcut DRIVER:FUNCTION=PLACE]... [--register DRIVER:VARIABLE=BYTES]...
 ///     [--owned DRIVER:T2CON]...; --fill SUM fills them
-///   --no-texts: neither .lst nor .map
+///   --no-texts: neither .lst nor .map; --within FOLDER: the .lst quotes no other files
 int link(int argc, char** argv) {
   dspic::link::Options o;
+  std::vector<std::string> readable;
   o.moved_from = places::kUsualShare;
   o.moved_to = places::product_share().string();
   for (int i = 2; i < argc; ++i) {
@@ -158,6 +167,8 @@ int link(int argc, char** argv) {
     } else if (a == "--host-library") {
       o.libraries.push_back(value());
       o.host_library = o.libraries.back();
+    } else if (a == "--within") {
+      readable.push_back(value());
     } else if (a == "--no-texts") {
       o.with_texts = false;
     } else if (a == "--fill") {
@@ -178,7 +189,8 @@ int link(int argc, char** argv) {
               "BYTES]\n";
     return 2;
   }
-  limit_memory(o.output);
+  o.may_quote = [files = cc::ReadableFiles(readable)](const std::string& file) { return files.has(file); };
+  limit_use(o.output);
   return dspic::link::run(o) ? 0 : 1;
 }
 
@@ -189,7 +201,14 @@ int main(int argc, char** argv) {
   if (argc > 1 && StringRef(argv[1]) == "--link") return link(argc, argv);
   cc::Options options;
   if (!parse(argc, argv, options)) return 2;
-  limit_memory(options.input);
+  limit_use(options.input);
+  if (!options.readable.has(options.input)) {
+    errs() << options.input << ": " << options.readable.refusal("source", options.input) << "\n";
+    return 1;
+  }
+  check_dspic_files([&](const std::string& file) {
+    return options.readable.has(file) ? "" : options.readable.refusal("include", file);
+  });
   if (StringRef(options.input).endswith_insensitive(".s")) return cc::assemble_for_chip(options);
   LLVMContext context;
   cc::Facts facts;

@@ -60,6 +60,7 @@ class Makefile {
     std::error_code ec;
     look_at(file);
     if (!fs::is_regular_file(file, ec) || !read_.insert(fs::canonical(file, ec)).second) return;
+    if (!may_read(file)) return inputs_of_build()->refuse(file, "makefile");
     // Line by line: assignments, rules, search paths and other Makefiles count; recipes do not.
     static const sim::Pattern kAssignment(R"(^\s*(?:export\s+|override\s+)?([\w.-]+)\s*([:?+]?:?=)\s*(.*)$)");
     static const sim::Pattern kContinued(R"(\\\r?\n[ \t]*)"), kComment(R"((^|[^\\])#.*$)");
@@ -294,6 +295,7 @@ class Makefile {
   /// What `part` of a pattern means in a folder.
   std::vector<std::string> entries(const fs::path& folder, const std::string& part) const {
     std::error_code ec;
+    if (!may_read(home_ / folder)) return {};
     if (part.find_first_of("*?") == std::string::npos) {
       look_at(home_ / folder / part);
       return fs::exists(home_ / folder / part, ec) ? std::vector<std::string>{part}

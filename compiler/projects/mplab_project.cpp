@@ -223,7 +223,7 @@ fs::path resolve_path(const fs::path& home, std::string text) {
   for (std::size_t first = 0; first < parts.size(); ++first) {
     fs::path at = home;
     for (int up = 0; up <= kAncestors; ++up, at = at.parent_path())
-      if (fs::path found = below(at, parts, first); !found.empty()) return found;
+      if (fs::path found = below(at, parts, first); !found.empty() && may_read(found)) return found;
   }
   return {};
 }

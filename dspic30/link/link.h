@@ -17,6 +17,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -50,8 +51,9 @@ struct Options {
   /// Object to source, archive to its name for people. Line tables may have been written
   /// for a copy elsewhere.
   std::map<std::string, std::string> sources;
-  std::string moved_from, moved_to;  ///< as in LineTable: sources of the library
-  std::string host_library;          ///< of `libraries` the archive with the drivers below
+  std::function<bool(const std::string&)> may_quote;  ///< of x.lst: a source file; empty: all
+  std::string moved_from, moved_to;                   ///< as in LineTable: sources of the library
+  std::string host_library;                           ///< of `libraries` the archive with the drivers below
   std::vector<HostDriver> host;  ///< their variables come first in RAM, whether the host fills them or not
   bool is_filled_by_host = false;
   std::uint32_t host_table = 0;     ///< value of kHostTableSymbol

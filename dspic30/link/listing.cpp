@@ -29,7 +29,9 @@ class Sources {
   const std::vector<std::string>& lines_of(const std::string& file) {
     const auto [known, is_new] = files_.try_emplace(file);
     if (!is_new) return known->second;
-    std::ifstream in(source_named(file, options_.sources));
+    const std::string source = source_named(file, options_.sources);
+    if (options_.may_quote && !options_.may_quote(source)) return known->second;
+    std::ifstream in(source);
     for (std::string line; std::getline(in, line);) {
       while (!line.empty() && (line.back() == '\r' || line.back() == ' ')) line.pop_back();
       known->second.push_back(line);

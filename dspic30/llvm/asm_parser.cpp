@@ -2,6 +2,7 @@
 // Assembler text, inline and in .s files. LLVM reads labels, directives and macros; an instruction's text
 // goes to the chip's own assembler (dspic30/asm), which knows every form from the instruction table, and
 // comes back as words. Operands with symbols are left to the linker, by the kind of field they stand in.
+#include <functional>
 #include <map>
 
 #include "dspic30/asm/device_names.h"
@@ -73,6 +74,12 @@ bool holds_value(const assembly::Written& operand, dspic::Operand kind) {
          operand.kind == Written::IndirectLiteral;
 }
 
+/// See check_dspic_files().
+std::function<std::string(const std::string&)>& file_check() {
+  static std::function<std::string(const std::string&)> check;
+  return check;
+}
+
 /// An operand that waits for the linker.
 struct Symbolic {
   const MCExpr* expression;
@@ -95,6 +102,7 @@ class Parser : public MCTargetAsmParser {
   void convertToMapAndConstraints(unsigned, const OperandVector&) override {}
 
   bool ParseInstruction(ParseInstructionInfo&, StringRef name, SMLoc at, OperandVector&) override {
+    if (is_too_deep(at)) return true;
     mnemonic_ = name.str();
     const char* begin = at.getPointer() + name.size();
     while (getLexer().isNot(AsmToken::EndOfStatement)) Lex();
@@ -137,6 +145,10 @@ class Parser : public MCTargetAsmParser {
 
   // beside LLVM's. True: it is none of these
   bool ParseDirective(AsmToken directive) override {
+    if (is_too_deep(directive.getLoc())) {
+      getParser().eatToEndOfStatement();
+      return false;
+    }
     if (directive.getString().lower() == ".include" && has_too_many_includes(directive.getLoc())) {
       getParser().eatToEndOfStatement();
       Error(directive.getLoc(), "includes are nested too deeply, or too many");
@@ -155,20 +167,42 @@ class Parser : public MCTargetAsmParser {
   }
 
  private:
-  /// Of .include and .incbin: a pipe without a writer would never be open, a device never end.
+  /// Who reads brackets of a statement within one another needs stack for each.
+  bool is_too_deep(SMLoc at) {
+    constexpr unsigned kDeepest = 250;
+    unsigned depth = 0, deepest = 0, signs = 0;
+    bool is_text = false;
+    for (const char* c = at.getPointer(); *c && *c != '\n' && (is_text || *c != ';'); ++c) {
+      if (*c == '"') is_text = !is_text;
+      if (is_text) continue;
+      if (c[0] == '/' && (c[1] == '/' || c[1] == '*')) break;
+      depth = *c == '(' ? depth + 1 : *c == ')' && depth > 0 ? depth - 1 : depth;
+      signs = StringRef("+-~!").contains(*c) ? signs + 1 : *c == ' ' ? signs : 0;
+      deepest = std::max(deepest, depth + signs);
+    }
+    return deepest > kDeepest && Error(at, "expression: got brackets or signs more than " + Twine(kDeepest) +
+                                               " within one another, expected at most that");
+  }
+  /// Of .include and .incbin: a pipe without a writer would never be open, a device never end; and not every file
+  /// may be read.
   bool names_no_file(StringRef directive) {
     const std::string what = directive.lower();
     if ((what != ".include" && what != ".incbin") || getLexer().isNot(AsmToken::String)) return false;
-    const StringRef name = getTok().getStringContents();
+    // the name as LLVM reads it, with what backslashes mean; then the token stands there again
+    const AsmToken token = getTok();
+    std::string name;
+    if (getParser().parseEscapedString(name)) return true;
+    getLexer().UnLex(token);
     // LLVM's order
-    std::vector<std::string> places = {name.str()};
-    for (const std::string& folder : getTargetOptions().IASSearchPaths)
-      places.push_back(folder + "/" + name.str());
+    std::vector<std::string> places = {name};
+    for (const std::string& folder : getTargetOptions().IASSearchPaths) places.push_back(folder + "/" + name);
     const auto first = find_if(places, [](const std::string& place) { return sys::fs::exists(place); });
-    if (first == places.end() || sys::fs::is_regular_file(*first)) return false;
-    Error(getTok().getLoc(),
-          Twine(what) + ": " + *first + ": got a pipe, a device or a folder, expected a file");
-    return true;
+    if (first == places.end()) return false;
+    std::string wrong = file_check() ? file_check()(*first) : "";
+    if (wrong.empty() && !sys::fs::is_regular_file(*first))
+      wrong = what + ": " + *first + ": got a pipe, a device or a folder, expected a file";
+    if (!wrong.empty()) Error(token.getLoc(), wrong);
+    return !wrong.empty();
   }
   /// A file that includes itself would never end.
   bool has_too_many_includes(SMLoc at) {
@@ -240,6 +274,10 @@ class Parser : public MCTargetAsmParser {
 };
 
 }  // namespace
+
+void check_dspic_files(std::function<std::string(const std::string&)> check) {
+  file_check() = std::move(check);
+}
 
 bool is_dspic_device_file(const std::string& name) { return assembly::is_device_file(name); }
 

@@ -6,6 +6,7 @@
 // (printer.cpp). Where an instruction lies is counted in octets, four a word; the linker halves them to
 // the chip's addresses.
 #pragma once
+#include <functional>
 #include <string>
 
 #include "llvm/MC/TargetRegistry.h"
@@ -36,6 +37,10 @@ inline constexpr const char* kDspicNumberLetters = "IJKLMNOPWYZ";
 
 /// The vendor's own files, p30f6014A.inc and the like, whose names assembler text has in any case.
 bool is_dspic_device_file(const std::string& name);
+
+/// Asked before a file is read that assembler text names; by its path. Answers what is wrong with it, "" for
+/// nothing. Of the process, which compiles one file.
+void check_dspic_files(std::function<std::string(const std::string& file)> check);
 
 /// Sections with attributes in their names, "mine, data, ymemory", become those of memory_spaces.h. What is
 /// wrong with one, else "".

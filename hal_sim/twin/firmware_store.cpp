@@ -201,6 +201,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
   if (!options.coverage.empty() && build.optimisation.empty()) build.optimisation = "-O0";
   build.sanitize = options.sanitize;
   build.hal = hal;
+  build.within = options.within;
   build.webots_settings = options.webots_settings;
   places::note_used(build.output);
   const cc::BuildResult result = cc::build_image(build);

@@ -41,6 +41,8 @@ struct Options {
   std::string optimisation;  ///< of controllers built from source, as in cc::BuildOptions: "" -O0 -O1 -O2 -Os
   /// Of the world, for programs of Webots' interfaces on the chip (cc::BuildOptions); Twin::open() sets it.
   std::string webots_settings;
+  /// Controllers are submissions, built of what lies below this folder alone (cc::BuildOptions); empty: they are not.
+  std::string within;
   bool sanitize = false;  ///< ... with checks of every access and of 16-bit overflow
   /// File that counts of lines are added to (coverage_run.h, which whoever opens the twin makes); empty:
   /// none. Controllers are built for it with -O0, unless `optimisation` says otherwise.

@@ -17,6 +17,7 @@
 
 #include "build.h"
 #include "compiler/cache/child_process.h"
+#include "containment.h"
 #include "install/cache_bound.h"
 #include "install/places.h"
 #include "makefile.h"
@@ -160,10 +161,26 @@ class Build {
   const std::set<fs::path>& needs() const { return needs_; }
 
  private:
+  /// A compiler that sees the program's folder, the submission it belongs to, and what programs are made with: a file
+  /// that it read could be told by the program.
+  Words in_a_room(const Words& words) const {
+    const fs::path root = places::product_share();
+    Words readable = {folder_.string(), submission(), controller_library().parent_path().string(),
+                      (root / "programs" / "controller").string(), (root / "firmware" / "include").string()};
+    return contained(words, folder_.string(), readable, {scratch_.string()});
+  }
+
   Words run(const Words& command, int& status) const {
     Words whole = {"env",           "--chdir=" + folder_.string(), "LC_ALL=C", "timeout", "-s", "KILL",
                    kCompilerSeconds};
     whole.insert(whole.end(), command.begin(), command.end());
+    if (is_contained()) whole = in_a_room(whole);
+    if (whole.empty()) {  // no bubblewrap
+      status = 1;
+      return {said_ +
+              ": compiler: got a program that shall be contained, expected bubblewrap to do it; apt "
+              "install bubblewrap"};
+    }
     const cc::ProcessResult done = cc::run_process(whole);
     status = done.status;
     Words lines;

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <string_view>
 
 namespace programs {
@@ -22,7 +23,26 @@ const char* const kSystem[] = {"/usr",
                                "/etc/ld.so.cache",
                                "/etc/alternatives"};
 
+/// Whether a place in the submission is a link to one outside.
+bool leads_out(const std::string& path) {
+  namespace fs = std::filesystem;
+  const std::string own = submission();
+  if (own.empty()) return false;
+  const auto is_below = [](const fs::path& place, const fs::path& folder) {
+    const fs::path rest = place.lexically_relative(folder);
+    return !rest.empty() && *rest.begin() != "..";
+  };
+  std::error_code none;
+  return is_below(fs::path(path).lexically_normal(), own) &&
+         !is_below(fs::weakly_canonical(path, none), fs::weakly_canonical(own, none));
+}
+
 }  // namespace
+
+std::string submission() {
+  const char* const said = std::getenv("TWINPUCK_SUBMISSION");
+  return said ? said : "";
+}
 
 bool is_contained() {
   const char* const said = std::getenv("TWINPUCK_CONTAIN");
@@ -37,7 +57,7 @@ std::vector<std::string> contained(const std::vector<std::string>& words, const 
       kBubblewrap, "--unshare-all", "--die-with-parent", "--new-session", "--dev", "/dev",
       "--tmpfs",   "/tmp",          "--setenv",          "HOME",          "/tmp"};
   const auto bind = [&all](const char* how, const std::string& path) {
-    if (!path.empty()) all.insert(all.end(), {how, path, path});
+    if (!path.empty() && !leads_out(path)) all.insert(all.end(), {how, path, path});
   };
   for (const char* path : kSystem) bind("--ro-bind-try", path);
   for (const std::string& path : readable) bind("--ro-bind-try", path);

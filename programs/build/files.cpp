@@ -2,6 +2,7 @@
 // See files.h.
 #include "files.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,11 +30,13 @@ bool is_foreign(const fs::path& folder) {
 /// Every entry below a folder, those of the folder itself first; `look` is false when it has seen enough.
 template <typename Look>
 void look_below(const fs::path& top, const Look& look) {
-  std::set<fs::path> seen;  // folders, so that links in a circle end
+  std::set<std::pair<dev_t, ino_t>> seen;  // folders, so that links in a circle end
   std::vector<fs::path> folders = {top};
   for (std::size_t i = 0; i < folders.size() && i < kMostFiles; ++i) {
     std::error_code none, odd;
-    if (!seen.insert(fs::canonical(folders[i], none)).second) continue;
+    struct stat folder;
+    if (stat(folders[i].c_str(), &folder) == 0 && !seen.insert({folder.st_dev, folder.st_ino}).second)
+      continue;
     std::vector<fs::path> entries;
     for (fs::directory_iterator it(folders[i], none), end; !none && it != end && entries.size() < kMostFiles;
          it.increment(none))

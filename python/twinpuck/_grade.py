@@ -118,7 +118,10 @@ def run_tests(arguments: list[str]) -> int:
 
 
 def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path, work: pathlib.Path) -> list[str]:
-    """`words` so that they see one submission alone, write to their own folder only and have no network."""
+    """`words` so that they see one submission alone, write to their own folder only and have no network.
+
+    mine: the submission's folder.
+    """
     from . import _core
 
     seen = [common(options.tests), pathlib.Path(_core.project_root()), pathlib.Path(_core.__file__).parents[1]]
@@ -183,8 +186,10 @@ def cases_of(result: pathlib.Path) -> list[Case]:
 def unreadable(options: argparse.Namespace, mine: pathlib.Path, base: pathlib.Path) -> str:
     """What is wrong with the tests themselves, of which nobody could get a point; empty: nothing."""
     result, log = base / "tests.json", base / "tests.txt"
-    code = wait_for([*words_of(options, result, mine), "--collect-only"],
-                    {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}, log, options.limit_s)
+    environment = {**os.environ, "PYTHONDONTWRITEBYTECODE": "1"}
+    if not options.trusted:  # tests may make a world as they are read
+        environment["TWINPUCK_SUBMISSION"] = str(mine.resolve())
+    code = wait_for([*words_of(options, result, mine), "--collect-only"], environment, log, options.limit_s)
     tests = ", ".join(map(str, options.tests))
     if failed := [case for case in cases_of(result) if case.outcome == "failed"]:
         return "\n".join(f"{case.name}: {case.text}" for case in failed)
@@ -203,16 +208,20 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     if not mine.is_dir():
         result.problem = f"got no folder {options.program!r}, expected the program there"
         return result
+    if not options.trusted and not mine.resolve().is_relative_to(student.resolve()):
+        result.problem = f"got a link to {mine.resolve()} for {options.program!r}, expected a folder of the submission"
+        return result
     for folder in ("cache", "tmp", "failures"):
         (work / folder).mkdir(parents=True, exist_ok=True)
     words = [*words_of(options, work / "result.json", mine), "--failures", str(work / "failures")]
     if options.sanitize:
         words.append("--sanitize")
     if not options.trusted:
-        words = contained(words, options, mine, work)
+        words = contained(words, options, student, work)
     environment = {**os.environ, "XDG_CACHE_HOME": str(work / "cache"), "TMPDIR": str(work / "tmp"),
                    "TWINPUCK_CONTAIN": "0" if options.trusted else "1", "PYTHONDONTWRITEBYTECODE": "1"}
     if not options.trusted:
+        environment["TWINPUCK_SUBMISSION"] = str(student.resolve())  # its builds read nothing else
         environment["PATH"] = "/usr/local/bin:/usr/bin:/bin"  # what they see
     log = work / "log.txt"
     if wait_for(words, environment, log, options.limit_s) is None:

@@ -9,6 +9,7 @@
 
 using namespace cli_test;
 using nlohmann::json;
+using wording::replaced;
 
 namespace {
 
@@ -117,6 +118,73 @@ TEST_F(LabClass, what_takes_too_long_is_ended_and_told) {
   EXPECT_EQ(build.exit_code, 1) << build.text;
   EXPECT_EQ(row(build.text, "anna"), "anna pass 1 of 1") << build.text;
   EXPECT_TRUE(has(build.text, "ben/u_obstacle does not build: it took longer than 12 s")) << build.text;
+}
+
+/// Each of these once came into the program, or into the compiler's words: files of the teacher, of others, of the lab.
+TEST_F(LabClass, a_submission_is_built_of_its_own_files) {
+  struct Attempt {
+    const char* student;
+    std::string name, text, says;  // "-> x": a link
+  };
+  const std::string secret = write("secret.txt", "secret = 1\n");
+  const Attempt attempts[] = {
+      {"include", "main.c", "#include \"" + secret + "\"\n" + kStands,
+       "main.c:1:10: error: include: got '@'"},
+      {"other", "main.c", "#include \"../../anna/obstacle/main.c\"\n",
+       "main.c:1:10: error: include: got '../../anna/obstacle/main.c'"},
+      {"lab", "main.c", "#include \"" TWINPUCK_SOURCE_DIR "/firmware/lab/obstacle/main.c\"\n",
+       "main.c:1:10: error: include: got '" TWINPUCK_SOURCE_DIR "/firmware/lab/obstacle/main.c'"},
+      {"bytes", "main.c", "__asm__(\".incbin \\\"" + secret + "\\\"\");\n" + kStands, "include: got '@'"},
+      {"octal", "main.c", "__asm__(\".incbin \\\"" + path("secre") + "\\\\164.txt\\\"\");\n" + kStands,
+       "include: got '@'"},
+      {"inside", "main.c", "int main(void) {\n  __asm__(\".include \\\"" + secret + "\\\"\");\n}\n",
+       "main.c:2:11: error: include: got '@'"},
+      {"macro", "main.c",
+       "__asm__(\".macro m x\\n.incbin \\\"" + path("secre") + "\\\\x\\\"\\n.endm\\n m t.txt\");\n" + kStands,
+       "include: got '@'"},
+      {"assembler", "a.s", "\n .include \"" + secret + "\"\n", "a.s:2:11: error: include: got '@'"},
+      {"upper", "a.S", "#include \"" + secret + "\"\n", "a.S:1:10: error: include: got '@'"},
+      {"source", "p.c", "-> " + secret, "p.c: source: got '@'"},
+      {"s_file", "p.s", "-> " + secret, "p.s: source: got '@'"},
+      {"header", "p.h", "-> " + secret, "main.c:1:10: error: include: got 'p.h'"},
+      {"folder", "b", "-> /", "main.c:1:10: error: include: got 'b" + secret + "'"},
+      {"make", "Makefile", "include " + secret + "\nSRCS = main.c\nCFLAGS = -DX=$(secret)\n",
+       "makefile: got '@'"},
+      {"list", "Makefile", "SRCS = main.c ../../anna/obstacle/main.c\n",
+       "source: got '" + path("class/anna/obstacle/main.c") + "'"},
+      {"project", "", "-> " + path("class/anna/obstacle"),
+       "project: got '" + path("class/anna/obstacle") + "'"},
+  };
+  hand_in("anna", "obstacle");
+  for (const auto& [student, name, text, says] : attempts) {
+    const std::string home = std::string("class/") + student + "/obstacle";
+    if (name != "main.c" && !name.empty())
+      write(home + "/main.c", std::string(name == "p.h" ? "#include \"p.h\"\n"
+                                          : name == "b" ? "#include \"b" + secret + "\"\n"
+                                                        : "") +
+                                  kStands);
+    const fs::path place = name.empty() ? folder / home : folder / home / name;
+    fs::create_directories(place.parent_path());
+    if (text.rfind("-> ", 0) == 0)
+      fs::create_symlink(text.substr(3), place);
+    else
+      write(home + "/" + name, text);
+  }
+  const Said s = here("lab I1 --mine class --seeds 1");
+  EXPECT_EQ(row(s.text, "anna"), "anna pass 1 of 1") << s.text;
+  EXPECT_FALSE(has(s.text, "secret = 1")) << s.text;
+  for (const Attempt& attempt : attempts) {
+    EXPECT_EQ(row(s.text, attempt.student), std::string(attempt.student) + " FAIL 0 of 1") << s.text;
+    const std::string said = replaced(attempt.says, "@", secret) + ", which lies outside " +
+                             path(std::string("class/") + attempt.student) +
+                             ", expected a file below it; a submission is built of its own files";
+    EXPECT_TRUE(has(s.text, said)) << said << "\nin " << s.text;
+  }
+  // one's own, and what somebody is trusted with
+  EXPECT_TRUE(
+      has(here("lab I1 --mine class/other --seeds 1").text, "which lies outside " + path("class/other")));
+  EXPECT_EQ(here("lab I1 --mine class/other --seeds 1 --trusted").exit_code, 0);
+  EXPECT_EQ(here("build class/other/obstacle").exit_code, 0);
 }
 
 // 2 cm to and fro by the speed unit and the order of sensors that the lab's worlds take for granted

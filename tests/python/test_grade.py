@@ -245,6 +245,49 @@ def test_programs_see_no_files_but_their_own_and_no_network(tmp_path, command):
     listening.close()
 
 
+READER = """#include <uart/e_uart_char.h>
+__asm__(".pushsection .const, code\\n .global _stolen\\n_stolen: .incbin \\"{}\\"\\n .popsection");
+int main(void) {{ while (1) ; }}
+"""
+
+
+def test_what_is_compiled_sees_no_tests_and_no_other_submission(small, command):
+    hidden = small / "tests" / "test_a.py"
+    webots = "#include <webots/robot.h>\nint main() { wb_robot_init(); return 0; }\n"
+    for name, file, text in (("bytes", "main.c", READER.format(hidden)), ("header", "main.c", f'#include "{hidden}"\n'),
+                             ("other", "main.c", '#include "../good/good.h"\n'),
+                             ("webots", "webots.c", f'#include "{hidden}"\n' + webots),
+                             ("webots_bytes", "webots_bytes.c",
+                              f'__asm__(".section .rodata\\n.global s\\ns: .incbin \\"{hidden}\\"\\n.text");\n' + webots)):
+        (small / "class" / name).mkdir()
+        (small / "class" / name / file).write_text(text)
+    (small / "class" / "good" / "good.h").write_text("int main(void) { while (1) ; }")
+    (small / "class" / "link").mkdir()
+    (small / "class" / "link" / "main.c").symlink_to(hidden)
+    done = command("grade", "tests", "--submissions", "class", *TABLES, cwd=small)
+    assert done.returncode == 0 and re.search(r"^good +pass", done.stdout, re.M), done.stdout + done.stderr
+    said = {name: "\n".join(messages(small, name)) for name in ("bytes", "header", "other", "webots", "webots_bytes", "link")}
+    outside = f"which lies outside {small}/class/"
+    for name in ("bytes", "header", "link"):
+        assert outside + name in said[name], said[name]
+    assert "'../good/good.h' file not found" in said["other"], said["other"]
+    assert "does not compile" in said["webots"] and "does not compile" in said["webots_bytes"], said
+    assert "world.run(0.1)" not in "".join(said.values()), "the hidden test's text"
+
+
+def test_a_program_may_share_files_of_its_submission_and_is_no_link_out_of_it(small, command):
+    for name, below in (("shares", "#include \"../common/n.h\"\n"), ("far", "#include \"../../good/n.h\"\n")):
+        for folder in ("p", "common"):
+            (small / "class" / name / folder).mkdir(parents=True)
+        (small / "class" / name / "common" / "n.h").write_text("volatile int n = 1;\n")
+        (small / "class" / name / "p" / "main.c").write_text(below + "int main(void) { while (1) ; }\n")
+    (small / "class" / "leads_out").mkdir()
+    (small / "class" / "leads_out" / "p").symlink_to(small / "tests")
+    done = command("grade", "tests", "--submissions", "class", "--program", "p", cwd=small)
+    assert re.search(r"^shares +pass +1$", done.stdout, re.M) and re.search(r"^far +FAIL +0$", done.stdout, re.M), done.stdout + done.stderr
+    assert f"leads_out: got a link to {small}/tests for 'p', expected a folder of the submission" in done.stdout
+
+
 def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command):
     tests = tmp_path / "tests"
     tests.mkdir()
