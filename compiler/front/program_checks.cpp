@@ -65,13 +65,13 @@ struct Range {
   const char* what;
   const char* then;
 };
-constexpr const char* kReadsBehind = "what lies behind the array is read";
+constexpr const char* kReturns0 = "the library returns 0, but for 8 and 9 of a turret at selector 10";
 constexpr const char* kTakesNearest = "the library takes the nearest of these";
 constexpr Range kRanges[] = {
     {"e_set_led", 0, 0, 8, "LED", "the library sets all eight"},
-    {"e_get_prox", 0, 0, 7, "sensor", kReadsBehind},
-    {"e_get_calibrated_prox", 0, 0, 7, "sensor", kReadsBehind},
-    {"e_get_ambient_light", 0, 0, 7, "sensor", kReadsBehind},
+    {"e_get_prox", 0, 0, 7, "sensor", kReturns0},
+    {"e_get_calibrated_prox", 0, 0, 7, "sensor", kReturns0},
+    {"e_get_ambient_light", 0, 0, 7, "sensor", kReturns0},
     {"e_set_speed_left", 0, -1000, 1000, "speed", kTakesNearest},
     {"e_set_speed_right", 0, -1000, 1000, "speed", kTakesNearest},
     {"e_set_speed", 0, -1000, 1000, "speed", "the library leaves the speed as it is"},

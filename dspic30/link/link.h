@@ -24,6 +24,7 @@
 #include <vector>
 
 #include "dspic30/load/code_map.h"
+#include "dspic30/memory/host_places.h"
 
 namespace dspic::link {
 
@@ -46,7 +47,7 @@ struct Options {
   /// What objects outside of archives ask for by the first name is the second, both as in C.
   std::map<std::string, std::string> renames;
   std::map<std::string, std::string> library_renames;  ///< the same for what archives ask for
-  unsigned heap_bytes = 512;                           ///< for malloc(), if it is used
+  unsigned heap_bytes = kHeapBytes;                    ///< for malloc(), if it is used
   unsigned gap_bytes = 0;  ///< behind each variable, where there is room; not 0: of an image to be checked
   /// Object to source, archive to its name for people. Line tables may have been written
   /// for a copy elsewhere.

@@ -13,6 +13,9 @@ inline constexpr unsigned kMostHostFunctions = 256;
 inline constexpr unsigned kHostHandlerReturn = kHostStart + 2 * kMostHostFunctions;
 inline constexpr unsigned kHostEnd = kHostHandlerReturn + 2;
 
+/// Of a program that uses malloc(), and of the agendas' nodes, whoever plays them.
+inline constexpr unsigned kHeapBytes = 512;
+
 inline constexpr bool is_host_place(unsigned address) { return address >= kHostStart && address < kHostEnd; }
 
 /// An absolute symbol of an image that is linked with functions of the host: the RAM address at which plain

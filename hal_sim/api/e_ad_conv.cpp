@@ -8,7 +8,7 @@ namespace api {
 
 namespace {
 
-constexpr int kMicroOnly = 1, kGumstixPosition = 10;
+constexpr int kMicroOnly = 1;
 constexpr unsigned kAdpcfg = dspic::sfr("ADPCFG"), kIpc2 = dspic::sfr("IPC2");
 constexpr unsigned kConverterBit = 1u << 11;  // ADC [DS70143 5]
 constexpr unsigned kConverterPriority = 0x7000, kGumstixPriority = 0x6000;
@@ -23,7 +23,7 @@ HostResult HostLibrary::e_init_ad_scan(const Call& call) {
     effect(call);
     const bool micro_only = (call.word(0) & 0xFF) == kMicroOnly;
     const int selector = board_.selector() & 15;
-    const bool five_pairs = selector == kGumstixPosition;
+    const bool five_pairs = selector == drivers::kGumstixPosition;
     variables_.started(selector);
     cpu.write16(kAdpcfg, five_pairs ? 0 : kDebuggersInputs);
     if (five_pairs) cpu.write16(kIpc2, (cpu.read16(kIpc2) & ~kConverterPriority) | kGumstixPriority);

@@ -4,6 +4,8 @@
 #pragma once
 #include <vector>
 
+#include "dspic30/memory/host_places.h"
+
 namespace api {
 
 class NodeHeap {
@@ -23,7 +25,7 @@ class NodeHeap {
 
  private:
   static constexpr unsigned kNode = 12, kHeader = 4, kRest = 4;  // bytes: a node's payload; see malloc.c
-  static constexpr unsigned kAll = 2048;                         // TP_HEAP_BYTES
+  static constexpr unsigned kAll = dspic::kHeapBytes;
   struct Block {
     unsigned bytes = 0;
     const void* key = nullptr;  // null: it is free

@@ -433,7 +433,10 @@ void ChipRunner::run_watched(Cycle end) {
     step.slept = processor_->is_asleep();
     const int nesting = device().interrupts().nesting();
     const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
-    if (const auto kind = processor_->run(step.slept ? end : step.begin + 1)) {
+    // asleep it goes on to what may wake it, and from there by instructions again
+    const Cycle until =
+        step.slept ? std::min(end, std::max(processor_->idle_until(), step.begin + 1)) : step.begin + 1;
+    if (const auto kind = processor_->run(until)) {
       for (StepWatch* watch : watches_) watch->led_to_reset(step.pc);
       reset(*kind);
       continue;

@@ -160,7 +160,7 @@ class ChipRunner final : public host::Runner,
   int open_handlers_ = 0, agenda_depth_ = 0;      // how many when it was called
   mutable Cycle asked_since_ = dspic::kNever;     // the wait that was looked at last
   mutable std::optional<board::Diagnosis> wait_;  // what is told of it
-  struct OwnResets {  // by the program's own RESET
+  struct OwnResets {                              // by the program's own RESET
     std::int64_t count = 0;
     Cycle first = 0;
     unsigned last_place = 0;

@@ -115,7 +115,7 @@ std::vector<std::string> variables_in(const host::Runner& program, const host::P
     return found;
   };
   const std::string& line = lines[static_cast<std::size_t>(place.line - 1)];
-  if (auto asked = known(last_condition(line)); !asked.empty()) return asked;
+  if (const std::string condition = last_condition(line); !condition.empty()) return known(condition);
   // a line without a condition: what it sets itself, it does not wait for
   std::vector<std::string> found = known(line);
   found.erase(std::remove_if(found.begin(), found.end(),

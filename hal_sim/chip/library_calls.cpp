@@ -20,7 +20,7 @@ constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
 constexpr double kSlow = 0.8, kOften = 200, kLeastLook_s = 0.5;
 constexpr int kLeastSlow = 20;
 constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/advance_one_timer/e_motors.c]
-constexpr int kAllLeds = 8, kProximity = 8, kAxes = 3, kMicrophones = 3;
+constexpr int kAllLeds = 8, kProximity = 8, kGumstixProximity = 10, kAxes = 3, kMicrophones = 3;
 constexpr unsigned kAdcon1 = dspic::sfr("ADCON1"), kAdon = 0x8000;
 constexpr const char* kForms[] = {"", "tp_basic_", "tp_timer3_", "tpfast_",
                                   "tp_t2_"};  // cc/driver_variants.cpp
@@ -125,9 +125,8 @@ void LibraryCalls::entered(unsigned address) {
     return static_cast<int>(static_cast<std::int16_t>(processor_.w(n)));
   };
   // Two mistakes that several functions share: an index out of range, and a scan that was never started.
-  const auto index = [&](const char* what, int count) {
-    if (processor_.w(0) >= count)
-      note_range(site, what, processor_.w(0), 0, count - 1, "what lies behind the array is read");
+  const auto index = [&](const char* what, int count, const char* then) {
+    if (processor_.w(0) >= count) note_range(site, what, processor_.w(0), 0, count - 1, then);
   };
   const auto scanned = [&] {
     if (!site.prefix.empty() || has_started(Function::StartScan)) return;
@@ -153,15 +152,16 @@ void LibraryCalls::entered(unsigned address) {
       return;
     }
     case Function::Proximity:
-      index("sensor", kProximity);
+      index("sensor", board_.selector() == drivers::kGumstixPosition ? kGumstixProximity : kProximity,
+            "the library returns 0");
       return scanned();
     case Function::Acceleration:
       if (!site.prefix.empty()) return;
-      index("axis", kAxes);
+      index("axis", kAxes, "the library returns 666");
       return scanned();
     case Function::Microphone:
       if (!site.prefix.empty()) return;
-      index("microphone", kMicrophones);
+      index("microphone", kMicrophones, "what lies behind the array is read");
       return scanned();
     case Function::Led:
       return note("LED out of range", "e_set_led()",

@@ -199,6 +199,7 @@ int ProgramPlaces::open_vector() const {
 std::string ProgramPlaces::who_runs() const {
   const unsigned here = processor_.pc_of_access(), own_code = own(here);
   const int vector = open_vector();
+  if (dspic::is_host_place(own_code)) return "; meanwhile handlers of the library ran";
   std::string text = "; meanwhile " + text_of(own_code) + " ran";
   if (vector == dspic::kNoVector) return text + " with the interrupt masked";
   const auto* function = file_.code.function_at(own_code);

@@ -21,6 +21,8 @@ inline constexpr int kPowerSaveTicks = kSpeedUnit / kPowerSaveSpeed;
 static_assert(kPowerSaveTicks == 15);
 
 // --- ADC scan
+inline constexpr int kGumstixPosition =
+    10;  // of the selector: five pairs [lib: a_d/advance_ad_scan/e_ad_conv.c]
 inline constexpr Cycle kScanSequenceCycles =
     900;  // conversions: 3, 5 or 6 channels alike [lib: a_d/advance_ad_scan/e_ad_conv.h]
 // the converter stands from a sequence's end until the handler has listed the next one's channels; the mean
