@@ -18,6 +18,9 @@ void guard_process();
 /// 0, or the exit code to end with: kInterrupted, kHostTime.
 int end_asked();
 
+/// Does what Ctrl-C does. For handlers of signals, too.
+void ask_for_end();
+
 /// kHostTime is asked for after so many seconds from now.
 void limit_host_time(double seconds);
 

@@ -20,7 +20,7 @@ constexpr const char* kHelp =
     R"(break WHERE [if EXPR]   stop at a function, file:line, line or 0xADDRESS; tbreak: once
 watch WHAT [if EXPR]    stop when a variable, register or *ADDRESS has changed
 delete [N]              a breakpoint, or all; info break lists them
-continue, c             run on; Ctrl-C pauses
+continue, c             run on; Ctrl-C pauses, twice it ends
 step, s   next, n       to the next source line, into or over calls; a number repeats
 stepi, si nexti, ni     to the next instruction, likewise
 finish                  until this function has returned
