@@ -184,7 +184,12 @@ void guard_process() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART | SA_ONSTACK;
   sigemptyset(&action.sa_mask);
-  for (int s : {SIGINT, SIGTERM}) sigaction(s, &action, nullptr);
+  // SIGQUIT is somebody's Ctrl-\, too; who wants a core file has SIGABRT
+  for (int s : {SIGINT, SIGTERM, SIGQUIT}) sigaction(s, &action, nullptr);
+  // nohup(1) has the end of the terminal ignored
+  struct sigaction inherited {};
+  if (sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 int end_asked() { return asked.load(std::memory_order_relaxed); }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Ends the process when the user (Ctrl-C, SIGTERM) or --host-limit wants it ended, whatever runs. A verb that
-// looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a
+// Ends the process when somebody (Ctrl-C, SIGTERM, SIGQUIT, a terminal that is closed) or --host-limit wants it
+// ended, whatever runs. A verb that looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a
 // supervisor or the simulator loops for ever, is ended by a thread of its own, with the documented exit code.
 //
 // Compilers and other children end at once.
