@@ -15,6 +15,7 @@
 #include "hal_sim/inputs/recording.h"
 #include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
+#include "outputs/diagnosis_lines.h"
 #include "outputs/progress.h"
 #include "outputs/run_files.h"
 #include "outputs/serial_text.h"
@@ -132,6 +133,8 @@ class CommandRun {
   sim::Clicks obey_keys(sim::Clicks look);
   void keep_pace() const;
   void say(const std::string& line);
+  /// False: there were some.
+  bool tell_diagnoses(const outputs::Summary& summary) const;
   int exit_code(int end_code, bool is_clean, bool kept_budgets) const;
   double wall_s() const { return std::chrono::duration<double>(Wall::now() - start_).count(); }
   /// Without the time that it was paused.
@@ -408,17 +411,27 @@ int CommandRun::close() {
     }
   const bool kept_budgets = profile_->tell();
   for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
-  bool is_clean = true;
-  for (const auto& r : summary.robots)
-    for (const auto& d : r.diagnoses) {
-      is_clean = false;
-      if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
-    }
+  const bool is_clean = tell_diagnoses(summary);
   if (end_code == kHostTime)
     complain({fmt::format(
         "twinpuck: host time: got {:.3f} s, expected at most {:g} s; outputs hold what was simulated",
         std::chrono::duration<double>(Wall::now() - began_).count(), a_.host_limit_s)});
   return exit_code(end_code, is_clean, kept_budgets);
+}
+
+bool CommandRun::tell_diagnoses(const outputs::Summary& summary) const {
+  outputs::DiagnosisLines lines;
+  bool is_clean = true;
+  const auto tell = [this](const std::vector<std::string>& all) {
+    for (const std::string& line : all)
+      if (!a_.quiet || a_.strict) std::cerr << line << '\n';
+  };
+  for (const auto& r : summary.robots) {
+    is_clean = is_clean && r.diagnoses.empty();
+    tell(lines.of(r.name, r.diagnoses));
+  }
+  tell(lines.left_out());
+  return is_clean;
 }
 
 int CommandRun::exit_code(int end_code, bool is_clean, bool kept_budgets) const {

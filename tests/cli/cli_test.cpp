@@ -128,6 +128,23 @@ TEST_F(Command, every_signal_that_asks_for_the_end_keeps_the_outputs) {
   EXPECT_EQ(kept.exit_code, 0) << kept.text;
 }
 
+// 107 KB, a line for each register
+TEST_F(Command, a_program_that_writes_everywhere_is_told_in_few_lines) {
+  write("wipe/main.c",
+        "int main(void) { unsigned a; for (a = 0x7fe; a >= 0x82; a -= 2) *(volatile unsigned*)a = 1; while "
+        "(1); }\n");
+  const Said s = twinpuck("run empty --for 0.1 --fw '*=" + path("wipe") + "' --summary " + path("s.json"));
+  EXPECT_LT(std::count(s.text.begin(), s.text.end(), '\n'), 50) << s.text;
+  EXPECT_NE(
+      s.text.find(": 0x0776 to 0x07fe: unimplemented address: 0x0776 to 0x07fe: no register of this chip; "
+                  "the write is ignored ("),
+      std::string::npos)
+      << s.text;
+  EXPECT_NE(s.text.find(" more: unimplemented address; --summary FILE lists all\n"), std::string::npos)
+      << s.text;
+  EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["diagnoses"].size(), 100u);
+}
+
 TEST_F(Command, a_killed_run_leaves_a_readable_recording) {
   twinpuck("run maze --for 1000 --speed 20 -q --record " + path("r.csv"),
            signal_once("KILL", path("r.csv"), 2000));
