@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -153,7 +154,8 @@ std::string Monitor::go(const std::string& rest) {
   double value = std::strtod(rest.c_str(), &end);
   const std::string unit = trimmed(end);
   if (unit == "s") value *= static_cast<double>(board::kFcyHz);
-  if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15))
+  if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15) ||
+      (unit.empty() && value != std::floor(value)))
     return "goto: got '" + rest + "', expected a time such as 1.5s, or a cycle\n";
   return told(session_.go_to(static_cast<Cycle>(value), idle_));
 }
