@@ -19,6 +19,7 @@
 #include "outputs/summary.h"
 #include "sim_core/base/input_file.h"
 #include "tools/command_line.h"
+#include "tools/printable.h"
 #include "tools/run_guard.h"
 #include "tools/verbs.h"
 
@@ -142,20 +143,25 @@ bool read_line(std::istream& in, std::string& line, std::vector<std::string>& pr
 /// Carries out commands until they end, or somebody wants an end.
 int obey(debug::Session& session, std::istream& in, bool is_person) {
   if (is_person) std::signal(SIGINT, on_interrupt);
-  debug::Monitor monitor(session, [] { return end_asked() != 0 || std::exchange(pause_asked, 0) != 0; });
+  debug::Monitor monitor(
+      session, [] { return end_asked() != 0 || is_stdout_lost() || std::exchange(pause_asked, 0) != 0; });
   std::cout << outputs::programs_text(session.twin()) << session.robot() << ": " << monitor.where();
   if (is_person) std::cout << "help lists the commands\n";
   std::vector<std::string> problems;
-  for (std::string line; !monitor.wants_end() && end_asked() == 0;) {
+  for (std::string line; !monitor.wants_end() && end_asked() == 0 && !is_stdout_lost();) {
     if (is_person) std::cout << "(twinpuck) " << std::flush;
     if (!read_line(in, line, problems)) break;
-    if (!is_person) std::cout << "> " << line << '\n';
-    pause_asked = 0;  // what was typed before is no wish to pause this
+    if (!is_person) std::cout << "> " << line << std::endl;  // before what may take long
+    pause_asked = 0;                                         // what was typed before is no wish to pause this
     const GracefulEnd guard([] {});
     std::cout << monitor.execute(line) << std::flush;
   }
   complain(problems);
-  return end_asked() != 0 ? end_asked() : problems.empty() ? kPass : kBadInput;
+  if (end_asked() != 0) return end_asked();
+  if (!problems.empty()) return kBadInput;
+  if (monitor.wants_end() || !is_stdout_lost()) return kPass;
+  complain({"standard output: cannot be written any more; debugging ended"});
+  return kInvalidRun;
 }
 
 int debug_in_terminal(const DebugArguments& a) {

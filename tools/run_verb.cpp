@@ -26,6 +26,7 @@
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
 #include "tools/output_options.h"
+#include "tools/printable.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
 #include "tools/verbs.h"
@@ -38,6 +39,7 @@ using Wall = std::chrono::steady_clock;
 constexpr double kPictureEvery_s = 0.05;
 constexpr double kLineEvery_s = 1;       // on a terminal that obeys nothing
 constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
+constexpr double kReaderEvery_s = 0.1;   // of looks whether somebody reads what is said
 
 struct RunArguments {
   std::string world;
@@ -132,6 +134,8 @@ class CommandRun {
   /// p and n, where stdin is a terminal; waits while the run is paused. The ticks to go on by.
   sim::Clicks obey_keys(sim::Clicks look);
   void keep_pace() const;
+  /// Nobody reads what is said, nor will read the summary.
+  bool has_no_reader();
   void say(const std::string& line);
   /// False: there were some.
   bool tell_diagnoses(const outputs::Summary& summary) const;
@@ -157,7 +161,7 @@ class CommandRun {
   std::unique_ptr<outputs::TerminalScreen> screen_;
   std::unique_ptr<outputs::SerialText> serial_;
   sim::Clicks end_ = 0;
-  double next_picture_s_ = 0, took_s_ = 0, paused_s_ = 0;
+  double next_picture_s_ = 0, next_reader_s_ = 0, took_s_ = 0, paused_s_ = 0;
   bool is_paused_ = false;
   // while programs run, the outputs are whole up to the last tick
   std::atomic<bool> is_stepping_{false};
@@ -306,7 +310,7 @@ void CommandRun::loop() {
     const sim::Clicks by = screen_ ? obey_keys(look) : look;
     if (end_asked()) break;
     step(by);
-    if (end_asked() || outputs_->failed()) break;
+    if (end_asked() || outputs_->failed() || has_no_reader()) break;
     show();
     if (speed_ > 0) keep_pace();
   }
@@ -371,6 +375,15 @@ void CommandRun::keep_pace() const {
   const double due_s = now_s() / speed_;
   for (double ahead_s; (ahead_s = due_s - run_s()) > 0 && !end_asked() && !is_paused_;)
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
+}
+
+bool CommandRun::has_no_reader() {
+  if (a_.quiet || wall_s() < next_reader_s_) return false;
+  next_reader_s_ = wall_s() + kReaderEvery_s;
+  if (!is_stdout_lost()) return false;
+  problems_.push_back(
+      fmt::format("standard output: cannot be written any more; the run ended at {:.3f} s", now_s()));
+  return true;
 }
 
 // --- closing
