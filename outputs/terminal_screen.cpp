@@ -17,8 +17,7 @@ namespace {
 
 constexpr char kTake[] = "\x1b[?1049h\x1b[?25l\x1b[2J";
 constexpr char kGiveBack[] = "\x1b[0m\x1b[?25h\x1b[?1049l";
-constexpr int kShortGap = 4;                         // characters
-constexpr int kEnds[] = {SIGHUP, SIGQUIT, SIGABRT};  // nobody else gives the terminal back then
+constexpr int kShortGap = 4;  // characters
 
 // signals and the guard's thread come to these
 std::atomic<bool> is_taken{false}, is_raw{false};
@@ -32,10 +31,10 @@ void write_all(const char* bytes, std::size_t count) {
   }
 }
 
-void on_end(int signal_number) {
+void on_abort(int) {
   TerminalScreen::give_back();
-  signal(signal_number, SIG_DFL);
-  raise(signal_number);
+  signal(SIGABRT, SIG_DFL);
+  raise(SIGABRT);
 }
 
 bool says(const char* name, const char* value) {
@@ -99,7 +98,7 @@ TerminalScreen::TerminalScreen(TerminalKind kind) : kind_(kind) {
     has_keys_ = tcsetattr(STDIN_FILENO, TCSANOW, &now) == 0;
     is_raw = has_keys_;
   }
-  for (const int s : kEnds) signal(s, on_end);
+  signal(SIGABRT, on_abort);  // nobody else gives the terminal back then
   std::atexit(give_back);
   if (kind_.is_dumb) return;
   is_taken = true;
@@ -108,7 +107,7 @@ TerminalScreen::TerminalScreen(TerminalKind kind) : kind_(kind) {
 
 TerminalScreen::~TerminalScreen() {
   give_back();
-  for (const int s : kEnds) signal(s, SIG_DFL);
+  signal(SIGABRT, SIG_DFL);
 }
 
 TerminalSize TerminalScreen::size() {

@@ -7,15 +7,20 @@
 
 #include <algorithm>
 #include <csignal>
+#include <ctime>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
+#include <sstream>
+#include <utility>
 
 #include "hal_sim/debug/dap.h"
 #include "hal_sim/debug/monitor.h"
 #include "outputs/serial_text.h"
 #include "outputs/summary.h"
+#include "sim_core/base/input_file.h"
 #include "tools/command_line.h"
+#include "tools/printable.h"
+#include "tools/run_guard.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -25,6 +30,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kMostSeconds = 1e7;
+constexpr std::size_t kLongestLine = 64u << 10, kLongestFile = 1u << 20;  // bytes of commands
 
 struct DebugArguments {
   std::string world, robot, commands, hal, optimisation;
@@ -41,7 +47,20 @@ bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
+// --- Ctrl-C at a terminal
+
 volatile std::sig_atomic_t pause_asked = 0;
+volatile std::time_t asked_ms = 0;  // when, or 0
+
+/// The first pauses what runs. A second one that finds it without effect, or comes within a second, ends.
+void on_interrupt(int) {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const std::time_t now_ms = now.tv_sec * 1000 + now.tv_nsec / 1'000'000;
+  if (pause_asked || (asked_ms != 0 && now_ms - asked_ms < 1000)) ask_for_end();
+  pause_asked = 1;
+  asked_ms = now_ms;
+}
 
 /// What a world and its robots are, of the command line.
 bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<std::string>& problems) {
@@ -109,35 +128,60 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
   return set_up(a, setup, problems) ? debug::Session::open(std::move(setup), problems) : nullptr;
 }
 
+/// The next line of commands. False: there is none, or what comes is none, which `problems` says.
+bool read_line(std::istream& in, std::string& line, std::vector<std::string>& problems) {
+  line.resize(kLongestLine + 1);
+  in.getline(line.data(), static_cast<std::streamsize>(line.size()));
+  if (in.bad() || in.gcount() == 0) return false;
+  if (in.fail())
+    problems.push_back(
+        fmt::format("commands: got a line of more than {} bytes, expected at most that", kLongestLine));
+  line.resize(static_cast<std::size_t>(in.gcount()) - (in.eof() ? 0 : 1));
+  return problems.empty();
+}
+
+/// Carries out commands until they end, or somebody wants an end.
+int obey(debug::Session& session, std::istream& in, bool is_person) {
+  if (is_person) std::signal(SIGINT, on_interrupt);
+  debug::Monitor monitor(
+      session, [] { return end_asked() != 0 || is_stdout_lost() || std::exchange(pause_asked, 0) != 0; });
+  std::cout << outputs::programs_text(session.twin()) << session.robot() << ": " << monitor.where();
+  if (is_person) std::cout << "help lists the commands\n";
+  std::vector<std::string> problems;
+  for (std::string line; !monitor.wants_end() && end_asked() == 0 && !is_stdout_lost();) {
+    if (is_person) std::cout << "(twinpuck) " << std::flush;
+    if (!read_line(in, line, problems)) break;
+    if (!is_person) std::cout << "> " << line << std::endl;  // before what may take long
+    pause_asked = 0;                                         // what was typed before is no wish to pause this
+    const GracefulEnd guard([] {});
+    std::cout << monitor.execute(line) << std::flush;
+  }
+  complain(problems);
+  if (end_asked() != 0) return end_asked();
+  if (!problems.empty()) return kBadInput;
+  if (monitor.wants_end() || !is_stdout_lost()) return kPass;
+  complain({"standard output: cannot be written any more; debugging ended"});
+  return kInvalidRun;
+}
+
 int debug_in_terminal(const DebugArguments& a) {
   std::vector<std::string> problems;
+  std::string commands;
+  if (!a.commands.empty()) {
+    const std::string wrong = sim::read_input_file(a.commands, kLongestFile, commands);
+    if (!wrong.empty()) problems.push_back(a.commands + ": -x: " + wrong);
+  }
   debug::Session::Setup setup;
   listen(setup, [](const std::string& line) { std::cout << line << '\n'; });
-  if (!set_up(a, setup, problems)) {
+  if (!problems.empty() || !set_up(a, setup, problems)) {
     complain(problems);
     return kBadInput;
   }
   const auto session = debug::Session::open(std::move(setup), problems);
   complain(problems);
   if (!session) return kBadInput;
-  std::signal(SIGINT, [](int) { pause_asked = 1; });
-  debug::Monitor monitor(*session, [] { return std::exchange(pause_asked, 0) != 0; });
-  std::ifstream file(a.commands);
-  if (!a.commands.empty() && !file) {
-    complain({a.commands + ": -x: cannot be read, expected a file of commands"});
-    return kBadInput;
-  }
-  std::istream& in = a.commands.empty() ? std::cin : file;
-  const bool is_person = a.commands.empty() && isatty(0) != 0;
-  std::cout << outputs::programs_text(session->twin()) << session->robot() << ": " << monitor.where();
-  if (is_person) std::cout << "help lists the commands\n";
-  for (std::string line; !monitor.wants_end();) {
-    if (is_person) std::cout << "(twinpuck) " << std::flush;
-    if (!std::getline(in, line)) break;
-    if (!is_person) std::cout << "> " << line << '\n';
-    std::cout << monitor.execute(line) << std::flush;
-  }
-  return kPass;
+  std::istringstream file(commands);
+  return a.commands.empty() ? obey(*session, std::cin, isatty(0) != 0) : obey(*session, file, false);
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "sim_core/base/file_uses.h"
 #include "tools/command_line.h"
 #include "tools/lab_replay.h"
+#include "tools/printable.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -169,6 +170,11 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
     if (!command.empty()) std::cout << "             " << command << '\n';
     std::cout << std::flush;
     one.cells.push_back(std::move(cell));
+    if (is_stdout_lost() && one.cells.size() < chosen.size()) {
+      problems.push_back("standard output: cannot be written any more; the lab ended behind " + e->id);
+      all.exercises.resize(one.cells.size());
+      break;
+    }
   }
   all.students.push_back(std::move(one));
   csv.flush();

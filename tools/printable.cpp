@@ -2,9 +2,13 @@
 #include "tools/printable.h"
 
 #include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdint>
+#include <iostream>
 
 namespace tools {
 namespace {
@@ -54,6 +58,14 @@ std::string take_printable(std::string& text, bool all) {
   }
   text.erase(0, at);
   return out;
+}
+
+bool is_stdout_lost() {
+  if (!std::cout) return true;
+  struct stat info {};
+  if (::fstat(STDOUT_FILENO, &info) != 0 || !(S_ISFIFO(info.st_mode) || S_ISSOCK(info.st_mode))) return false;
+  pollfd out{STDOUT_FILENO, 0, 0};
+  return ::poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0;
 }
 
 PrintableStream::PrintableStream(std::ostream& stream) : stream_(stream), below_(stream.rdbuf(this)) {}

@@ -14,6 +14,9 @@ namespace tools {
 /// come whole; with `all` it is written as bytes.
 std::string take_printable(std::string& text, bool all);
 
+/// Whether text for standard output goes nowhere: it could not be written, or it is a pipe that nobody reads.
+bool is_stdout_lost();
+
 /// Puts itself between a stream and its buffer, for as long as it lives.
 class PrintableStream : public std::streambuf {
  public:

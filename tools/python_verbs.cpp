@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // twinpuck test, twinpuck grade: Python's part of the product, which becomes this process.
+#include <pthread.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -40,7 +41,13 @@ int become(const char* module, const std::vector<std::string>& arguments) {
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::signal(SIGPIPE, SIG_DFL);
+  // a signal waits until Python can end as people expect it (python/twinpuck/_ending.py)
+  sigset_t ends, usual;
+  sigemptyset(&ends);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&ends, s);
+  pthread_sigmask(SIG_BLOCK, &ends, &usual);
   execvp(python.c_str(), argv.data());
+  pthread_sigmask(SIG_SETMASK, &usual, nullptr);
   complain({python + ": cannot be started: " + std::strerror(errno) +
             "; expected Python 3 (Debian: python3, python3-numpy, python3-pytest), or set TWINPUCK_PYTHON"});
   return kBadInput;

@@ -26,11 +26,13 @@ namespace {
 // for a tick or two, and the supervisors' last go: of the processor's time, since a busy PC gives little of
 // it, and at most so long for who waits for something else
 constexpr double kGraceCpu_s = 0.3, kGrace_s = 2, kLook_s = 0.05;
-constexpr double kRescue_s = 0.6;  // for stopping the threads and writing what is left
+constexpr double kRescue_s = 0.6;       // for stopping the threads and writing what is left
+constexpr long long kOneWish_ms = 100;  // timeout(1) signals a process and its group: that is no second wish
 
-std::atomic<int> asked{0};    // exit code
-std::atomic<int> signals{0};  // so far
-sem_t news;                   // posted by signals, limits and scopes
+std::atomic<int> asked{0};   // exit code
+std::atomic<int> wishes{0};  // so far
+std::atomic<long long> wished_ms{0};
+sem_t news;  // posted by wishes, limits and scopes
 
 std::mutex changing;  // what follows
 std::function<void()> rescue;
@@ -134,7 +136,7 @@ void watch() {
       continue;
     }
     cc::end_children();
-    if (!graceful || signals > 1) end_hard();
+    if (!graceful || wishes > 1) end_hard();
     if (finishing) {
       wait_for_news(nullptr);
       continue;
@@ -154,16 +156,21 @@ void watch() {
   }
 }
 
-void on_signal(int) {
+void on_signal(int) { ask_for_end(); }
+
+}  // namespace
+
+void ask_for_end() {
   const int before = errno;
   int none = 0;
   asked.compare_exchange_strong(none, kInterrupted);
-  ++signals;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  const long long now_ms = now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
+  if (now_ms - wished_ms.exchange(now_ms) > kOneWish_ms) ++wishes;
   sem_post(&news);
   errno = before;
 }
-
-}  // namespace
 
 void guard_process() {
   CHECK(sem_init(&news, 0, 0) == 0, "cannot make a semaphore");
@@ -177,7 +184,12 @@ void guard_process() {
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART | SA_ONSTACK;
   sigemptyset(&action.sa_mask);
-  for (int s : {SIGINT, SIGTERM}) sigaction(s, &action, nullptr);
+  // SIGQUIT is somebody's Ctrl-\, too; who wants a core file has SIGABRT
+  for (int s : {SIGINT, SIGTERM, SIGQUIT}) sigaction(s, &action, nullptr);
+  // nohup(1) has the end of the terminal ignored
+  struct sigaction inherited {};
+  if (sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
+    sigaction(SIGHUP, &action, nullptr);
 }
 
 int end_asked() { return asked.load(std::memory_order_relaxed); }

@@ -15,6 +15,7 @@
 #include "hal_sim/inputs/recording.h"
 #include "hal_sim/runs/run.h"
 #include "hal_sim/twin/world_file.h"
+#include "outputs/diagnosis_lines.h"
 #include "outputs/progress.h"
 #include "outputs/run_files.h"
 #include "outputs/serial_text.h"
@@ -25,6 +26,7 @@
 #include "sim_core/load/world_loader.h"
 #include "tools/command_line.h"
 #include "tools/output_options.h"
+#include "tools/printable.h"
 #include "tools/remote_keys.h"
 #include "tools/run_guard.h"
 #include "tools/verbs.h"
@@ -37,6 +39,7 @@ using Wall = std::chrono::steady_clock;
 constexpr double kPictureEvery_s = 0.05;
 constexpr double kLineEvery_s = 1;       // on a terminal that obeys nothing
 constexpr double kLongestSleep_s = 0.1;  // with a look whether the end was asked for
+constexpr double kReaderEvery_s = 0.1;   // of looks whether somebody reads what is said
 
 struct RunArguments {
   std::string world;
@@ -131,7 +134,11 @@ class CommandRun {
   /// p and n, where stdin is a terminal; waits while the run is paused. The ticks to go on by.
   sim::Clicks obey_keys(sim::Clicks look);
   void keep_pace() const;
+  /// Nobody reads what is said, nor will read the summary.
+  bool has_no_reader();
   void say(const std::string& line);
+  /// False: there were some.
+  bool tell_diagnoses(const outputs::Summary& summary) const;
   int exit_code(int end_code, bool is_clean, bool kept_budgets) const;
   double wall_s() const { return std::chrono::duration<double>(Wall::now() - start_).count(); }
   /// Without the time that it was paused.
@@ -154,7 +161,7 @@ class CommandRun {
   std::unique_ptr<outputs::TerminalScreen> screen_;
   std::unique_ptr<outputs::SerialText> serial_;
   sim::Clicks end_ = 0;
-  double next_picture_s_ = 0, took_s_ = 0, paused_s_ = 0;
+  double next_picture_s_ = 0, next_reader_s_ = 0, took_s_ = 0, paused_s_ = 0;
   bool is_paused_ = false;
   // while programs run, the outputs are whole up to the last tick
   std::atomic<bool> is_stepping_{false};
@@ -303,7 +310,7 @@ void CommandRun::loop() {
     const sim::Clicks by = screen_ ? obey_keys(look) : look;
     if (end_asked()) break;
     step(by);
-    if (end_asked() || outputs_->failed()) break;
+    if (end_asked() || outputs_->failed() || has_no_reader()) break;
     show();
     if (speed_ > 0) keep_pace();
   }
@@ -370,6 +377,15 @@ void CommandRun::keep_pace() const {
     std::this_thread::sleep_for(std::chrono::duration<double>(std::min(ahead_s, kLongestSleep_s)));
 }
 
+bool CommandRun::has_no_reader() {
+  if (a_.quiet || wall_s() < next_reader_s_) return false;
+  next_reader_s_ = wall_s() + kReaderEvery_s;
+  if (!is_stdout_lost()) return false;
+  problems_.push_back(
+      fmt::format("standard output: cannot be written any more; the run ended at {:.3f} s", now_s()));
+  return true;
+}
+
 // --- closing
 
 int CommandRun::close() {
@@ -408,17 +424,27 @@ int CommandRun::close() {
     }
   const bool kept_budgets = profile_->tell();
   for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
-  bool is_clean = true;
-  for (const auto& r : summary.robots)
-    for (const auto& d : r.diagnoses) {
-      is_clean = false;
-      if (!a_.quiet || a_.strict) std::cerr << outputs::to_text(r.name, d) << '\n';
-    }
+  const bool is_clean = tell_diagnoses(summary);
   if (end_code == kHostTime)
     complain({fmt::format(
         "twinpuck: host time: got {:.3f} s, expected at most {:g} s; outputs hold what was simulated",
         std::chrono::duration<double>(Wall::now() - began_).count(), a_.host_limit_s)});
   return exit_code(end_code, is_clean, kept_budgets);
+}
+
+bool CommandRun::tell_diagnoses(const outputs::Summary& summary) const {
+  outputs::DiagnosisLines lines;
+  bool is_clean = true;
+  const auto tell = [this](const std::vector<std::string>& all) {
+    for (const std::string& line : all)
+      if (!a_.quiet || a_.strict) std::cerr << line << '\n';
+  };
+  for (const auto& r : summary.robots) {
+    is_clean = is_clean && r.diagnoses.empty();
+    tell(lines.of(r.name, r.diagnoses));
+  }
+  tell(lines.left_out());
+  return is_clean;
 }
 
 int CommandRun::exit_code(int end_code, bool is_clean, bool kept_budgets) const {

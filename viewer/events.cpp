@@ -36,13 +36,15 @@ Json diagnoses_json(const twin::Twin& twin) {
   for (int r = 0; r < twin.robots() && out.size() < kMostDiagnoses; ++r) {
     const host::Runner* program = twin.mind(r).runner();
     if (!program) continue;
-    for (const board::Diagnosis& d : program->diagnoses())
+    for (const board::Diagnosis& d : program->diagnoses()) {
+      if (out.size() >= kMostDiagnoses) break;
       out.push_back({{"robot", program->name()},
                      {"time_s", d.first_s},
                      {"cause", d.cause},
                      {"place", d.place},
                      {"text", d.message},
                      {"hint", d.hint}});
+    }
   }
   return out;
 }

@@ -42,7 +42,7 @@ void become(char* const* argv, int output, int input, pid_t parent, const sigset
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // it has ended meanwhile
-  for (const int s : {SIGINT, SIGTERM, SIGHUP}) signal(s, SIG_DFL);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(s, SIG_DFL);
   bound_memory(kMostChildBytes);
   if (dup2(input, 0) >= 0 && dup2(output, 1) >= 0 && dup2(output, 2) >= 0) {
     sigprocmask(SIG_SETMASK, &before, nullptr);
@@ -129,7 +129,7 @@ ChildGroup::~ChildGroup() { forget_child(slot_); }
 void lead_child_group(pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  for (const int s : {SIGINT, SIGTERM}) signal(s, SIG_DFL);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) signal(s, SIG_DFL);
   if (getppid() != parent) _exit(127);
 }
 

@@ -2,10 +2,6 @@
 #include "hal_sim/debug/dap.h"
 
 #include <fmt/format.h>
-#include <poll.h>
-#include <unistd.h>
-
-#include <iostream>
 
 #include "dspic30/asm/expression.h"
 #include "dspic30/memory/sfr_table.h"
@@ -17,7 +13,7 @@ namespace {
 
 using dspic::assembly::trimmed;
 
-constexpr std::size_t kLongestMessage = 16u << 20;
+constexpr int kThread = 1;  // there is one
 enum Scope { kRegisters = 1, kVariables, kPeripherals };
 
 /// "0x900", or a number alone, of that key, with its offset. False: it is none.
@@ -30,70 +26,13 @@ bool reference_of(const nlohmann::json& arguments, const char* key, std::int64_t
 
 std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
 
+/// False: there is an id of that name, and it is none from `first` to `last`.
+bool is_id(const nlohmann::json& arguments, const char* key, std::int64_t first, std::int64_t last) {
+  const auto id = arguments.find(key);
+  return id == arguments.end() || (id->is_number_integer() && *id >= first && *id <= last);
+}
+
 }  // namespace
-
-// --- the line
-
-bool DapLine::has_input() {
-  pollfd one{in_, POLLIN, 0};
-  return !buffer_.empty() || poll(&one, 1, 0) > 0;
-}
-
-bool DapLine::read_message(nlohmann::json& message) {
-  const auto more = [this] {
-    char bytes[4096];
-    const ssize_t n = ::read(in_, bytes, sizeof bytes);
-    if (n > 0) buffer_.append(bytes, static_cast<std::size_t>(n));
-    return n > 0;
-  };
-  std::size_t end;
-  while ((end = buffer_.find("\r\n\r\n")) == std::string::npos)
-    if (buffer_.size() > kLongestMessage || !more()) return false;
-  const std::string key = "Content-Length:";
-  const std::size_t at = buffer_.find(key);
-  const std::size_t length =
-      at < end ? std::strtoul(buffer_.c_str() + at + key.size(), nullptr, 10) : kLongestMessage + 1;
-  is_broken_ = length > kLongestMessage;
-  if (is_broken_) return false;
-  while (buffer_.size() < end + 4 + length)
-    if (!more()) return false;
-  message = nlohmann::json::parse(buffer_.substr(end + 4, length), nullptr, false);
-  buffer_.erase(0, end + 4 + length);
-  is_broken_ = !message.is_object() || !message.contains("command") || !message["command"].is_string() ||
-               !message.contains("seq") || !message["seq"].is_number_unsigned();
-  return !is_broken_;
-}
-
-void DapLine::send(nlohmann::json message) {
-  const std::lock_guard<std::mutex> lock(writing_);
-  message["seq"] = ++sequence_;
-  const std::string text = message.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-  const std::string whole = fmt::format("Content-Length: {}\r\n\r\n{}", text.size(), text);
-  for (std::size_t sent = 0; sent < whole.size();) {
-    const ssize_t n = ::write(out_, whole.data() + sent, whole.size() - sent);
-    if (n <= 0) return;  // the editor has gone; read_message() ends
-    sent += static_cast<std::size_t>(n);
-  }
-}
-
-bool DapLine::serve(DapServer::Open open) {
-  DapServer server([this](nlohmann::json message) { send(std::move(message)); },
-                   [this] { return has_input(); }, std::move(open));
-  nlohmann::json message;
-  while (!server.has_ended()) {
-    if (server.runs()) server.run_on();
-    // it has stopped, and somebody will ask something; or somebody has
-    if (!read_message(message)) {
-      if (is_broken_)
-        std::cerr << "dap: got something else, expected messages of the Debug Adapter Protocol: "
-                     "Content-Length, and "
-                     "an object with seq and command\n";
-      return !is_broken_;
-    }
-    server.handle(message);
-  }
-  return true;
-}
 
 void DapServer::send_event(const std::string& event, Json body) {
   send_({{"type", "event"}, {"event", event}, {"body", std::move(body)}});
@@ -141,7 +80,7 @@ void DapServer::run_on() {
       {Stop::Why::Breakpoint, "breakpoint"}, {Stop::Why::Pause, "pause"},
       {Stop::Why::Trap, "exception"},        {Stop::Why::Watchpoint, "data breakpoint"},
       {Stop::Why::Reset, "exception"}};
-  Json body{{"reason", kReasons.at(stop.why)}, {"threadId", 1}, {"allThreadsStopped", true}};
+  Json body{{"reason", kReasons.at(stop.why)}, {"threadId", kThread}, {"allThreadsStopped", true}};
   if (!stop.text.empty()) body["description"] = body["text"] = stop.text;
   if (stop.id > 0) body["hitBreakpointIds"] = {stop.id};
   send_event("stopped", body);
@@ -173,7 +112,9 @@ void DapServer::launch(const Json& request) {
 void DapServer::answer(const Json& request) {
   const std::string command = request["command"];
   const Json arguments = request.value("arguments", Json::object());
-  if (command == "initialize")
+  if (command == "initialize") {
+    first_line_ = arguments.value("linesStartAt1", true) ? 1 : 0;
+    first_column_ = arguments.value("columnsStartAt1", true) ? 1 : 0;
     return respond(request, {{"supportsConfigurationDoneRequest", true},
                              {"supportsFunctionBreakpoints", true},
                              {"supportsConditionalBreakpoints", true},
@@ -186,6 +127,7 @@ void DapServer::answer(const Json& request) {
                              {"supportsDisassembleRequest", true},
                              {"supportsInstructionBreakpoints", true},
                              {"supportsTerminateRequest", true}});
+  }
   // Requests that need no program.
   if (command == "disconnect" || command == "terminate") {
     respond(request);
@@ -194,13 +136,21 @@ void DapServer::answer(const Json& request) {
   }
   if (command == "launch") return launch(request);
   if (!session_) return refuse(request, command + ": nothing is launched");
+  if (!is_id(arguments, "threadId", kThread, kThread))
+    return refuse(request, fmt::format("threadId: got {}, expected {}, the robot's program",
+                                       arguments["threadId"].dump(), kThread));
+  if (const std::int64_t frames =
+          arguments.contains("frameId") ? static_cast<std::int64_t>(session_->frames().size()) : 0;
+      !is_id(arguments, "frameId", 0, std::max<std::int64_t>(1, frames) - 1))
+    return refuse(request, fmt::format("frameId: got {}, expected 0 to {}, as stackTrace has them",
+                                       arguments["frameId"].dump(), std::max<std::int64_t>(1, frames) - 1));
   if (command == "setBreakpoints") return set_breakpoints(request);
   if (command == "setFunctionBreakpoints") return set_function_breakpoints(request);
   if (command == "dataBreakpointInfo") return data_breakpoint_info(request);
   if (command == "setDataBreakpoints") return set_data_breakpoints(request);
   if (command == "setExceptionBreakpoints") return respond(request);  // traps always stop
   if (command == "threads")
-    return respond(request, {{"threads", {{{"id", 1}, {"name", session_->robot()}}}}});
+    return respond(request, {{"threads", {{{"id", kThread}, {"name", session_->robot()}}}}});
   if (command == "stackTrace") return stack_trace(request);
   if (command == "scopes")
     return respond(
@@ -218,7 +168,7 @@ void DapServer::answer(const Json& request) {
   if (command == "configurationDone") {
     respond(request);
     if (stops_on_entry_)
-      return send_event("stopped", {{"reason", "entry"}, {"threadId", 1}, {"allThreadsStopped", true}});
+      return send_event("stopped", {{"reason", "entry"}, {"threadId", kThread}, {"allThreadsStopped", true}});
     return begin_run(Plan::Continue);
   }
   if (command == "pause") {
@@ -248,7 +198,7 @@ nlohmann::json DapServer::told(const Breakpoint* b, const std::string& error) {
   Json out{{"verified", true}, {"id", b->id}};
   const std::size_t colon = b->what.rfind(':');
   if (!b->addresses.empty() && colon != std::string::npos)
-    out["line"] = std::atoi(b->what.c_str() + colon + 1);
+    out["line"] = told_line(std::atoi(b->what.c_str() + colon + 1));
   if (const std::string note = session_->note_of(*b); !note.empty()) out["message"] = note;
   return out;
 }
@@ -272,8 +222,8 @@ void DapServer::set_breakpoints(const Json& request) {
   Json given = request;
   given["arguments"].emplace("breakpoints", Json::array());
   set_all(given, of_source_[path], [&](const Json& wanted, const std::string& condition, std::string& error) {
-    return session_->add_breakpoint(fmt::format("{}:{}", path, wanted.at("line").get<int>()), condition,
-                                    error);
+    return session_->add_breakpoint(
+        fmt::format("{}:{}", path, wanted.at("line").get<int>() + 1 - first_line_), condition, error);
   });
 }
 
@@ -323,7 +273,8 @@ void DapServer::stack_trace(const Json& request) {
                {"column", 0},
                {"instructionPointerReference", fmt::format("{:#x}", f.pc)}};
     if (const auto* line = map.line_at(f.call)) {
-      frame["line"] = line->line;
+      frame["line"] = told_line(line->line);
+      frame["column"] = first_column_;
       frame["source"] = told_source(line->file);
     }
     frames.push_back(frame);
@@ -411,7 +362,7 @@ void DapServer::evaluate(const Json& request) {
     respond(request, {{"result", monitor_->execute(text)}, {"variablesReference", 0}});
     if (session_->has_ended()) return send_event("terminated");
     if (session_->now() != before)
-      send_event("stopped", {{"reason", "step"}, {"threadId", 1}, {"allThreadsStopped", true}});
+      send_event("stopped", {{"reason", "step"}, {"threadId", kThread}, {"allThreadsStopped", true}});
     return;
   }
   CValue value, number;
@@ -489,7 +440,7 @@ void DapServer::disassemble(const Json& request) {
   if (here < 0) here = static_cast<std::int64_t>(places.size());
   Json all = Json::array();
   const dspic::CodeMap& map = session_->file().code;
-  const dspic::CodeMap::Line* told_line = nullptr;
+  const dspic::CodeMap::Line* last_line = nullptr;
   for (std::int64_t i = here + from; i < here + from + count; ++i) {
     if (i < 0 || i >= static_cast<std::int64_t>(places.size())) {
       const std::int64_t beyond = i < 0 ? 0 : end + 2 * (i - static_cast<std::int64_t>(places.size()));
@@ -506,10 +457,10 @@ void DapServer::disassemble(const Json& request) {
     if (!text.empty()) one["instructionBytes"] = text.substr(0, gap);
     if (const auto* function = map.function_at(at); function && function->begin == at)
       one["symbol"] = function->name;
-    if (const auto* line = map.line_at(at); line && line != told_line) {
+    if (const auto* line = map.line_at(at); line && line != last_line) {
       one["location"] = told_source(line->file);
-      one["line"] = line->line;
-      told_line = line;
+      one["line"] = told_line(line->line);
+      last_line = line;
     }
     all.push_back(std::move(one));
   }

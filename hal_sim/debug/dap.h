@@ -72,6 +72,8 @@ class DapServer {
   Json reference(const CValue& value) const;
   /// Name and path of a source, the path as the editor has it.
   Json told_source(std::size_t file) const;
+  /// As the editor counts.
+  int told_line(int line) const { return line - 1 + first_line_; }
   void begin_run(Plan plan);
   using Adds =
       std::function<const Breakpoint*(const Json& wanted, const std::string& condition, std::string& error)>;
@@ -86,6 +88,7 @@ class DapServer {
   std::map<std::string, std::set<int>> of_source_;
   std::map<std::size_t, std::string> paths_;  // of sources, as the editor named them
   std::set<int> of_functions_, of_data_, of_instructions_;
+  int first_line_ = 1, first_column_ = 1;  // numbers that the editor gives them
   bool stops_on_entry_ = false, runs_ = false, pause_asked_ = false, ended_ = false;
   Plan plan_ = Plan::Continue;
 };
@@ -94,11 +97,14 @@ class DapServer {
 class DapLine {
  public:
   DapLine(int in, int out) : in_(in), out_(out) {}
-  /// Until the editor disconnects or closes the line. False: it sent what is no message.
+  /// Until the editor disconnects or closes the line. False: it sent what is no message, which was told.
   bool serve(DapServer::Open open);
 
  private:
+  /// False: the line has ended, or what comes is none, which wrong_ says.
   bool read_message(nlohmann::json& message);
+  bool read_header(std::size_t& length);
+  bool read_more();
   bool has_input();
   void send(nlohmann::json message);
 
@@ -106,7 +112,7 @@ class DapLine {
   std::string buffer_;
   std::mutex writing_;  // the world's thread sends text
   int sequence_ = 0;
-  bool is_broken_ = false;
+  std::string wrong_;
 };
 
 }  // namespace debug

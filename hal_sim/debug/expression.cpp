@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
@@ -279,11 +280,13 @@ class Expression {
     }
     // A whole number, whose suffix says at least how wide it is.
     const bool is_octal = !is_hex && !is_binary && text[0] == '0';
+    errno = 0;
     const std::uint64_t raw = std::strtoull(text.c_str() + (is_binary ? 2 : 0), &rest,
                                             is_binary  ? 2
                                             : is_octal ? 8
                                             : is_hex   ? 16
                                                        : 10);
+    if (errno == ERANGE) return fail("got '" + text + "', expected a whole number of 64 bits at most");
     bool no_sign = false;
     unsigned longs = 0;
     for (const char* s = rest; *s; ++s) {

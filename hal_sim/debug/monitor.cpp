@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
@@ -20,7 +21,7 @@ constexpr const char* kHelp =
     R"(break WHERE [if EXPR]   stop at a function, file:line, line or 0xADDRESS; tbreak: once
 watch WHAT [if EXPR]    stop when a variable, register or *ADDRESS has changed
 delete [N]              a breakpoint, or all; info break lists them
-continue, c             run on; Ctrl-C pauses
+continue, c             run on; Ctrl-C pauses, twice it ends
 step, s   next, n       to the next source line, into or over calls; a number repeats
 stepi, si nexti, ni     to the next instruction, likewise
 finish                  until this function has returned
@@ -153,7 +154,8 @@ std::string Monitor::go(const std::string& rest) {
   double value = std::strtod(rest.c_str(), &end);
   const std::string unit = trimmed(end);
   if (unit == "s") value *= static_cast<double>(board::kFcyHz);
-  if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15))
+  if (end == rest.c_str() || !(unit.empty() || unit == "s") || !(value >= 0 && value < 1e15) ||
+      (unit.empty() && value != std::floor(value)))
     return "goto: got '" + rest + "', expected a time such as 1.5s, or a cycle\n";
   return told(session_.go_to(static_cast<Cycle>(value), idle_));
 }

@@ -71,7 +71,9 @@ bool Session::open_world(std::vector<std::string>& problems) {
   }
   if (robot_ < 0) {
     problems.push_back(setup_.robot.empty()
-                           ? "debug: no robot has a program; --fw gives it one"
+                           ? "debug: firmware: got none, and none in the world, expected a program for a "
+                             "robot; --fw, or launch's "
+                             "firmware, gives it one"
                            : "debug: robot '" + setup_.robot + "' has no program, or is not there");
     return false;
   }

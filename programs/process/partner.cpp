@@ -64,7 +64,7 @@ void become(const char* program, char* const* words, char* const* environment, c
   setsid();
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (getppid() != parent) _exit(127);  // it has ended meanwhile
-  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
+  for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT})
     signal(s, SIG_DFL);
   const rlimit data{kMostDataBytes, kMostDataBytes}, core{0, 0};
   setrlimit(RLIMIT_DATA, &data);

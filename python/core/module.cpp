@@ -8,6 +8,7 @@
 #include <pybind11/stl.h>
 
 #include <atomic>
+#include <mutex>
 #include <numeric>
 #include <stdexcept>
 #include <thread>
@@ -32,6 +33,21 @@ std::string joined(const std::vector<std::string>& lines) {
   std::string text;
   for (const std::string& line : lines) text += (text.empty() ? "" : "\n") + line;
   return text;
+}
+
+std::once_flag numpy_read;
+std::atomic<bool> is_numpy_read{false};
+
+/// Before the first array is made. pybind11 imports numpy within a static variable's beginning, while Python lets other
+/// threads go on: one that then waited for the variable kept Python's lock for ever. Here they wait without it.
+void read_numpy() {
+  if (is_numpy_read) return;
+  py::gil_scoped_release free;
+  std::call_once(numpy_read, [] {
+    py::gil_scoped_acquire lock;
+    py::dtype::of<double>();
+    is_numpy_read = true;
+  });
 }
 
 /// A world with a guard: who runs it, and whether it is still open.
@@ -296,6 +312,7 @@ py::object picture_of(Handle& handle, int robot) {
   const board::CameraPicture* const picture = handle.world().picture(handle.robot(robot));
   if (!picture) return py::none();
   const auto rgb = board::decode_picture(*picture);
+  read_numpy();
   py::array_t<std::uint8_t> array({picture->rows, picture->columns, 3});
   std::copy(rgb.begin(), rgb.end(), array.mutable_data());
   return py::make_tuple(picture->number, array);
@@ -373,6 +390,7 @@ std::vector<int> add_faults(Handle& handle, const std::string& text, const std::
 
 template <typename T>
 py::array_t<T> view(std::vector<T>& numbers, std::vector<py::ssize_t> shape, const py::object& owner) {
+  read_numpy();
   py::array_t<T> array(std::move(shape), numbers.data(), owner);
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -380,6 +398,7 @@ py::array_t<T> view(std::vector<T>& numbers, std::vector<py::ssize_t> shape, con
 
 py::array_t<double> rows_of(const Record& record) {
   const auto rows = static_cast<py::ssize_t>(record.rows.size() / Record::kColumns);
+  read_numpy();
   py::array_t<double> array({rows, py::ssize_t{Record::kColumns}});
   std::copy(record.rows.begin(), record.rows.end(), array.mutable_data());
   return array;

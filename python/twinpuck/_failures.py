@@ -13,6 +13,7 @@ from ._world import World
 
 PICTURE, RECORDING = "picture.png", "run.inputs"
 _LAST_LINES = 20
+_MOST_DIAGNOSES = 10
 _LONGEST = 200  # bytes of a folder's name; file systems have 255, and "~2" may follow
 # a test whose name is its folder's, with "_" for its "::": that is the first "_" behind an ending
 _PLAIN = re.compile(r"((?:(?!\.py_|\.toml_)[\w.\-])+\.(?:py|toml))::([\w.=\-\[\]]+)")
@@ -70,7 +71,10 @@ def told(robot: Robot) -> list[str]:
         lines.append(f"  its program ({robot.program}, hal {robot.hal}) {state} {robot.place}")
         lines += [f"  {line}" for line in robot.why().rstrip().splitlines()]
     lines += [f"  trap: {line}" for trap in robot.traps for line in str(trap).splitlines()]
-    lines += [f"  {diagnosis}" for diagnosis in robot.diagnoses]
+    diagnoses = robot.diagnoses
+    lines += [f"  {diagnosis}" for diagnosis in diagnoses[:_MOST_DIAGNOSES]]
+    if len(diagnoses) > _MOST_DIAGNOSES:
+        lines.append(f"  and {len(diagnoses) - _MOST_DIAGNOSES} more diagnoses")
     for port, serial in (("uart1", robot.uart1), ("uart2", robot.uart2)):
         if serial.lines:
             lines.append(f"  last lines of {port}:")

@@ -20,11 +20,10 @@ import subprocess
 import sys
 import tempfile
 import threading
-import types
 import typing
 import xml.etree.ElementTree as ElementTree
 
-from . import _matrix, _outputs
+from . import _ending, _matrix, _outputs
 
 _BUBBLEWRAP = "/usr/bin/bwrap"
 _ENDINGS = {"--csv": ".csv", "--html": ".html", "--junitxml": ".xml"}
@@ -133,16 +132,6 @@ def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path,
 
 _running: set[int] = set()  # groups of processes, one a submission that is being graded
 _is_ending = threading.Event()  # no more of them
-
-
-class Ended(KeyboardInterrupt):
-    """Somebody has asked with a signal that all ends."""
-
-
-def end_by(number: int, _frame: types.FrameType | None) -> typing.NoReturn:
-    """Of a signal's handler. Once: what follows is only cleaning up."""
-    signal.signal(number, signal.SIG_IGN)
-    raise Ended(number)
 
 
 def wait_for(words: list[str], environment: collections.abc.Mapping[str, str], log: pathlib.Path,
@@ -417,18 +406,14 @@ def main(arguments: list[str]) -> int:
     # beside /tmp, of which those who are contained have their own
     base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
-        for number in (signal.SIGTERM, signal.SIGHUP):
-            if signal.getsignal(number) != signal.SIG_IGN:
-                signal.signal(number, end_by)
         if wrong := unreadable(options, programs[0], base):
             print(wrong, file=sys.stderr)
             return 2
         return write_all(grade_all(students, options, base), options, base)
-    except Ended as ended:
-        return 128 + ended.args[0]
     except KeyboardInterrupt:
         return 130
     finally:
+        signal.pthread_sigmask(signal.SIG_BLOCK, _ending.SIGNALS)  # who asks again waits for this
         shutil.rmtree(base, ignore_errors=True)
 
 
@@ -478,4 +463,4 @@ def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: p
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    _ending.run(main)

@@ -6,6 +6,8 @@ import importlib.util
 import os
 import sys
 
+from . import _ending
+
 
 def main(arguments: list[str]) -> int:
     """Exit codes: 0 all passed, 1 a test failed, 2 bad input (also a test that cannot be read), 5 no test was found, 6
@@ -50,4 +52,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+    _ending.run(main)

@@ -108,14 +108,41 @@ TEST_F(Command, the_host_time_guard_ends_with_124) {
   EXPECT_EQ(twinpuck("run maze --for 100 --speed 1 --host-limit 0.5").exit_code, 124);
 }
 
-TEST_F(Command, ctrl_c_ends_with_130_and_keeps_the_outputs) {
+// of a terminal that is closed, and of Ctrl-\, a run left half a summary and no picture
+TEST_F(Command, every_signal_that_asks_for_the_end_keeps_the_outputs) {
   twinpuck("run maze --for 0.1 -q");  // its controller is built before the time counts
-  const Said s =
-      twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " + path("s.json"),
-               signal_once("INT", path("r.csv"), 0, "2"));
-  EXPECT_EQ(s.exit_code, 130) << s.text;
-  EXPECT_TRUE(json::accept(read(path("s.json"))));
-  EXPECT_EQ(read(path("r.csv")).back(), '\n');
+  for (const char* signal : {"INT", "TERM", "HUP", "QUIT"}) {
+    fs::remove(path("r.csv"));
+    fs::remove(path("p.png"));
+    const Said s = twinpuck("run maze --for 1000 --speed 1 --record " + path("r.csv") + " --summary " +
+                                path("s.json") + " --trace " + path("t.json") + " --picture " + path("p.png"),
+                            signal_once(signal, path("r.csv"), 0, "1"));
+    EXPECT_EQ(s.exit_code, 130) << signal << s.text;
+    EXPECT_TRUE(json::accept(read(path("s.json")))) << signal;
+    EXPECT_TRUE(json::accept(read(path("t.json")))) << signal;
+    EXPECT_EQ(read(path("r.csv")).back(), '\n') << signal;
+    EXPECT_GT(read(path("p.png")).size(), 100u) << signal;
+  }
+  const Said kept = twinpuck("run maze --for 2 --speed 1 --record " + path("n.csv"),
+                             signal_once("HUP", path("n.csv"), 0, "0.5") + " nohup");
+  EXPECT_EQ(kept.exit_code, 0) << kept.text;
+}
+
+// 107 KB, a line for each register
+TEST_F(Command, a_program_that_writes_everywhere_is_told_in_few_lines) {
+  write("wipe/main.c",
+        "int main(void) { unsigned a; for (a = 0x7fe; a >= 0x82; a -= 2) *(volatile unsigned*)a = 1; while "
+        "(1); }\n");
+  const Said s = twinpuck("run empty --for 0.1 --fw '*=" + path("wipe") + "' --summary " + path("s.json"));
+  EXPECT_LT(std::count(s.text.begin(), s.text.end(), '\n'), 50) << s.text;
+  EXPECT_NE(
+      s.text.find(": 0x0776 to 0x07fe: unimplemented address: 0x0776 to 0x07fe: no register of this chip; "
+                  "the write is ignored ("),
+      std::string::npos)
+      << s.text;
+  EXPECT_NE(s.text.find(" more: unimplemented address; --summary FILE lists all\n"), std::string::npos)
+      << s.text;
+  EXPECT_GT(json::parse(read(path("s.json")))["robots"][0]["diagnoses"].size(), 100u);
 }
 
 TEST_F(Command, a_killed_run_leaves_a_readable_recording) {

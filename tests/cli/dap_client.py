@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT
 """An editor's side of the Debug Adapter Protocol: dap_client.py TWINPUCK FIRMWARE SOURCE. Exit code 0: all as expected."""
 import base64
+import pathlib
 import subprocess
 import sys
+import tempfile
 
 from dap import Server
 
@@ -172,9 +174,43 @@ assert int(value("cycle").split()[0]) > 0
 good("disconnect")
 expect(server.process.wait(10), 0)
 
-# what is no message ends it
-for wrong in (b"Content-Length: 5\r\n\r\n[[[[[", b"Content-Length: 2\r\n\r\n[]", b"Garbage\r\n\r\n"):
+# one that counts from 0, whose ids are looked at
+server = Server(TWINPUCK)
+good("initialize", adapterID="twinpuck", linesStartAt1=False, columnsStartAt1=False)
+good("launch", firmware=FIRMWARE)
+expect(good("setBreakpoints", source={"path": SOURCE}, breakpoints=[{"line": lines["toggle"] - 1}])["breakpoints"][0]["line"], lines["toggle"] - 1)
+good("configurationDone")
+event("stopped")
+frames = good("stackTrace", threadId=1)["stackFrames"]
+expect((frames[0]["line"], frames[0]["column"]), (lines["toggle"] - 1, 0))
+pc = frames[0]["instructionPointerReference"]
+expect(good("disassemble", memoryReference=pc, instructionCount=1)["instructions"][0]["line"], lines["toggle"] - 1)
+for command, more, says in (("stackTrace", {"threadId": 7}, "threadId: got 7, expected 1, the robot's program"),
+                            ("continue", {"threadId": "x"}, "threadId: got \"x\", expected 1, the robot's program"),
+                            ("scopes", {"frameId": len(frames)}, f"frameId: got {len(frames)}, expected 0 to {len(frames) - 1}, as stackTrace has them"),
+                            ("evaluate", {"frameId": -1, "expression": "ticks"}, f"frameId: got -1, expected 0 to {len(frames) - 1}, as stackTrace has them")):
+    expect(ask(command, **more)["message"], says)
+good("disconnect")
+expect(server.process.wait(10), 0)
+
+# a world in which nobody has a program
+server = Server(TWINPUCK)
+with tempfile.TemporaryDirectory() as folder:
+    world = pathlib.Path(folder, "bare.toml")
+    world.write_text('twinpuck = 1\n[[robot]]\nname = "puck"\n', encoding="utf-8")
+    expect(ask("launch", world=str(world))["message"],
+           "debug: firmware: got none, and none in the world, expected a program for a robot; --fw, or launch's firmware, gives it one")
+good("disconnect")
+
+# what is no message ends it, with what came
+HEADER = "dap: header: got %s, expected Content-Length: N, of 16777216 bytes at most, and an empty line; is it an editor that speaks?\n"
+OTHER = "dap: message: got something else, expected an object with seq and command\n"
+for wrong, says in ((b"Content-Length: 5\r\n\r\n[[[[[", OTHER), (b"Content-Length: 2\r\n\r\n[]", OTHER),
+                    (b"Content-Length: 5\r\n\r\n{", "dap: message: got 1 bytes and then nothing more, expected 5\n"),
+                    (b"Garbage\r\n\r\n", HEADER % "'Garbage'"), (b"Content-Length: -1\r\n\r\n", HEADER % "'Content-Length: -1'"),
+                    (b"Content-Length: 99999999\r\n\r\n", HEADER % "'Content-Length: 99999999'"),
+                    (b"\1\2 no header", HEADER % "'\\x01\\x02 no header' and then nothing more"),
+                    (b"X" * 5_000_000, HEADER % "more than 4096 bytes of others")):
     done = subprocess.run([TWINPUCK, "debug", "--dap"], input=wrong, capture_output=True, timeout=10, check=False)
-    expect((done.returncode, done.stderr.decode()), (2, "dap: got something else, expected messages of the Debug Adapter Protocol: "
-                                                        "Content-Length, and an object with seq and command\n"))
+    expect((done.returncode, done.stderr.decode()), (2, says))
 print("all as expected")

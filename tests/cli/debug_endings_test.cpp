@@ -2,6 +2,7 @@
 // twinpuck debug where a program ends, begins anew or is not alone: traps, resets, robots of one image, the
 // library's own handlers.
 #include "tests/cli/debug_fixture.h"
+#include "tests/cli/pty.h"
 
 namespace {
 
@@ -115,12 +116,57 @@ TEST_P(DebugEndings, calls_of_itself_are_stepped_over) {
 
 TEST_P(DebugEndings, a_program_that_waits_for_ever_is_paused) {
   build("int main(void) {\n  while (1)\n    ;\n}\n");
-  const std::string said = path("said");
-  twinpuck("debug maze --fw '*=" + program() + "' -x '" +
-               write("commands", "where\nc\nwhere\ngoto 0.01s\nbacki\n") + "' >'" + said + "'",
-           cli_test::signal_once("INT", said, 60));
-  expect_in_order(read(said), {"> c\npaused", "main() (main.c:", "> goto 0.01s\n0.01",
-                               "main() (main.c:", "> backi\n0.00", "main() (main.c:"});
+  cli_test::Pty pty("debug maze --fw '*=" + program() + "'");
+  ASSERT_TRUE(pty.until("(twinpuck) ")) << pty.said;
+  pty.type("c\n");
+  pty.listen(500);
+  pty.type("\x03");
+  EXPECT_TRUE(pty.until("paused")) << pty.said;
+  EXPECT_TRUE(pty.until("main() (main.c:")) << pty.said;
+  pty.type("goto 0.01s\n");
+  EXPECT_TRUE(pty.until("0.0100")) << pty.said;
+  pty.type("backi\n");
+  EXPECT_TRUE(pty.until("0.00")) << pty.said;
+  EXPECT_TRUE(pty.until("main() (main.c:")) << pty.said;
+  // the pause was long ago: this is another one
+  pty.listen(1000);
+  pty.type("c\n");
+  pty.listen(500);
+  pty.type("\x03");
+  EXPECT_TRUE(pty.until("paused")) << pty.said;
+  pty.type("q\n");
+  EXPECT_EQ(pty.end(), 0) << pty.said;
+}
+
+TEST_P(DebugEndings, a_second_interrupt_ends_it) {
+  build("int main(void) {\n  while (1)\n    ;\n}\n");
+  // at once behind the first; and where the first has nothing to pause
+  for (const bool runs : {true, false}) {
+    cli_test::Pty pty("debug maze --fw '*=" + program() + "'");
+    ASSERT_TRUE(pty.until("(twinpuck) ")) << pty.said;
+    if (runs) pty.type("c\n");
+    pty.listen(500);
+    pty.type("\x03");
+    pty.listen(runs ? 50 : 1200);
+    pty.type("\x03");
+    EXPECT_EQ(pty.end(), 130) << runs << pty.said;
+  }
+}
+
+// a thousand times "continue" went on behind each interrupt
+TEST_P(DebugEndings, commands_of_a_file_or_a_pipe_end_at_a_signal) {
+  build("int main(void) {\n  while (1)\n    ;\n}\n");
+  std::string many;
+  for (int i = 0; i < 1000; ++i) many += "continue\n";
+  const std::string file = write("many", many), said = path("said");
+  for (const std::string& from : {"-x '" + file + "'", "<'" + file + "'"}) {
+    std::filesystem::remove(said);
+    const auto ended = twinpuck("debug maze --fw '*=" + program() + "' " + from + " >'" + said + "' #",
+                                "timeout --preserve-status -k 10 -s INT 2");
+    EXPECT_EQ(ended.exit_code, 130) << ended.text;
+    expect_in_order(read(said), {"> continue\npaused"});
+    EXPECT_EQ(read(said).find("paused"), read(said).rfind("paused"));
+  }
 }
 
 // with either HAL an agenda's function is called from timer 2's interrupt

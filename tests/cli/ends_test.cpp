@@ -27,14 +27,14 @@ class Ends : public CommandTest {
                  "}\n");
   }
   /// The last line of a recording is whole: as many fields as the head has.
-  void expect_whole_lines(const std::string& file) const {
+  void expect_whole_lines(const std::string& file, int least = 10) const {
     const std::string text = read(file);
     ASSERT_FALSE(text.empty());
     EXPECT_EQ(text.back(), '\n');
     const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
     const std::string last = text.substr(text.rfind('\n', text.size() - 2) + 1);
     EXPECT_EQ(commas(last), commas(text.substr(0, text.find('\n')))) << last;
-    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), 10);
+    EXPECT_GT(std::count(text.begin(), text.end(), '\n'), least);
   }
 };
 
@@ -86,6 +86,37 @@ TEST_F(Ends, a_run_at_any_pace_ends_with_its_summary_at_a_signal) {
 TEST_F(Ends, every_long_verb_ends_at_a_signal) {
   const auto said = twinpuck("lab --full", kTerm);
   EXPECT_EQ(said.exit_code, 130) << said.text;
+}
+
+// `| head -1`: nobody reads the rest, and what is asked for in files is whole up to there
+TEST_F(Ends, whoever_has_nobody_left_to_tell_ends) {
+  const auto piped = [this](const std::string& line) {
+    return in_folder("{ " + line + "; echo $? >code; } | head -1");
+  };
+  const std::string many = write("many", "continue\ncontinue\n");
+  const auto run = piped("timeout 20 twinpuck run maze --fw serial_echo --for 100000 --record r.csv");
+  EXPECT_TRUE(reads(run.text,
+                    "puck: ~/firmware/serial_echo, 1 file\nstandard output: cannot be written any more; the "
+                    "run ended at … s"));
+  EXPECT_EQ(read(path("code")), "7\n");
+  expect_whole_lines(path("r.csv"), 1);
+  for (const std::string& from : {"-x " + many, "<" + many}) {
+    const auto debug = piped("timeout 20 twinpuck debug maze --fw obstacle " + from);
+    EXPECT_TRUE(reads(debug.text,
+                      "puck: ~/firmware/lab/obstacle, 1 file\nstandard output: cannot be written any more; "
+                      "debugging ended"));
+    EXPECT_EQ(read(path("code")), "7\n");
+  }
+  const auto lab = piped("timeout 60 twinpuck lab --seeds 1 I1 I3 S14 --csv l.csv");
+  EXPECT_NE(lab.text.find("standard output: cannot be written any more; the lab ended behind I"),
+            std::string::npos)
+      << lab.text;
+  EXPECT_EQ(read(path("code")), "7\n");
+  EXPECT_GT(read(path("l.csv")).size(), 100u);
+  EXPECT_EQ(read(path("l.csv")).find("S14"), std::string::npos);
+  // what was all said, and what says nothing, is good
+  EXPECT_EQ(piped("twinpuck list worlds").exit_code + piped("twinpuck run maze -q --for 1000").exit_code, 0);
+  EXPECT_EQ(read(path("code")), "0\n");
 }
 
 // the work that fits before the handlers was computed as 2^64 cycles

@@ -2,13 +2,15 @@
 """The pytest plug-in and twinpuck test, as a user has them: a folder of one's own, the command, its text and files."""
 import json
 import re
+import signal
 import subprocess
 import sys
+import time
 import xml.etree.ElementTree
 
 import pytest
 
-from conftest import reads
+from conftest import TWINPUCK, reads
 
 WORLD = """twinpuck = 1
 [arena]
@@ -391,3 +393,26 @@ def test_markers_of_somebody_else_are_theirs(mine, command):
     folder = mine("import pytest\n@pytest.mark.slow\n@pytest.mark.point\n@pytest.mark.points(2.5)\ndef test_a(world): pass\n",
                   pytest__ini="[pytest]\nmarkers =\n  point: mine\n")
     assert command("test", cwd=folder).returncode == 0
+
+
+# what came while Python was beginning was told with a traceback, and ended the process by the signal
+@pytest.mark.parametrize("name", ["SIGINT", "SIGTERM", "SIGHUP", "SIGQUIT"])
+def test_a_signal_at_any_time_is_130_without_a_traceback(mine, name):
+    folder = mine("def test_long(world):\n    world.run(1e6)\n")
+    for after_s in (0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 2):
+        with open(folder / "said", "w+", encoding="utf-8") as said, \
+                subprocess.Popen([TWINPUCK, "test", "-q"], cwd=folder, stdout=said, stderr=said) as child:
+            time.sleep(after_s)
+            child.send_signal(getattr(signal, name))
+            code = child.wait(60)
+            said.seek(0)
+            text = said.read()
+        assert code == 130 and "Traceback" not in text, f"{after_s} s: {code}: {text}"
+
+
+def test_who_reads_no_further_ends_the_tests(mine):
+    folder = mine("import pytest\n@pytest.mark.parametrize('i', range(500))\ndef test_short(i): pass\n")
+    done = subprocess.run(f"{{ {TWINPUCK} test -v; echo $? >code; }} | head -1", shell=True, cwd=folder, timeout=60,
+                          capture_output=True, text=True, check=True)
+    assert done.stderr == "standard output: cannot be written any more; it ended there\n"
+    assert (folder / "code").read_text() == "7\n"

@@ -163,6 +163,36 @@ def test_worlds_live_side_by_side_and_in_threads():
     assert digests[0] == digests[2] != digests[1]
 
 
+THREADS = """
+import sys, threading, twinpuck
+sys.setswitchinterval(1e-6)
+world, told, begin = twinpuck.World("flock"), set(), threading.Barrier(4)
+def ask():
+    begin.wait()
+    world.poses.sum()
+    for i in range(20):
+        try:
+            world.run(0.01)
+            world.poses.sum(), world.leds.sum()
+            world.reset(i)
+        except RuntimeError as wrong:
+            told.add(str(wrong).split(":")[0])
+threads = [threading.Thread(target=ask) for _ in range(4)]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+print(*told)
+"""
+
+
+# a thread that waited for numpy to be imported by another one kept the interpreter's lock
+def test_threads_on_one_world_are_refused_and_end():
+    for _ in range(5):
+        done = subprocess.run([sys.executable, "-c", THREADS], timeout=60, capture_output=True, text=True, check=False)
+        assert done.returncode == 0 and set(done.stdout.split()) <= {"run", "world"}, done.stdout + done.stderr
+
+
 def test_the_interpreter_goes_on_while_a_world_runs():
     world = twinpuck.World("maze", firmware="obstacle")
     counted, over = [0], threading.Event()
