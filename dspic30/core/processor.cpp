@@ -277,6 +277,8 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     cpu.parts.events.tell_change(cpu.now);
     cpu.host->hold_handler(number, is_held(h), pending, cpu.now);
     cpu.host_stale = true;
+    // what waits for this handler is asked again
+    if (!is_held(h) && stands_in_host(cpu) && cpu.stands_until == kNever) cpu.stands_until = cpu.now;
     if (waits_->is_waiting()) waits_->stir(cpu);  // what it looks at stands, or moves again
   }
   // a flag of one that is let in is looked at each time

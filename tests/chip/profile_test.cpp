@@ -149,6 +149,18 @@ delay: dec w1, w1
   EXPECT_LT(report.load(), 0.01);
 }
 
+// asleep as well: the handler is seen, and what it does
+TEST_F(ProfileTest, handlers_that_wake_the_processor_are_counted) {
+  std::string sleeps = kProgram;
+  sleeps.replace(sleeps.find("main: "), 6, "main: pwrsav #1\n ");
+  const ProfileReport report = profile(sleeps, 0.05);
+  ASSERT_EQ(report.interrupts.size(), 1u);
+  const double periods = static_cast<double>(report.to - report.from) / 1000;
+  EXPECT_NEAR(static_cast<double>(report.interrupts[0].cycles.count), periods, 2);
+  EXPECT_EQ(report.interrupts[0].cycles.max, 7);
+  EXPECT_NEAR(static_cast<double>(function(report, "rare").cycles.count), periods / 2, 2);
+}
+
 // without optimisation `while (1) { while (!flag) ; ... }` has one beginning for both loops
 TEST_F(ProfileTest, rounds_of_a_wait_at_the_head_are_no_turns) {
   const ProfileReport report = profile(R"(

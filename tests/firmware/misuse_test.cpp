@@ -77,6 +77,49 @@ int main(void) { int i; e_init_port(); e_init_motors(); e_start_agendas_processi
   EXPECT_EQ(once.diagnoses_text() + turns.diagnoses_text(), "");
 }
 
+// what the robot does not do is no success here: neither ever switches its LED on
+TEST_F(Misuse, a_scan_that_is_held_off_and_agendas_beyond_the_heap_come_to_nothing) {
+  Robot& held = add_robot_with_source(std::string(kHead) + R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+int main(void) { e_init_port(); SRbits.IPL = 5; e_init_ad_scan(ALL_ADC); e_set_led(0, 1); while (1); })");
+  Robot& let_in = add_robot_with_source(std::string(kHead) + R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+int main(void) { e_init_port(); __asm__ volatile("disi #0x3FFF"); e_init_ad_scan(ALL_ADC); e_set_led(0, 1);
+  while (1); })")
+                      .at(0.5, 0);
+  std::string functions, activates;
+  for (int i = 0; i < 40; ++i) {
+    functions += "void f" + std::to_string(i) + "(void) {}\n";
+    activates += " e_activate_agenda(f" + std::to_string(i) + ", 1000);";
+  }
+  Robot& many = add_robot_with_source(kHead + functions + "int main(void) { e_init_port();" + activates +
+                                      " e_set_led(0, 1); while (1); }")
+                    .at(-0.5, 0);
+  run_for(0.3);
+  EXPECT_EQ(held.leds() & 1, 0u);
+  EXPECT_EQ(let_in.leds() & 1, 1u);
+  EXPECT_EQ(many.leds() & 1, 0u);
+  ASSERT_FALSE(many.traps().empty());
+  EXPECT_EQ(many.traps()[0].kind, host::kTrapAbort);
+}
+
+// a function that is asked waits for what it looks at, not for its line's other names
+TEST_F(Misuse, a_picture_that_is_waited_for_is_no_endless_wait) {
+  Robot& r = add_robot_with_source(R"(
+#include <p30F6014A.h>
+#include <motor_led/e_init_port.h>
+#include <camera/fast_2_timer/e_poxxxx.h>
+char img[2 * 40 * 40];
+int main(void) { e_init_port(); e_poxxxx_init_cam();
+  e_poxxxx_config_cam((ARRAY_WIDTH - 160) / 2, (ARRAY_HEIGHT - 160) / 2, 160, 160, 4, 4, RGB_565_MODE);
+  e_poxxxx_write_cam_registers();
+  while (1) { e_poxxxx_launch_capture(img); while (!e_poxxxx_is_img_ready()); } })");
+  for (int i = 0; i < 20; ++i) {
+    run_for(0.05);
+    EXPECT_EQ(r.diagnoses_text().find("endless"), std::string::npos) << r.diagnoses_text();
+  }
+}
+
 TEST_F(Misuse, a_program_that_resets_itself_is_told) {
   Robot& always = add_robot_with_source("#include <p30F6014A.h>\nint main(void) {\n  Reset();\n}\n");
   Robot& now_and_then = add_robot_with_source(R"(
