@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 namespace lab {
 
@@ -92,8 +93,9 @@ std::string problems_of(const Cell& cell) {
 }
 
 /// "bob I1 FAIL: 0 of 4 ..."; the first line of a compiler or trap; the command. One text for all exercises
-/// with a program that does not build; empty: an exercise before has told it.
-std::string failure_text(const Class& all, const Student& student, const Cell& cell) {
+/// with a program that does not build; empty: an exercise before has told it. `says_problem`: with what the
+/// compiler said.
+std::string failure_text(const Class& all, const Student& student, const Cell& cell, bool says_problem) {
   std::string ids;
   for (const Cell& other : student.cells) {
     const bool is_same = &other == &cell || (cell.verdict == Verdict::Broken &&
@@ -103,7 +105,7 @@ std::string failure_text(const Class& all, const Student& student, const Cell& c
   }
   std::string text = fmt::format("{} {} FAIL: {}\n", student.name, ids, to_text(cell, all.setting, false));
   // a trap has two lines, the second of which says where
-  const std::string problem = cell.problems.empty() ? "" : cell.problems.front();
+  const std::string problem = cell.problems.empty() || !says_problem ? "" : cell.problems.front();
   for (std::size_t at = 0, end; at < problem.size(); at = end + 1) {
     end = std::min(problem.find('\n', at), problem.size());
     if (end > at) text += "  " + problem.substr(at, end - at) + "\n";
@@ -144,7 +146,7 @@ std::string class_notes(const Class& all) {
     text += fmt::format("{}: {}: {}\n", all.exercises[i]->id, all.exercises[i]->title, asked_of(all, i));
   for (const Student& student : all.students)
     for (const Cell& cell : student.cells)
-      if (is_failure(cell.verdict)) text += failure_text(all, student, cell);
+      if (is_failure(cell.verdict)) text += failure_text(all, student, cell, true);
   return text;
 }
 
@@ -193,16 +195,19 @@ std::string class_html(const Class& all, const std::string& title) {
   for (std::size_t s = 0; s < all.students.size(); ++s) {
     const Student& student = all.students[s];
     page += "<tr><th>" + marked_up(student.name) + "</th>";
+    std::map<std::string, std::string> told_at;
     for (const Cell& cell : student.cells) {
       const char* const verdict = verdict_text(cell.verdict);
-      const std::string place = fmt::format("s{}-{}", s, marked_up(cell.exercise->id));
       const bool failed = is_failure(cell.verdict);
+      // a program that does not build is told once, and all its exercises lead there
+      const std::string text = failed ? failure_text(all, student, cell, false) : "";
+      std::string& place = told_at[cell.why];
+      if (!text.empty()) place = fmt::format("s{}-{}", s, marked_up(cell.exercise->id));
       page += fmt::format("<td class=\"{0}\" title=\"{1}\">{2}{0}{3}</td>", verdict,
                           marked_up(to_text(cell, all.setting, false)),
                           failed ? "<a href=\"#" + place + "\">" : "", failed ? "</a>" : "");
-      if (failed)
-        failures += "<pre id=\"" + place + "\">" +
-                    marked_up(failure_text(all, student, cell) + problems_of(cell)) + "</pre>\n";
+      if (!text.empty())
+        failures += "<pre id=\"" + place + "\">" + marked_up(text + problems_of(cell)) + "</pre>\n";
     }
     const Points points = points_of(student);
     page += fmt::format("<td>{} of {}</td></tr>\n", points.passed, points.judged);

@@ -87,6 +87,14 @@ std::uint64_t keep_within(const fs::path& folder, std::uint64_t bytes) {
   return all;
 }
 
+std::string wrong_cache_bound() {
+  const char* const said = std::getenv("TWINPUCK_CACHE_MB");
+  const std::string text = said ? said : "";
+  const bool is_number = text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
+  if (text.empty() || (is_number && std::stoi(text) > 0)) return {};
+  return "TWINPUCK_CACHE_MB: got '" + text + "', expected 1 to 9999999 MB";
+}
+
 void keep_caches_within_bound() {
   const fs::path top = cache_folder("");
   const int stamp = open((top / "bounded").c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0600);
@@ -99,7 +107,7 @@ void keep_caches_within_bound() {
     const char* const said = std::getenv("TWINPUCK_CACHE_MB");
     const std::uint64_t mb = said ? std::strtoull(said, nullptr, 10) : 0;
     if (pwrite(stamp, "\n", 1, 0) == 1) futimens(stamp, nullptr);
-    keep_within(top, mb ? mb << 20 : kMostCacheBytes);
+    keep_within(top, mb && wrong_cache_bound().empty() ? mb << 20 : kMostCacheBytes);
   }
   close(stamp);
 }

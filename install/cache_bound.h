@@ -4,6 +4,7 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace places {
 
@@ -19,6 +20,9 @@ std::uint64_t keep_within(const std::filesystem::path& folder, std::uint64_t byt
 /// The same for the user's caches and their bound, once a minute at most, among all programs. Full ones take a
 /// sixth of a second, so a run that puts nothing there does not ask.
 void keep_caches_within_bound();
+
+/// What is wrong with TWINPUCK_CACHE_MB; empty: nothing, or it is not set.
+std::string wrong_cache_bound();
 
 /// Says that a file of a cache is of use, where its time of reading is not kept. Costs a look at most calls.
 void note_used(const std::filesystem::path& file);

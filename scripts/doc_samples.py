@@ -6,7 +6,8 @@
     scripts/doc_samples.py BUILD_FOLDER --check    exit 1 when a sample differs
 
 A sample is a block that begins with "$ twinpuck ..." or "$ build/twinpuck ...". It shows the output or a part of it, or
-of a text file that the command writes. How long a run took on the PC is not compared.
+of a text file that the command writes. How long a run took on the PC is not compared. A file NAME.toml that the
+command reads and the tree has not is the ```toml block above it.
 """
 import os
 import pathlib
@@ -18,6 +19,7 @@ import tempfile
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BLOCK = re.compile(r"^```\w*\n\$ (?:build/)?twinpuck ([^\n]*)\n(.*?)^```$", re.M | re.S)
+TOML = re.compile(r"^```toml\n(.*?)^```$", re.M | re.S)
 WALL_TIME = re.compile(r"in [\d.]+ s \(\d+ times real time\)")
 CHANGES = re.compile(r"[0-9a-f]{16}|-?\d+(?:\.\d+)?|no bound")  # what may differ in a sample that is out of date
 
@@ -27,14 +29,16 @@ def shape(line):
     return re.sub(r"\s+", " ", CHANGES.sub("#", line)).strip()
 
 
-def outputs(command, program, folder):
+def outputs(command, program, folder, toml):
     """What the command says and the text files that it writes, as lists of lines."""
     (folder / "docs/images").mkdir(parents=True)
     for name in ("worlds", "firmware", "bench"):
         os.symlink(ROOT / name, folder / name)
+    for name in re.findall(r"(?<= )[\w.-]+\.toml", command):
+        (folder / name).write_text(toml)
     said = subprocess.run(f"'{program}' {command}", shell=True, cwd=folder, stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True, check=False).stdout.replace(f"{ROOT}/", "")
-    written = [p for p in sorted(folder.iterdir()) if p.is_file()]
+    written = [p for p in sorted(folder.iterdir()) if p.is_file() and p.suffix != ".toml"]
     return [text.splitlines() for text in [said] + [p.read_text(errors="replace") for p in written]]
 
 
@@ -66,7 +70,8 @@ def main():
             command, sample = block.group(1), block.group(2).splitlines()
             with tempfile.TemporaryDirectory() as name:
                 folder = pathlib.Path(name)
-                texts = outputs(command, program, folder)
+                above = TOML.findall(text[:block.start()])
+                texts = outputs(command, program, folder, above[-1] if above else "")
                 if first_place(sample, texts, lambda line: WALL_TIME.sub("", line)) is None:
                     where = f"{page.relative_to(ROOT)}:{text.count(chr(10), 0, block.start(2)) + 1}"
                     new = first_place(sample, texts, shape)

@@ -46,9 +46,15 @@ CLI::Validator seed_range() {
       "NONNEGATIVE");
 }
 
+std::string world_here(const char* missing) {
+  std::error_code none;
+  if (!std::filesystem::is_regular_file("world.toml", none)) throw CLI::RequiredError(missing);
+  return "world.toml";
+}
+
 void want_one_world(const CLI::App& verb, const CLI::Option& world, const CLI::Option& replay,
-                    std::vector<std::string>& problems) {
-  if (world.count() + replay.count() == 0) throw CLI::RequiredError("WORLD or --replay");
+                    std::string& name, std::vector<std::string>& problems) {
+  if (world.count() + replay.count() == 0) name = world_here("WORLD or --replay");
   if (replay.count() == 0) return;
   if (world.count() > 0)
     problems.push_back("command line: WORLD: got '" + world.results().front() +

@@ -14,6 +14,10 @@ namespace tools {
 /// A check of options: a number within bounds. (CLI11's own ranges take nan for one.)
 CLI::Validator between(double least, double most);
 
+/// The world of the folder one is in, as `new` makes it; a complaint that `missing` is missing, where there
+/// is none.
+std::string world_here(const char* missing);
+
 /// Of options that name a file to be written: not an empty one.
 CLI::Validator named();
 inline constexpr long long kMostSeed = 9'000'000'000'000'000'000;  ///< as a world file may have it
@@ -22,7 +26,7 @@ CLI::Validator seed_range();
 /// WORLD or --replay, one of them, and beside a recording nothing that it says itself: else lines in `problems`,
 /// or CLI's error where both are missing.
 void want_one_world(const CLI::App& verb, const CLI::Option& world, const CLI::Option& replay,
-                    std::vector<std::string>& problems);
+                    std::string& name, std::vector<std::string>& problems);
 
 /// The world file that a name means (twin/world_file.h), told when it could mean another one. Empty, with a
 /// line in `problems`, when there is none.

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // The verbs that look at firmware without running it: build, lint; and check, which looks at a world.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <set>
 
 #include "compiler/build/build.h"
 #include "hal_sim/twin/firmware_store.h"
+#include "hal_sim/twin/twin.h"
 #include "hal_sim/twin/world_file.h"
 #include "programs/build/build.h"
 #include "sim_core/light/profiles.h"
@@ -115,9 +116,8 @@ int build(cc::BuildOptions options, bool counts_lines) {
   return kPass;
 }
 
-int lint(const std::string& name) {
-  cc::BuildOptions options;
-  options.source_dir = controller_folder(name, "lint");
+int lint(cc::BuildOptions options) {
+  options.source_dir = controller_folder(options.source_dir.string(), "lint");
   if (options.source_dir.empty()) return kBadInput;
   const auto result = cc::lint_folder(options);
   complain(result.errors);
@@ -126,31 +126,57 @@ int lint(const std::string& name) {
   return result.ok ? kPass : kTestFailed;
 }
 
-/// What a world names and is not there: firmware and supervisors.
-std::vector<std::string> missing_files(const sim::WorldDesc& world, const std::string& file) {
-  const std::string folder = fs::path(file).parent_path().string();
-  std::vector<std::string> missing, programs;
-  std::map<std::string, std::vector<std::string>> robots;  // by what they run
-  for (const auto& robot : world.robots) {
-    if (robot.firmware.empty()) continue;
-    if (robots[robot.firmware].empty()) programs.push_back(robot.firmware);
-    robots[robot.firmware].push_back("'" + robot.name + "'");
-  }
+/// "robots 'a', 'b' and 7 more"
+std::string told(const std::vector<std::string>& robots) {
   constexpr std::size_t kMostNames = 4;
-  for (const std::string& program : programs) {
-    if (!twin::find_firmware(program, folder, missing).empty()) continue;
-    std::vector<std::string>& names = robots[program];
-    const std::size_t all = names.size();
-    names.resize(std::min(all, kMostNames));
-    missing.back() =
-        fmt::format("{}: {} {}{}: {}", file, all == 1 ? "robot" : "robots", fmt::join(names, ", "),
-                    all > kMostNames ? fmt::format(" and {} more", all - kMostNames) : "", missing.back());
+  const std::size_t shown = std::min(robots.size(), kMostNames);
+  std::string text = robots.size() == 1 ? "robot " : "robots ";
+  for (std::size_t i = 0; i < shown; ++i) text += (i == 0 ? "'" : ", '") + robots[i] + "'";
+  return robots.size() == shown ? text : fmt::format("{} and {} more", text, robots.size() - shown);
+}
+
+/// What a world names and a run would not take: firmware and supervisors.
+std::vector<sim::WorldProblem> bad_programs(const sim::WorldDesc& world, const std::string& file) {
+  const std::string folder = fs::path(file).parent_path().string();
+  std::vector<sim::WorldProblem> out;
+  std::map<std::string, std::vector<std::string>> robots;  // by what they run
+  for (const auto& robot : world.robots) robots[robot.firmware].push_back(robot.name);
+  std::set<std::string> known{""};
+  for (const auto& robot : world.robots) {
+    if (!known.insert(robot.firmware).second) continue;
+    std::vector<std::string> wrong;
+    const std::string path = twin::find_firmware(robot.firmware, folder, wrong);
+    // what is built from source is the compiler's to judge
+    if (fs::is_regular_file(path) && !programs::is_pc_program(path))
+      if (const std::string error = twin::wrong_image(path); !error.empty()) wrong.push_back(error);
+    for (const std::string& line : wrong)
+      out.push_back(
+          {robot.firmware_at.line, robot.firmware_at.column, told(robots[robot.firmware]) + ": " + line});
   }
-  for (const auto& program : world.supervisors)
-    if (twin::find_firmware(program.program, folder, missing).empty())
-      missing.back() = file + ": supervisor '" + (program.name.empty() ? program.program : program.name) +
-                       "': " + missing.back();
-  return missing;
+  for (const auto& supervisor : world.supervisors) {
+    std::vector<std::string> wrong;
+    if (!supervisor.program.empty()) twin::find_supervisor(supervisor.program, folder, wrong);
+    for (const std::string& line : wrong)
+      out.push_back(
+          {supervisor.program_at.line, supervisor.program_at.column,
+           "supervisor '" + (supervisor.name.empty() ? supervisor.program : supervisor.name) + "': " + line});
+  }
+  return out;
+}
+
+/// What a run takes, and may not be meant.
+std::vector<std::string> notices(const sim::WorldDesc& world, const std::string& file) {
+  std::vector<std::string> out;
+  for (const std::string& notice : sim::proximity_notices(world)) out.push_back(file + ": " + notice);
+  for (const sim::WorldProblem& p : sim::place_notices(world))
+    out.push_back(fmt::format("{}:{}:{}: {}", file, p.line, p.column, p.text));
+  const std::string webots = sim::resolve_path(world, world.webots.world);
+  if (!webots.empty() && !fs::exists(webots))
+    out.push_back(
+        fmt::format("{}: note: webots.world: got {}, which is not there: supervisors find none of "
+                    "its nodes",
+                    file, webots));
+  return out;
 }
 
 int check(const std::vector<std::string>& names) {
@@ -158,10 +184,9 @@ int check(const std::vector<std::string>& names) {
   for (const auto& name : names) {
     std::vector<std::string> problems;
     const std::string file = find_world(name, problems);
-    const auto loaded = file.empty() ? sim::LoadedWorld{} : twin::load_world(file);
+    auto loaded = file.empty() ? sim::LoadedWorld{} : twin::load_world(file);
+    loaded.add(bad_programs(loaded.world ? *loaded.world : loaded.draft, file));
     if (!loaded.problems.empty()) problems.push_back(loaded.report(file));
-    for (std::string& missing : missing_files(loaded.world ? *loaded.world : loaded.draft, file))
-      problems.push_back(std::move(missing));
     if (!problems.empty()) {
       complain(problems);
       exit_code = kBadInput;
@@ -171,10 +196,22 @@ int check(const std::vector<std::string>& names) {
         "{}: good: {} {}, {} {}, {} Hz\n", file, loaded.world->robots.size(),
         loaded.world->robots.size() == 1 ? "robot" : "robots", loaded.world->objects.size(),
         loaded.world->objects.size() == 1 ? "object" : "objects", loaded.world->physics_hz);
-    for (const std::string& notice : sim::proximity_notices(*loaded.world))
-      std::cout << file << ": " << notice << '\n';
+    for (const std::string& notice : notices(*loaded.world, file)) std::cout << notice << '\n';
   }
   return exit_code;
+}
+
+}  // namespace
+
+namespace {
+
+/// What a compiler is told besides the program.
+void add_language(CLI::App& verb, cc::BuildOptions& o) {
+  one_each(verb.add_option("-D", o.defines, "NAME or NAME=value for the preprocessor"));
+  one_each(verb.add_option("-I", o.include_dirs, "folder that is searched for headers first"));
+  verb.add_option("--std", o.standard, "standard of C, such as gnu99; default: the project's, or XC16's")
+      ->check(
+          CLI::IsMember({"c89", "c90", "c99", "c11", "c17", "gnu89", "gnu90", "gnu99", "gnu11", "gnu17"}));
 }
 
 }  // namespace
@@ -183,18 +220,15 @@ void add_build(CLI::App& app, int& exit_code) {
   auto* verb =
       app.add_subcommand("build", "Compile a folder of firmware into an image, or a program of the PC");
   auto o = std::make_shared<cc::BuildOptions>();
-  verb->add_option("DIR", o->source_dir, "folder with C files, or a controller's name; Webots' too")
-      ->required();
+  o->source_dir = ".";
+  verb->add_option("DIR", o->source_dir,
+                   "folder with C files, or a controller's name; Webots' too; without it this folder");
   verb->add_option("-o,--output", o->output,
                    "the image to write, an .elf; without it, where runs keep theirs")
       ->check(named());
   verb->add_option("--opt", o->optimisation, "-O0 -O1 -O2 -Os; default: the project's, else -O1")
       ->check(CLI::IsMember({"-O0", "-O1", "-O2", "-Os"}));
-  one_each(verb->add_option("-D", o->defines, "NAME or NAME=value for the preprocessor"));
-  one_each(verb->add_option("-I", o->include_dirs, "folder that is searched for headers first"));
-  verb->add_option("--std", o->standard, "standard of C, such as gnu99; default: the project's, or XC16's")
-      ->check(
-          CLI::IsMember({"c89", "c90", "c99", "c11", "c17", "gnu89", "gnu90", "gnu99", "gnu11", "gnu17"}));
+  add_language(*verb, *o);
   add_hal(*verb, o->hal);
   verb->add_flag("--sanitize", o->sanitize, "as run --sanitize builds it");
   auto counts_lines = std::make_shared<bool>();
@@ -204,16 +238,23 @@ void add_build(CLI::App& app, int& exit_code) {
 
 void add_lint(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("lint", "Strict warnings, timer conflicts, flags that should be volatile");
-  auto name = std::make_shared<std::string>();
-  verb->add_option("DIR", *name, "folder with C files, or a controller's name")->required();
-  verb->callback([name, &exit_code] { exit_code = lint(*name); });
+  auto o = std::make_shared<cc::BuildOptions>();
+  o->source_dir = ".";
+  verb->add_option("DIR", o->source_dir,
+                   "folder with C files, or a controller's name; without it this folder");
+  add_language(*verb, *o);
+  verb->callback([o, &exit_code] { exit_code = lint(*o); });
 }
 
 void add_check(CLI::App& app, int& exit_code) {
   auto* verb = app.add_subcommand("check", "Read world files and tell everything that is wrong with them");
   auto files = std::make_shared<std::vector<std::string>>();
-  verb->add_option("WORLD", *files, "world files, or names of those in worlds/")->required();
-  verb->callback([files, &exit_code] { exit_code = check(*files); });
+  verb->add_option("WORLD", *files,
+                   "world files, or names of those in worlds/; without one this folder's world.toml");
+  verb->callback([files, &exit_code] {
+    if (files->empty()) files->push_back(world_here("WORLD"));
+    exit_code = check(*files);
+  });
 }
 
 }  // namespace tools

@@ -86,8 +86,11 @@ int import(const std::string& file, std::string output, bool without_firmware) {
     complain({loaded.report(output)});
     return kInternal;  // what it writes can always be loaded
   }
-  std::cout << fmt::format("{}: {} robots, {} objects, {} things not carried\n", output, made.robots,
-                           made.objects, made.report.size());
+  const auto counted = [](auto n, const char* what) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
+  };
+  std::cout << fmt::format("{}: {}, {}, {} not carried\n", output, counted(made.robots, "robot"),
+                           counted(made.objects, "object"), counted(made.report.size(), "thing"));
   return kPass;
 }
 

@@ -80,8 +80,10 @@ std::string options_text(const LabArguments& a) {
 }
 
 void write_tables(const LabArguments& a, const lab::Class& all, std::vector<std::string>& problems) {
+  std::error_code none;
+  const std::string name = fs::weakly_canonical(a.mine, none).filename().string();  // of "." too
   if (!a.html.empty())
-    write_file(a.html, "--html", lab::class_html(all, a.mine.empty() ? "The lab" : "The lab: " + a.mine),
+    write_file(a.html, "--html", lab::class_html(all, a.mine.empty() ? "The lab" : "The lab: " + name),
                problems);
   if (!a.junit.empty()) write_file(a.junit, "--junitxml", lab::class_junit(all), problems);
 }

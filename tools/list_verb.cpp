@@ -128,8 +128,10 @@ void add_list(CLI::App& app, int& exit_code) {
           CLI::IsMember({"controllers", "worlds", "supervisors", "parts", "faults", "signals", "robots"}));
   verb->add_option("WORLD", *world, "whose robots");
   verb->callback([what, world, &exit_code] {
-    if ((*what == "robots") == world->empty())
-      throw CLI::ValidationError("WORLD", "got robots without one, or one without robots, expected both");
+    if (*what == "robots" && world->empty())
+      throw CLI::ValidationError("WORLD", "got none, expected the world whose robots are listed");
+    if (*what != "robots" && !world->empty())
+      throw CLI::ValidationError("WORLD", "got one, expected none: only robots are listed by world");
     exit_code = *what == "robots" ? list_robots(*world) : list(*what);
   });
 }

@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 
 struct Place {
   const char *name, *folder;  // folder: below the product's
+  bool is_made = false;       // ... or below what building made
 };
 constexpr Place kPlaces[] = {
     {"root", ""},
@@ -28,6 +29,7 @@ constexpr Place kPlaces[] = {
     {"worlds", "worlds"},
     {"templates", "tools/templates"},
     {"editors", "editors"},
+    {"python", "python", true},  // what PYTHONPATH names for `import twinpuck`
 };
 
 }  // namespace
@@ -47,7 +49,10 @@ void add_paths(CLI::App& app, int& exit_code) {
     }
     for (const Place& place : kPlaces) {
       std::error_code none;
-      const std::string path = fs::weakly_canonical(places::share_root() / place.folder, none).string();
+      const std::string path =
+          fs::weakly_canonical((place.is_made ? places::tools_folder() : places::share_root()) / place.folder,
+                               none)
+              .string();
       if (what->empty()) std::cout << fmt::format("{:<12} {}\n", place.name, path);
       if (*what == place.name) std::cout << path << '\n';
     }

@@ -224,8 +224,11 @@ bool CommandRun::open() {
     if (!read_options()) return false;
     auto world = read_world();
     if (!world || !check_files(a_, replay_.get(), *world, options_, problems_)) return false;
-    if (!a_.quiet)
+    if (!a_.quiet) {
       for (const std::string& notice : sim::proximity_notices(*world)) std::cerr << notice << '\n';
+      for (const sim::WorldProblem& p : sim::place_notices(*world))
+        std::cerr << world->file << ':' << p.line << ':' << p.column << ": " << p.text << '\n';
+    }
     run_ = runs::Run::open(std::move(*world), options_,
                            replay_ ? replay_->opening.supervisors : a_.supervisors, problems_);
     if (!run_ || !add_faults(a_, run_->inputs().faults(), problems_)) return false;
@@ -536,7 +539,7 @@ void add_run(CLI::App& app, int& exit_code) {
     if (a->live && speed->count() == 0) a->speed = "1";
     a->has_end = verb->get_option("--for")->count() > 0;
     std::vector<std::string> problems;
-    want_one_world(*verb, *world, *replay, problems);
+    want_one_world(*verb, *world, *replay, a->world, problems);
     refuse_without_output(*verb, problems);
     complain(problems);
     exit_code = problems.empty() ? run(*a) : int{kBadInput};

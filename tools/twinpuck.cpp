@@ -10,6 +10,7 @@
 #include <iterator>
 #include <string_view>
 
+#include "install/cache_bound.h"
 #include "tools/command_line.h"
 #include "tools/printable.h"
 #include "tools/run_guard.h"
@@ -46,6 +47,10 @@ int call(int argc, char** argv) {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   guard_process();
+  if (const std::string wrong = places::wrong_cache_bound(); !wrong.empty()) {
+    complain({wrong});
+    return kBadInput;
+  }
   int exit_code = kPass;
   CLI::App app{"Twinpuck: the firmware twin of the e-puck robot"};
   app.require_subcommand(1);

@@ -121,7 +121,7 @@ void add_view(CLI::App& app, int& exit_code) {
       "recording could not be written");
   verb->callback([a, verb, world, replay, &exit_code] {
     std::vector<std::string> problems;
-    want_one_world(*verb, *world, *replay, problems);
+    want_one_world(*verb, *world, *replay, a->world, problems);
     complain(problems);
     exit_code = problems.empty() ? view(*a) : int{kBadInput};
   });

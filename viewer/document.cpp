@@ -10,6 +10,7 @@
 
 #include "hal_sim/board/part.h"
 #include "hal_sim/twin/world_file.h"
+#include "sim_core/load/key_rules.h"
 #include "sim_core/load/schema.h"
 
 namespace viewer {
@@ -96,6 +97,20 @@ void check_part_key(const std::string& key) {
   refuse(fmt::format("key: got '{}', expected a key of robot.part", key.substr(0, 60)));
 }
 
+/// Keys that say nothing any more beside those that were written just now.
+void take_idle(sim::WorldText& text, int id, const std::string& path, const Json& fresh) {
+  const auto value_of = [&](const char* key) -> std::optional<std::string> {
+    std::string value = text.value(id, key);
+    if (value.empty()) return std::nullopt;
+    if (value[0] == '"' || value[0] == '\'') return value.substr(1, value.size() - 2);
+    return value == "true" || value == "false" ? value : std::string();
+  };
+  for (const sim::IdleKey& idle : sim::idle_keys(sim::section(path), value_of)) {
+    if (!fresh.contains(idle.key) && fresh.contains(idle.other)) text.set(id, idle.key, "");
+    if (fresh.contains(idle.key) && !fresh.contains(idle.other) && idle.is_same) text.set(id, idle.other, "");
+  }
+}
+
 }  // namespace
 
 Document::Document(std::string file, std::string bytes)
@@ -166,6 +181,7 @@ std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) c
       check_key(path, key);
       next.set(id, key, literal(value));
     }
+    take_idle(next, id, path, values);
   };
   if (op == "set") {
     const sim::WorldText::Element element = piece();

@@ -31,10 +31,23 @@ bool is_room(const std::string& name) {
   return name == "include" || name == "libc" || name == "library" || name == "webots" || name == "lab";
 }
 
-std::vector<std::string> controller_names() {
+// Who runs a program, and from where in the project.
+struct Runs {
+  const char* what;
+  const char* expected;
+  std::vector<const char*> rooms;
+};
+const Runs kRobot{"firmware: got a name that is neither a file nor a controller",
+                  "an image, a folder with C files, a program of the PC or a folder under firmware/",
+                  {"firmware", "firmware/lab", "programs/supervisors"}};
+const Runs kSupervisor{"supervisor: got a name that is neither a file nor a program",
+                       "a program of the PC or one that `twinpuck list supervisors` shows",
+                       {"programs/supervisors"}};
+
+std::vector<std::string> program_names(const Runs& runs) {
   std::vector<std::string> names;
   std::error_code none;
-  for (const char* room : {"firmware", "firmware/lab", "programs/supervisors"})
+  for (const char* room : runs.rooms)
     for (const auto& entry : fs::directory_iterator(places::share_root() / room, none))
       if (entry.is_directory(none) && !is_room(entry.path().filename().string()) && holds_c(entry.path()))
         names.push_back(entry.path().filename().string());
@@ -134,8 +147,10 @@ std::string webots_settings_of(const sim::WorldDesc& world) {
   return text;
 }
 
-std::string find_firmware(const std::string& name, const std::string& from_folder,
-                          std::vector<std::string>& problems, std::string* other) {
+namespace {
+
+std::string find_program(const std::string& name, const std::string& from_folder, const Runs& runs,
+                         std::vector<std::string>& problems, std::string* other) {
   std::error_code none;
   if (name == kExtern) return name;
   const auto is_firmware = [&](const fs::path& p) {
@@ -161,15 +176,13 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
   std::error_code wrong;
   if (!fs::exists(path, wrong) && wrong && wrong != std::errc::no_such_file_or_directory &&
       wrong != std::errc::not_a_directory) {
-    problems.push_back(path.string() + ": firmware: " + wrong.message());
+    problems.push_back(path.string() + (&runs == &kRobot ? ": firmware: " : ": supervisor: ") +
+                       wrong.message());
     return "";
   }
   if (!fs::exists(path, none)) {
-    problems.push_back(name +
-                       ": firmware: got a name that is neither a file nor a controller, expected an image, a "
-                       "folder with C files, a program of the PC "
-                       "or a folder under firmware/" +
-                       sim::did_you_mean_tail(name, controller_names()));
+    problems.push_back(name + ": " + runs.what + ", expected " + runs.expected +
+                       sim::did_you_mean_tail(name, program_names(runs)));
     return "";
   }
   // "." and ".." are nobody's names
@@ -182,6 +195,18 @@ std::string find_firmware(const std::string& name, const std::string& from_folde
         fs::weakly_canonical(same, none) != fs::weakly_canonical(path, none))
       *other = same.string();
   return path.string();
+}
+
+}  // namespace
+
+std::string find_firmware(const std::string& name, const std::string& from_folder,
+                          std::vector<std::string>& problems, std::string* other) {
+  return find_program(name, from_folder, kRobot, problems, other);
+}
+
+std::string find_supervisor(const std::string& name, const std::string& from_folder,
+                            std::vector<std::string>& problems) {
+  return find_program(name, from_folder, kSupervisor, problems, nullptr);
 }
 
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
@@ -221,7 +246,7 @@ std::string provide_image(const std::string& name, const std::string& from_folde
 
 bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
                     std::vector<std::string>& problems, programs::Launch& launch) {
-  const std::string path = find_firmware(name, from_folder, problems);
+  const std::string path = find_supervisor(name, from_folder, problems);
   return !path.empty() &&
          programs::prepare(path, places::cache_folder("programs").string(), options.tell, problems, launch);
 }

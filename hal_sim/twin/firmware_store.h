@@ -79,6 +79,10 @@ std::string said(const Program& program);
 std::string find_firmware(const std::string& name, const std::string& from_folder,
                           std::vector<std::string>& problems, std::string* other = nullptr);
 
+/// The same of what a supervisor runs.
+std::string find_supervisor(const std::string& name, const std::string& from_folder,
+                            std::vector<std::string>& problems);
+
 /// Where the image of a folder of C files is kept that is built with these options.
 std::string image_file(const std::string& folder, const Options& options);
 
@@ -88,7 +92,7 @@ std::string image_file(const std::string& folder, const Options& options);
 std::string provide_image(const std::string& name, const std::string& from_folder, const Options& options,
                           std::vector<std::string>& problems, Program* program = nullptr);
 
-/// How the program of the PC that `name` means is started, built if need be; found as find_firmware() does.
+/// How the program of the PC that `name` means is started, built if need be; found as find_supervisor() does.
 /// False, with lines in `problems`.
 bool provide_launch(const std::string& name, const std::string& from_folder, const Options& options,
                     std::vector<std::string>& problems, programs::Launch& launch);

@@ -18,6 +18,7 @@
 #include "hal_sim/chip/library_sources.h"
 #include "hal_sim/chip/oscillator.h"
 #include "hal_sim/twin/large_pages.h"
+#include "hal_sim/twin/robot_check.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/radio/link_medium.h"
@@ -61,11 +62,6 @@ void check_names(const sim::WorldDesc& world, const std::vector<Choice>& choices
 // where a robot's pseudo-terminal is found: a stable name in the run's folder
 std::string pty_link(const std::string& robot, int port) {
   return "twinpuck-" + robot + "-uart" + std::to_string(port);
-}
-
-/// What its table says in the keys that only its kind has.
-sim::OwnSettings own_settings(const sim::WorldDesc& world, const sim::RobotDesc& robot) {
-  return {world.model_of(robot)->keys, robot.own};
 }
 
 // noise settings stay with the world's optics; the board gets what is this robot's own
@@ -152,40 +148,6 @@ host::RunnerFactory runner_for(const Firmware& program, board::Setup& setup, hos
   return [=, name = setup.name, seed = setup.seed, image = program.image](board::Board& board) {
     return std::make_unique<chip::ChipRunner>(name, image, chip::clock_factor(fosc), board, start, seed);
   };
-}
-
-// first address at which two devices of the bus would answer; -1 when there is none
-int shared_address(const board::I2cBus& bus) {
-  for (int address = 0; address < 256; address += 2) {
-    int answers = 0;
-    for (const auto& device : bus.devices())
-      answers += device->answers_to(static_cast<std::uint8_t>(address));
-    if (answers > 1) return address;
-  }
-  return -1;
-}
-
-// turrets and the like
-void plug_in_parts(const sim::RobotDesc& robot, board::Board& board, std::vector<std::string>& problems) {
-  for (std::size_t i = 0; i < robot.parts.size(); ++i) {
-    const sim::PartDesc& part = robot.parts[i];
-    const board::PartType* type = board::find_part_type(part.kind);
-    if (!type) {
-      problems.push_back("robot '" + robot.name + "': part: got kind '" + part.kind +
-                         "', expected one that the program knows");
-      continue;
-    }
-    board.plug_in(type->make(board::PartSettings(type->kind, part, static_cast<int>(i))));
-    const int address = shared_address(board.i2c());
-    if (address >= 0) {
-      problems.push_back(
-          fmt::format("robot '{}': part '{}': got I2C address 0x{:02X}, which another device of this robot "
-                      "has, expected one of "
-                      "its own; leave one of them out",
-                      robot.name, part.kind, address));
-      return;
-    }
-  }
 }
 
 /// Text of firmware goes to whoever listens between ticks, robot by robot.
@@ -276,6 +238,12 @@ class FirmwareShelf {
 
 }  // namespace
 
+std::string wrong_image(const std::string& path) {
+  std::string error;
+  open_firmware(path, {}, error);
+  return error;
+}
+
 void note_uart_files(const sim::WorldDesc& world, const Options& options, sim::FileUses& files) {
   for (const sim::RobotDesc& robot : world.robots)
     for (int port = 1; port <= 2; ++port) {
@@ -344,7 +312,7 @@ std::unique_ptr<host::FirmwareMind> Twin::add_robot(const sim::WorldDesc& world,
   }
   auto mind = std::make_unique<host::FirmwareMind>(setup, make_runner);
   place.mind = mind.get();
-  plug_in_parts(robot, mind->board(), problems);
+  for (const sim::WorldProblem& wrong : plug_in_parts(robot, mind->board())) problems.push_back(wrong.text);
 
   // UART 1 goes through the Bluetooth module to its other end, UART 2 there at once
   const auto other_end = [&](int port) {

@@ -28,6 +28,9 @@ struct Firmware;  // twin.cpp
 void note_uart_files(const sim::WorldDesc& world, const Options& options, sim::FileUses& files);
 void note_programs(const sim::WorldDesc& world, const Options& options, sim::FileUses& files);
 
+/// What is wrong with a file that robots are to run; empty: nothing.
+std::string wrong_image(const std::string& path);
+
 class Twin {
  public:
   /// Joins world and firmware. Null when anything is wrong; every problem is one line in `problems`.

@@ -5,8 +5,17 @@
 
 #include "hal_sim/board/epuck_model.h"
 #include "hal_sim/board/part.h"
+#include "hal_sim/twin/robot_check.h"
 
 namespace twin {
+namespace {
+
+sim::LoadedWorld with_robots_checked(sim::LoadedWorld loaded) {
+  loaded.add(check_robots(loaded.world ? *loaded.world : loaded.draft));
+  return loaded;
+}
+
+}  // namespace
 
 std::vector<sim::RobotModel> robot_models() {
   sim::RobotModel model = board::epuck_model();
@@ -17,7 +26,7 @@ std::vector<sim::RobotModel> robot_models() {
 }
 
 sim::LoadedWorld load_world(const std::string& file) {
-  sim::LoadedWorld loaded = sim::load_world(file, robot_models(), board::part_kinds());
+  sim::LoadedWorld loaded = with_robots_checked(sim::load_world(file, robot_models(), board::part_kinds()));
   std::error_code none;
   const std::filesystem::path path(file);
   if (!loaded.world && path.extension() == ".wbt" && std::filesystem::is_regular_file(path, none))
@@ -29,7 +38,7 @@ sim::LoadedWorld load_world(const std::string& file) {
 }
 
 sim::LoadedWorld parse_world(std::string_view text, const std::string& file, sim::KnownWorld* known) {
-  return sim::parse_world(text, file, robot_models(), board::part_kinds(), known);
+  return with_robots_checked(sim::parse_world(text, file, robot_models(), board::part_kinds(), known));
 }
 
 }  // namespace twin

@@ -26,7 +26,7 @@ void note_supervisors(const sim::WorldDesc& world, const std::string& world_fold
                       const std::vector<std::string>& supervisors, sim::FileUses& files) {
   std::vector<std::string> missing;  // told when it is to run
   for (const NamedSupervisor& named : supervisors_of(world, world_folder, supervisors, missing))
-    files.reads_program(twin::find_firmware(named.desc.program, named.folder, missing));
+    files.reads_program(twin::find_supervisor(named.desc.program, named.folder, missing));
 }
 
 std::unique_ptr<Team> Team::open(twin::Twin& twin, const twin::Options& options,

@@ -577,7 +577,9 @@ struct Nodes::Inside {
       case End: {
         const double status = v.empty() || !std::isfinite(v[0]) ? 0 : std::min(255.0, std::max(-255.0, v[0]));
         host.end_run(static_cast<int>(status),
-                     text.empty() ? fmt::format("simulation_quit({})", static_cast<int>(status)) : text);
+                     text.empty()
+                         ? fmt::format("its program ended the run with status {}", static_cast<int>(status))
+                         : text);
         break;
       }
       case Reset:

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstring>
+#include <string_view>
 
 #include "sim_core/base/input_file.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kLongestPicture = 256u << 20;  // bytes
 constexpr int kMostPixels = 64'000'000;
+constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
 
 // what cairo has not read yet
 cairo_status_t next_bytes(void* rest, unsigned char* out, unsigned count) {
@@ -47,17 +49,20 @@ std::string read_floor_image(const std::string& path, FloorDesc& floor) {
 
 std::string parse_floor_image(std::string_view bytes, FloorDesc& floor) {
   if (bytes.empty()) return "an empty file";
+  // what cairo says of another kind of file is about cairo ("out of memory")
+  if (bytes.substr(0, kSignature.size()) != kSignature)
+    return kSignature.substr(0, bytes.size()) == bytes ? "a file that has been cut off" : "no PNG";
   // A picture that is too large is refused before anything is unpacked.
-  if (bytes.substr(1, 3) == "PNG") {
-    const std::string size = check_size(bytes);
-    if (!size.empty()) return fmt::format("{}; at most {} pixels", size, kMostPixels);
-  }
+  const std::string size = check_size(bytes);
+  if (!size.empty()) return fmt::format("{}; at most {} pixels", size, kMostPixels);
   cairo_surface_t* image = cairo_image_surface_create_from_png_stream(next_bytes, &bytes);
   const cairo_status_t status = cairo_surface_status(image);
   if (status != CAIRO_STATUS_SUCCESS) {
     cairo_surface_destroy(image);
-    return status == CAIRO_STATUS_READ_ERROR ? "no PNG, or one that has been cut off"
-                                             : cairo_status_to_string(status);
+    // this is cairo's word for whatever the PNG library finds wrong
+    return status == CAIRO_STATUS_READ_ERROR || status == CAIRO_STATUS_NO_MEMORY
+               ? "one that is damaged or has been cut off"
+               : cairo_status_to_string(status);
   }
   const int width = cairo_image_surface_get_width(image);
   const int height = cairo_image_surface_get_height(image);

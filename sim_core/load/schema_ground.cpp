@@ -53,7 +53,6 @@ SectionSpec ramp_section() {
           {"heights", ValueType::Pair, "m", 0, 10, "", "",
            "of the low and the high end above the floor; equal ones make a platform",
            checked<R>([](R& r, const Value& v, const WorldDesc&) {
-             if (r.high_m > 0) return std::string("got heights beside an angle, expected one of them");
              return set_heights(r, v.numbers[0], v.numbers[1]);
            })},
           {"material", ValueType::Text, "", 0, 0, "", "",

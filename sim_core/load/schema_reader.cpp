@@ -6,12 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
+
+#include "sim_core/load/key_rules.h"
 
 namespace sim {
 namespace {
-
-constexpr std::size_t kMostProblems = 200;  // reported; more would help nobody
 
 constexpr std::size_t kLongestQuote = 60;  // characters of a value that a message repeats
 
@@ -111,6 +112,12 @@ bool read_value(const KeySpec& k, const toml::node& node, Value& v) {
 
 }  // namespace
 
+void sort_by_place(std::vector<WorldProblem>& problems) {
+  std::stable_sort(problems.begin(), problems.end(), [](const WorldProblem& a, const WorldProblem& b) {
+    return a.line != b.line ? a.line < b.line : a.column < b.column;
+  });
+}
+
 const toml::table* SchemaReader::parse(std::string_view text) {
   if (text.size() > kLongestWorld) {
     problem({}, fmt::format("got {} bytes, expected at most {}", text.size(), kLongestWorld));
@@ -135,19 +142,20 @@ const toml::table* SchemaReader::parse(std::string_view text) {
 void SchemaReader::sort_problems() {
   more_ += problems_.size() > kMostProblems ? problems_.size() - kMostProblems : 0;
   if (problems_.size() > kMostProblems) problems_.resize(kMostProblems);
-  std::stable_sort(problems_.begin(), problems_.end(), [](const WorldProblem& a, const WorldProblem& b) {
-    return a.line != b.line ? a.line < b.line : a.column < b.column;
-  });
+  sort_by_place(problems_);
   if (more_ > 0) problems_.push_back({0, 0, fmt::format("and {} mistakes more", more_)});
 }
 
 void SchemaReader::problem(const toml::source_region& where, std::string text) {
+  problem({static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
+}
+
+void SchemaReader::problem(WorldProblem one) {
   if (problems_.size() >= kMostProblems) {
     ++more_;
     return;
   }
-  problems_.push_back(
-      {static_cast<int>(where.begin.line), static_cast<int>(where.begin.column), std::move(text)});
+  problems_.push_back(std::move(one));
 }
 
 std::string SchemaReader::written(const toml::node& node) const {
@@ -174,6 +182,9 @@ void SchemaReader::read_table(const SectionSpec& spec, const std::vector<std::st
     if (known || std::find(inner.begin(), inner.end(), name) != inner.end()) continue;
     std::vector<std::string> candidates = inner;
     for (const KeySpec& k : spec.keys) candidates.push_back(k.key);
+    // a word that nobody can guess may have been meant for anything
+    const std::string meant = did_you_mean(name, candidates);
+    is_place_in_doubt_ |= meant.empty() || says_place(meant);
     if (path == "world" && name == "interrupts") {
       problem(key.source(),
               "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
@@ -185,16 +196,20 @@ void SchemaReader::read_table(const SectionSpec& spec, const std::vector<std::st
             fmt::format("unknown key '{}'{}{} (keys: {})", name.substr(0, 60),
                         path.empty() ? "" : " in " + path, did_you_mean_tail(name, candidates), all));
   }
+  std::set<std::string> refused;  // a key is told once
   for (const KeySpec& k : spec.keys) {
     const toml::node* node = table.get(k.key);
     if (!node) {
       if (std::strcmp(k.fallback, "required") == 0) {
+        is_place_in_doubt_ |= says_place(k.key);
         problem(table.source(), fmt::format("{}{}: missing, expected {}", prefix, k.key, expected_text(k)));
       }
       continue;
     }
     Value value;
     if (!read_value(k, *node, value)) {
+      is_place_in_doubt_ |= says_place(k.key);
+      refused.insert(k.key);
       std::string hint;
       if (k.type == ValueType::Text && node->is_string()) hint = " without control characters";
       if (k.type == ValueType::Choice && node->is_string()) hint = choice_hint(k, node->as_string()->get());
@@ -203,8 +218,20 @@ void SchemaReader::read_table(const SectionSpec& spec, const std::vector<std::st
       continue;
     }
     const std::string wrong = k.set(target, value, draft);
-    if (!wrong.empty()) problem(node->source(), fmt::format("{}{}: {}", prefix, k.key, wrong));
+    if (wrong.empty()) continue;
+    is_place_in_doubt_ |= says_place(k.key);
+    refused.insert(k.key);
+    problem(node->source(), fmt::format("{}{}: {}", prefix, k.key, wrong));
   }
+  const auto value_of = [&](const char* key) -> std::optional<std::string> {
+    const toml::node* node = table.get(key);
+    if (!node) return std::nullopt;
+    if (const auto* flag = node->as_boolean()) return flag->get() ? "true" : "false";
+    return node->is_string() ? node->as_string()->get() : std::string();
+  };
+  for (const IdleKey& idle : idle_keys(spec, value_of))
+    if (refused.count(idle.key) == 0)
+      problem(table.get(idle.key)->source(), fmt::format("{}{}: {}", prefix, idle.key, idle.why));
 }
 
 std::string SchemaReader::choice_hint(const KeySpec& k, const std::string& got) {

@@ -12,6 +12,10 @@
 
 namespace sim {
 
+inline constexpr std::size_t kMostProblems = 200;  // reported; more would help nobody
+
+void sort_by_place(std::vector<WorldProblem>& problems);
+
 class SchemaReader {
  protected:
   /// `known`: the tree of a text before, and behind parse() of this one; null: there is none.
@@ -20,6 +24,7 @@ class SchemaReader {
   /// The tree of a file; null, with a problem, where it is none. `text` outlives the reading.
   const toml::table* parse(std::string_view text);
   void problem(const toml::source_region& where, std::string text);
+  void problem(WorldProblem one);
   /// Those that stay, in the order of their places.
   void sort_problems();
   /// A value as it stands in the file, for messages.
@@ -52,7 +57,8 @@ class SchemaReader {
   }
 
   std::vector<WorldProblem> problems_;
-  std::size_t more_ = 0;  // that are not kept
+  bool is_place_in_doubt_ = false;  // a key that read_table() refused may have been to say where a body is
+  std::size_t more_ = 0;            // that are not kept
 
  private:
   static std::string choice_hint(const KeySpec& k, const std::string& got);

@@ -17,12 +17,11 @@ std::string uart_text(const Value& v, std::string& out) {
               (t.rfind("pty:", 0) == 0 && t.size() > 4);
   if (t.rfind("tcp:", 0) == 0 && t.size() > 4 && t.size() <= 9 &&
       t.find_first_not_of("0123456789", 4) == std::string::npos) {
-    const int port = std::stoi(t.substr(4));
-    good = port >= 1 && port <= 65535;
+    good = std::stoi(t.substr(4)) <= 65535;  // 0: one that is free
   }
   if (!good)
     return fmt::format(
-        "got \"{}\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 1 to 65535, or file:PATH", t);
+        "got \"{}\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 0 to 65535, or file:PATH", t);
   out = t;
   return {};
 }

@@ -3,6 +3,8 @@
 // (by libccd, in 3-D).
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "sim_core/geometry/neighbours.h"
@@ -66,9 +68,13 @@ void check_link_numbers(const WorldDesc& world, std::vector<WorldProblem>& out) 
   }
 }
 
-void check_models(const WorldDesc& world, std::vector<WorldProblem>& out) {
-  for (const RobotDesc& r : world.robots) {
+void check_models(const WorldDesc& world, const std::vector<std::size_t>& unplaced,
+                  std::vector<WorldProblem>& out) {
+  for (std::size_t i = 0; i < world.robots.size(); ++i) {
+    const RobotDesc& r = world.robots[i];
     const RobotModel* model = world.model_of(r);
+    // whoever read the file has told a model that is none
+    if (!model && std::find(unplaced.begin(), unplaced.end(), i) != unplaced.end()) continue;
     if (!model) {
       out.push_back(
           {r.line, 1,
@@ -153,9 +159,23 @@ void check_overlaps(const WorldDesc& world, int only, std::vector<WorldProblem>&
   }
 }
 
+/// Of a world with mistakes: what is known to stand where it stands.
+WorldDesc placed_world(const WorldDesc& world, const std::vector<std::size_t>& unplaced) {
+  WorldDesc placed = world;
+  placed.robots.clear();
+  for (std::size_t i = 0; i < world.robots.size(); ++i)
+    if (world.model_of(world.robots[i]) && std::find(unplaced.begin(), unplaced.end(), i) == unplaced.end())
+      placed.robots.push_back(world.robots[i]);
+  if (world.engine == Engine::Planar) {
+    placed.ramps.clear();
+    placed.floor.tilt_x_rad = placed.floor.tilt_y_rad = 0;
+  }
+  return placed;
+}
+
 }  // namespace
 
-std::vector<WorldProblem> check_world(const WorldDesc& world) {
+std::vector<WorldProblem> check_world(const WorldDesc& world, const std::vector<std::size_t>& unplaced) {
   std::vector<WorldProblem> out;
   if (world.robots.size() > kMostRobots) {
     out.push_back(
@@ -165,9 +185,29 @@ std::vector<WorldProblem> check_world(const WorldDesc& world) {
   check_link_numbers(world, out);
   check_defs(world, out);
   check_names(world, out);
-  check_models(world, out);
+  check_models(world, unplaced, out);
   check_planar(world, out);
-  if (out.empty()) check_overlaps(world, -1, out);
+  if (out.empty() && unplaced.empty())
+    check_overlaps(world, -1, out);
+  else
+    check_overlaps(placed_world(world, unplaced), -1, out);
+  return out;
+}
+
+std::vector<WorldProblem> place_notices(const WorldDesc& world) {
+  std::vector<WorldProblem> out;
+  if (!world.arena) return out;
+  const Vec2 size = world.arena->size_m, centre = world.arena->centre_m;
+  for (const RobotDesc& r : world.robots) {
+    const double dx = r.pose.x_m - centre.x, dy = r.pose.y_m - centre.y;
+    if (std::abs(dx) <= size.x / 2 && std::abs(dy) <= size.y / 2) continue;
+    out.push_back(
+        {r.line, 1,
+         fmt::format("note: {}: position [{:.4g}, {:.4g}] m is outside the arena, which is x {:.4g} "
+                     "to {:.4g} m, y {:.4g} to {:.4g} m",
+                     r.name, r.pose.x_m, r.pose.y_m, centre.x - size.x / 2, centre.x + size.x / 2,
+                     centre.y - size.y / 2, centre.y + size.y / 2)});
+  }
   return out;
 }
 

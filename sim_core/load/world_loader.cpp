@@ -30,8 +30,11 @@ class Reader : private SchemaReader {
 
   LoadedWorld read(std::string_view text) {
     LoadedWorld out;
-    if (const auto root = parse(text)) read_all(*root);
-    if (problems_.empty()) problems_ = check_world(world_);
+    const toml::table* const root = parse(text);
+    if (root) read_all(*root);
+    // what could be read is checked too, so that nothing is told only when other mistakes are gone
+    if (root)
+      for (WorldProblem& p : check_world(world_, unplaced_robots_)) problem(std::move(p));
     sort_problems();
     if (problems_.empty())
       out.world = std::move(world_);
@@ -69,6 +72,13 @@ class Reader : private SchemaReader {
     SchemaReader::read_table(spec, inner_sections(spec.path), table, target, world_);
   }
 
+  /// The same of a body; false: where it is, or how large, is not known.
+  bool read_place(const SectionSpec& spec, const toml::table& table, void* target) {
+    is_place_in_doubt_ = false;
+    read_table(spec, table, target);
+    return !is_place_in_doubt_;
+  }
+
   /// A [section], if it is there.
   void read_one(const char* path, const toml::table& parent, const char* key, void* target) {
     const toml::node* node = parent.get(key);
@@ -83,9 +93,9 @@ class Reader : private SchemaReader {
       ObjectDesc o;
       o.kind = kind;
       o.line = line_of(t);
-      read_table(path, t, &o);
+      const bool is_placed = read_place(section(path), t, &o);
       if (kind == ObjectKind::Ball) o.size_m.z = 2 * o.radius_m;
-      world_.objects.push_back(std::move(o));
+      if (is_placed) world_.objects.push_back(std::move(o));
     });
   }
 
@@ -107,15 +117,16 @@ class Reader : private SchemaReader {
     // The arena and its floor.
     if (root.get("arena")) {
       ArenaDesc arena;
+      is_place_in_doubt_ = !root.get("arena")->is_table();
       read_one("arena", root, "arena", &arena);
-      world_.arena = arena;
+      if (!is_place_in_doubt_) world_.arena = arena;
     }
     read_one("floor", root, "floor", &world_.floor);
     if (!world_.floor.image.empty()) {
       const std::string wrong = read_floor_image(resolve_path(world_, world_.floor.image), world_.floor);
       const toml::node* node = root["floor"]["image"].node();
       if (!wrong.empty()) problem(node->source(), "floor.image: " + wrong);
-      if (!world_.arena)
+      if (!root.get("arena"))
         problem(node->source(), "floor.image: got an image but no [arena], expected an arena to lay it in");
     }
     read_one("sky", root, "sky", &world_.sky);
@@ -123,14 +134,12 @@ class Reader : private SchemaReader {
     read_many("ramp", root, "ramp", [&](const toml::table& t) {
       RampDesc r;
       r.line = line_of(t);
-      const std::size_t before = problems_.size();
-      read_table("ramp", t, &r);
-      if (problems_.size() != before) return;
+      const bool is_placed = read_place(section("ramp"), t, &r);
       if (!t.get("angle") && !t.get("heights")) {
         problem(t.source(), "ramp: got neither angle nor heights, expected one of them (deg; m)");
         return;
       }
-      world_.ramps.push_back(std::move(r));
+      if (is_placed) world_.ramps.push_back(std::move(r));
     });
     // What several robots share, then what stands about.
     read_one("radio", root, "radio", &world_.radio);
@@ -139,9 +148,7 @@ class Reader : private SchemaReader {
     read_many("wall", root, "wall", [&](const toml::table& t) {
       WallDesc w;
       w.line = line_of(t);
-      const std::size_t before = problems_.size();
-      read_table("wall", t, &w);
-      if (problems_.size() == before) world_.walls.push_back(std::move(w));
+      if (read_place(section("wall"), t, &w)) world_.walls.push_back(std::move(w));
     });
     read_objects(root, "box", ObjectKind::Box);
     read_objects(root, "cylinder", ObjectKind::Cylinder);
@@ -159,6 +166,7 @@ class Reader : private SchemaReader {
       SupervisorDesc s;
       s.line = line_of(t);
       read_table("supervisor", t, &s);
+      s.program_at = place_of(t.get("program"));
       read_devices("supervisor.device", t, s.devices);
       world_.supervisors.push_back(std::move(s));
     });
@@ -178,8 +186,6 @@ class Reader : private SchemaReader {
         sound.samples = std::move(wav.samples);
         sound.sample_rate_hz = wav.rate_hz;
       }
-      if (t.get("level") && t.get("pressure"))
-        problem(t.get("pressure")->source(), "sound.pressure: got a level besides, expected one of them");
       if (sound.stop_s <= sound.start_s)
         problem(t.get("stop") ? t.get("stop")->source() : t.source(),
                 fmt::format("sound.stop: got {} s, expected more than the start at {} s", sound.stop_s,
@@ -193,7 +199,8 @@ class Reader : private SchemaReader {
       RobotDesc r;
       r.name = "robot" + std::to_string(world_.robots.size());
       r.line = line_of(t);
-      read_table(robot_keys(t), t, &r);
+      if (!read_place(robot_keys(t), t, &r)) unplaced_robots_.push_back(world_.robots.size());
+      r.firmware_at = place_of(t.get("firmware"));
       read_one("robot.variation", t, "variation", &r.variation);
       read_one("robot.proximity", t, "proximity", &r.proximity);
       read_one("robot.bluetooth", t, "bluetooth", &r.link);
@@ -260,6 +267,7 @@ class Reader : private SchemaReader {
   void read_part(const toml::table& table, RobotDesc& robot) {
     PartDesc part;
     part.line = line_of(table);
+    part.column = static_cast<int>(table.source().begin.column);
     std::vector<std::string> names;
     std::string known;
     const toml::node* written_kind = table.get("kind");
@@ -280,7 +288,13 @@ class Reader : private SchemaReader {
                         did_you_mean_tail(name, names)));
   }
 
+  static FilePlace place_of(const toml::node* node) {
+    if (!node) return {};
+    return {static_cast<int>(node->source().begin.line), static_cast<int>(node->source().begin.column)};
+  }
+
   WorldDesc world_;
+  std::vector<std::size_t> unplaced_robots_;  // nobody knows where they are, or how large
   std::map<const RobotModel*, SectionSpec> robot_sections_;
 };
 
@@ -294,6 +308,15 @@ std::string LoadedWorld::report(std::string_view file) const {
                       : fmt::format("{}: {}", file, p.text);
   }
   return out;
+}
+
+void LoadedWorld::add(std::vector<WorldProblem> more) {
+  // a list that was cut off stays as it is: it says how many are missing
+  if (more.empty() || problems.size() > kMostProblems) return;
+  problems.insert(problems.end(), more.begin(), more.end());
+  sort_by_place(problems);
+  if (world) draft = std::move(*world);
+  world.reset();
 }
 
 LoadedWorld load_world(const std::string& path, const std::vector<RobotModel>& models,

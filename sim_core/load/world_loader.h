@@ -28,6 +28,8 @@ struct LoadedWorld {
   std::vector<WorldProblem> problems;  ///< in the order of their places
   /// One line per problem, "file:line:column: ...", without a line break at the end of the last.
   std::string report(std::string_view file) const;
+  /// What somebody else has found; a world with problems is none, and a draft.
+  void add(std::vector<WorldProblem> more);
 };
 
 /// Reads and checks a file. `models`: the kinds of robot that the caller knows; the first is the default.
@@ -47,7 +49,11 @@ LoadedWorld parse_world(std::string_view text, const std::string& path, const st
                         const std::vector<PartKind>& part_kinds = {}, KnownWorld* known = nullptr);
 
 /// Checks what no single key shows: names, overlaps, sensors that do not exist. Also for worlds built in C++.
-std::vector<WorldProblem> check_world(const WorldDesc& world);
+/// `unplaced`: robots of whom nobody knows where they are.
+std::vector<WorldProblem> check_world(const WorldDesc& world, const std::vector<std::size_t>& unplaced = {});
+
+/// What is allowed and may not be meant: robots outside the arena. "note: ..."
+std::vector<WorldProblem> place_notices(const WorldDesc& world);
 
 /// Whether a robot of a good world begins inside nothing. Quicker than check_world(), which
 /// looks at all bodies.

@@ -18,6 +18,7 @@ struct PartDesc {
   std::string kind;
   OwnValues values;
   int line = 0;  ///< line in the world file; 0 when built in C++
+  int column = 0;
 };
 
 }  // namespace sim

@@ -9,6 +9,7 @@
 
 #include "sim_core/geometry/pose.h"
 #include "sim_core/world/device_desc.h"
+#include "sim_core/world/file_place.h"
 #include "sim_core/world/own_keys.h"
 #include "sim_core/world/part_desc.h"
 #include "sim_core/world/proximity_desc.h"
@@ -62,6 +63,7 @@ struct RobotDesc {
   std::string def;          ///< second name, by which supervisors may look it up; may be empty
   std::string model;        ///< empty: the only or first model the caller knows
   std::string firmware;     ///< name or path as written; may be empty
+  FilePlace firmware_at;    ///< where that is written
   std::string args;         ///< what a program of the PC gets, words as argument_words() has them
   bool supervisor = false;  ///< its program may do what supervisors may
   std::string custom_data;  ///< a text of the robot that programs may read and change

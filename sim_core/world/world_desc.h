@@ -28,6 +28,7 @@ std::vector<std::string> argument_words(const std::string& args);
 struct SupervisorDesc {
   std::string name;
   std::string program;              ///< name or path as written
+  FilePlace program_at;             ///< where that is written
   std::string args;                 ///< what its main() gets, words as argument_words() has them
   std::string def;                  ///< second name, by which supervisors may look it up; may be empty
   std::string custom_data;          ///< a text that programs may read and change

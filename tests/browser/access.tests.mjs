@@ -98,6 +98,60 @@ export const tests = {
     assert.deepEqual(page.errors, []);
   },
 
+  async a_robot_picked_in_the_list_obeys_the_documented_keys(browser, live) {
+    const [, page] = await start(browser, live, kWorld, { drive: program(0) });
+    await page.locator("#pieces .row").first().click();
+    await page.keyboard.press("q");
+    await until(page, "(app) => Math.abs(app.world.robots[0].heading - Math.PI / 12) < 1e-6");
+    await page.keyboard.press("Space");
+    await until(page, "(app) => app.state.playing");
+    await page.keyboard.press("Space");
+    await until(page, "(app) => !app.state.playing");
+    // the list has its own arrows
+    const before = await ask(page, "(app) => app.world.robots[0].position.join()");
+    await page.keyboard.press("ArrowDown");
+    await until(page, "(app) => app.store.selectedThing()?.name === 'wall'");
+    assert.equal(await ask(page, "(app) => app.world.robots[0].position.join()"), before);
+    assert.deepEqual(page.errors, []);
+  },
+
+  async the_list_of_keys_is_scrolled_by_keys(browser, live) {
+    const [v, first] = await start(browser, live, kWorld, { drive: program(0) });
+    await first.context().close();
+    const page = await open(browser, v, { width: 1000, height: 420 });
+    await page.focus("#stage canvas");
+    await page.keyboard.press("?");
+    assert.equal(await page.evaluate(() => document.activeElement.id), "keys");
+    await picture(page, "keys");
+    await page.keyboard.press("End");
+    await page.waitForFunction(() => {
+      const keys = document.querySelector("#keys");
+      return keys.scrollTop > 0 && keys.scrollTop + keys.clientHeight >= keys.scrollHeight - 2;
+    });
+    await page.keyboard.press("?");
+    assert.equal(await page.isVisible("#keys"), false);
+    assert.equal(await page.evaluate(() => !!document.activeElement.closest("#stage canvas")), true);
+    await page.keyboard.press("?");
+    await page.keyboard.press("Escape");
+    assert.equal(await page.isVisible("#keys"), false);
+    assert.deepEqual(page.errors, []);
+  },
+
+  async the_systems_colours_are_followed_until_one_chooses(browser, live) {
+    const [, page] = await start(browser, live, kWorld, { drive: program(0) });
+    const theme = () => page.evaluate(() => document.documentElement.dataset.theme);
+    assert.equal(await theme(), "light");
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.waitForFunction(() => document.documentElement.dataset.theme === "dark");
+    await page.click("#theme");
+    assert.equal(await theme(), "light");
+    await page.emulateMedia({ colorScheme: "light" });
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.waitForTimeout(100);
+    assert.equal(await theme(), "light");
+    assert.deepEqual(page.errors, []);
+  },
+
   async tabs_gauges_and_pictures_are_reached_by_the_keyboard(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: program(100) });
     await page.focus("#tab-console");

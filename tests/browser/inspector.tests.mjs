@@ -4,7 +4,46 @@ import assert from "node:assert/strict";
 import { ask, blind, picture, until } from "./harness.mjs";
 import { kWorld, program, start } from "./worlds.mjs";
 
+const kThings = `${kWorld}
+[[box]]
+name = "crate"
+position = [0.1, -0.3]
+movable = true
+mass = 0.2
+[[sound]]
+name = "beep"
+kind = "tone"
+frequency = 440
+position = [0, 0.4, 0]
+[[lamp]]
+name = "sun"
+position = [0, 0.4, 1]
+`;
+
 export const tests = {
+  async a_piece_offers_what_its_kind_can_have(browser, live) {
+    const [, page] = await start(browser, live, kThings, { drive: program(0) });
+    const offers = async (name) => {
+      await ask(page, `(app) => app.select(app.world.things.find((t) => t.name === "${name}").id)`);
+      return page.evaluate(() => [...document.querySelectorAll("#inspector .buttons button, #inspector .swatches button")].map((b) => b.textContent || b.title).join(" "));
+    };
+    const colours = "black white grey red green blue yellow";
+    assert.equal(await offers("crate"), `Copy Turn Delete ${colours}`);
+    assert.equal(await offers("sun"), `Copy Delete ${colours}`);
+    assert.equal(await offers("beep"), "Copy Delete");
+    await picture(page, "inspector_sound");
+    // by its key, too, a sound does not turn
+    await page.focus("#stage canvas");
+    await page.keyboard.press("q");
+    await ask(page, `(app) => app.do("edit", { op: "set", thing: app.world.things.find((t) => t.name === "crate").id, values: { movable: false } })`);
+    await until(page, "(app) => app.world.text.includes('movable = false')");
+    const text = await ask(page, "(app) => app.world.text");
+    assert.equal(text.includes("mass"), false, "what only a movable one has is gone");
+    assert.equal(text.includes("heading"), false);
+    assert.deepEqual(await ask(page, "(app) => app.world.problems"), []);
+    assert.deepEqual(page.errors, []);
+  },
+
   async every_number_has_its_unit(browser, live) {
     const [, page] = await start(browser, live, kWorld, { drive: program(400) });
     await blind(page);

@@ -87,6 +87,11 @@ TEST_F(LabClass, whatever_is_handed_in_comes_to_a_row) {
   for (const char* part : {"<th>b o'b</th>", "class=\"FAIL\"", "href=\"#s5-I1\"", "--replay I1:obstacle:1",
                            "undeclared identifier", "<td>2 of 2</td>"})
     EXPECT_TRUE(has(page, part)) << part << "\nin " << page;
+  // a program that does not build is told once; both its exercises lead there
+  EXPECT_EQ(page.find("undeclared identifier"), page.rfind("undeclared identifier")) << page;
+  EXPECT_NE(page.find("href=\"#s2-I1\""), page.rfind("href=\"#s2-I1\"")) << page;
+  EXPECT_FALSE(has(page, "#s2-S2")) << page;
+  EXPECT_TRUE(has(page, "<title>The lab: class</title>")) << page;
   for (const char* part :
        {"<testsuites name=\"twinpuck lab\" tests=\"21\" failures=\"3\" errors=\"2\" skipped=\"11\">",
         "<testsuite name=\"carl\" tests=\"3\" failures=\"0\" errors=\"2\" skipped=\"1\">",
@@ -100,6 +105,12 @@ TEST_F(LabClass, whatever_is_handed_in_comes_to_a_row) {
   EXPECT_EQ(again.text, s.text);
   for (const auto& [one, other] : {std::pair{"t.csv", "u.csv"}, {"t.html", "u.html"}, {"t.xml", "u.xml"}})
     EXPECT_EQ(read(path(one)), read(path(other)));
+}
+
+TEST_F(LabClass, the_page_of_the_folder_one_is_in_has_its_name) {
+  write("heroes/carl/obstacle/main.c", "int main(void) { retrun 0; }\n");
+  EXPECT_EQ(in_folder("cd heroes && twinpuck lab I1 --seeds 1 --mine . --html t.html").exit_code, 1);
+  EXPECT_TRUE(has(read(path("heroes/t.html")), "<title>The lab: heroes</title>"));
 }
 
 TEST_F(LabClass, what_takes_too_long_is_ended_and_told) {

@@ -143,8 +143,8 @@ TEST(Run, is_refused_with_what_is_wrong_with_its_coverage_or_its_supervisors) {
   EXPECT_EQ(runs::Run::open({}, options, {"nobodys"}, problems), nullptr);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0],
-            "supervisor 'nobodys': nobodys: firmware: got a name that is neither a file nor a controller, "
-            "expected an image, a folder with C files, a program of the PC or a folder under firmware/");
+            "supervisor 'nobodys': nobodys: supervisor: got a name that is neither a file nor a program, "
+            "expected a program of the PC or one that `twinpuck list supervisors` shows");
   problems.clear();
   options.coverage = testing::TempDir() + "nothing.info";
   EXPECT_EQ(runs::Run::open({}, options, {}, problems), nullptr);

@@ -289,7 +289,7 @@ TEST_F(NodesTest, the_world_is_commanded_through_the_host) {
   command(LINK_DO_WORLD, {{4}, {2, 0.1, 0.2, 0.05, 255, 0}, "goal"});
   command(LINK_DO_WORLD, {{5}, {}, "shot.jpg"});
   command(LINK_DO_NODE, {{def("A"), 2}, {}, ""});
-  EXPECT_TRUE(host_.has("end 3 simulation_quit(3)"));
+  EXPECT_TRUE(host_.has("end 3 its program ended the run with status 3"));
   EXPECT_TRUE(host_.has("reset"));
   EXPECT_TRUE(host_.has("reload"));
   EXPECT_TRUE(host_.has("picture shot.jpg.png"));

@@ -5,6 +5,8 @@ import re
 
 import pytest
 
+from twinpuck import _grade
+
 ROOT = pathlib.Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "testing.md").read_text()
 EXAMPLES = re.findall(r"\*\*(\d+)\. ([^*]+?)\.?\*\*.*?```python\n(.*?)```", PAGE, re.S)
@@ -42,3 +44,9 @@ def test_python_alone(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     exec(re.search(r"## In Python alone.*?```python\n(.*?)```", PAGE, re.S).group(1), {})
     assert (tmp_path / "maze.png").read_bytes()[:4] == b"\x89PNG"
+
+
+def test_the_help_of_grade_has_every_option(tmp_path, command):
+    said = command("grade", "--help", cwd=tmp_path).stdout
+    options = [o for action in _grade.parser()._actions for o in action.option_strings if o.startswith("--")]
+    assert len(options) > 10 and [o for o in options if f"  {o} " not in said and o != "--help"] == [], said

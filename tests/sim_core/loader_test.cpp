@@ -402,13 +402,10 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
        "w.toml:4:1: robot.name: got \"a\" a second time (first on line 2), expected a name of its own"},
       {"[[robot]]\nuart1 = \"tcp:70000\"",
        "w.toml:3:9: robot.uart1: got \"tcp:70000\", expected none, -, pty, pty:LINK, tcp:PORT with a port of "
-       "1 "
-       "to 65535, "
-       "or file:PATH"},
+       "0 to 65535, or file:PATH"},
       {"[[robot]]\nuart2 = \"usb\"",
-       "w.toml:3:9: robot.uart2: got \"usb\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 1 to "
-       "65535, or "
-       "file:PATH"},
+       "w.toml:3:9: robot.uart2: got \"usb\", expected none, -, pty, pty:LINK, tcp:PORT with a port of 0 to "
+       "65535, or file:PATH"},
       {"[[robot]]\n[[robot.key]]\ncode = 64\ntime = 1",
        "w.toml:4:8: robot.key.code: got 64, expected whole number from 0 to 63"},
       {"[[robot]]\n[[robot.key]]\ncode = 6",
@@ -607,7 +604,8 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
     std::string out;
     for (const sim::KeySpec& k : sim::section(path).keys) {
       const std::string fallback = k.fallback;
-      if (!fallback.empty() && fallback != "required" && fallback != "\"robotN\"")
+      if (!fallback.empty() && fallback != "required" && fallback != "\"robotN\"" &&
+          std::string(k.key) != "movable")
         out += std::string(k.key) + " = " + fallback + "\n";
     }
     return out;
@@ -625,8 +623,10 @@ TEST(Loader, defaults_in_the_table_are_the_defaults_of_the_structs) {
   EXPECT_EQ(a.robots[0].uart1, b.robots[0].uart1);
   EXPECT_EQ(a.robots[0].wheels.slip, b.robots[0].wheels.slip);
   EXPECT_EQ(a.robots[0].variation.axle_ratio, b.robots[0].variation.axle_ratio);
-  const auto box = world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\n" + spelled("box"));
-  const auto plain = world_of("twinpuck = 1\n[[box]]\nposition = [0, 0]\n");
+  // what only movable ones have
+  const std::string movable = "twinpuck = 1\n[[box]]\nposition = [0, 0]\nmovable = true\n";
+  const auto box = world_of(movable + spelled("box"));
+  const auto plain = world_of(movable);
   EXPECT_EQ(box.objects[0].mass_kg, plain.objects[0].mass_kg);
   EXPECT_EQ(box.objects[0].floor_friction, plain.objects[0].floor_friction);
   EXPECT_EQ(box.objects[0].size_m.z, plain.objects[0].size_m.z);

@@ -265,7 +265,7 @@ TEST(SlopeWorlds, mistakes_are_named) {
   EXPECT_EQ(report("[[ramp]]\nposition = [0, 0]\n"),
             "w.toml:2:1: ramp: got neither angle nor heights, expected one of them (deg; m)");
   EXPECT_EQ(report("[[ramp]]\nposition = [0, 0]\nangle = 10\nheights = [0, 0.1]\n"),
-            "w.toml:5:11: ramp.heights: got heights beside an angle, expected one of them");
+            "w.toml:5:11: ramp.heights: got 'angle' besides, expected one of them");
   EXPECT_EQ(report("[[ramp]]\nposition = [0, 0]\nheights = [0, 0.3]\n"),
             "w.toml:4:11: ramp.heights: got a rise of 0.3 m over 0.2 m, expected at most 0.1678 m (40 deg)");
   EXPECT_EQ(report("[[ramp]]\nposition = [0, 0]\nangle = 50\n"),

@@ -40,9 +40,8 @@ import { Store } from "./store/store";
 const playback = document.getElementById("report") ? new Playback() : undefined;
 const store = new Store();
 store.recorded = !!playback;
-store.dark = localStorage.getItem("theme")
-  ? localStorage.getItem("theme") === "dark"
-  : matchMedia("(prefers-color-scheme: dark)").matches;
+const systemsDark = matchMedia("(prefers-color-scheme: dark)");
+store.dark = localStorage.getItem("theme") ? localStorage.getItem("theme") === "dark" : systemsDark.matches;
 const client = new Client(store, playback ?? new Connection());
 const buffers = new Buffers(store, client);
 const debug = new Debugging(store, client);
@@ -82,7 +81,10 @@ dock.show("console");
 beginLayout();
 listenToClipboard(pieces);
 listenToKeys({ store, client, pieces, bar, file, views, touch, inspector, viewButtons });
-setTheme(store, store.dark);
+setTheme(store, store.dark, false);
+systemsDark.addEventListener("change", () => {
+  if (!localStorage.getItem("theme")) setTheme(store, systemsDark.matches, false);
+});
 addEventListener("beforeunload", (e) => {
   if (!store.state.saved || buffers.dirty().length) e.preventDefault();
 });

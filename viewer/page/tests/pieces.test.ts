@@ -13,7 +13,8 @@ import { robot, thing, world } from "./worlds";
 const kBox = 1,
   kWall = 2,
   kRobot = 3,
-  kLoose = 4; // a box that can be pushed, body 1
+  kLoose = 4, // a box that can be pushed, body 1
+  kSound = 5;
 const kTurned = 0.5; // rad, of both bodies in the run; in the file they look at 0
 
 function start(time: number) {
@@ -21,6 +22,13 @@ function start(time: number) {
   const store = new Store(),
     link = new FakeLink(),
     pieces = new Pieces(store, new Client(store, link));
+  const keys = (...names: string[]) => ({ keys: names.map((key) => ({ key })) }) as never;
+  store.schema = {
+    box: keys("position", "heading", "colour"),
+    wall: keys("points", "colour"),
+    robot: keys("position", "heading", "colour"),
+    sound: keys("position"),
+  };
   store.takeWorld(
     world({
       things: [
@@ -33,6 +41,7 @@ function start(time: number) {
           ] as never,
         }),
         thing(kLoose, { position: [0.5, 0.5], heading: 0, body: 1 }),
+        thing(kSound, { kind: "sound", position: [0, 0, 0], heading: 0 }),
       ],
       robots: [robot(kRobot, { position: [0.3, 0.4] })],
     }),
@@ -94,6 +103,14 @@ const kRows: [string, number, number[], (p: Pieces) => unknown, { edits?: unknow
         }),
       ],
     },
+  ],
+  ["a sound has no side to turn, and no colour", 0, [kSound], (p) => (p.turn(90), p.paint([1, 0, 0])), {}],
+  [
+    "paint goes to what has a colour",
+    0,
+    [kSound, kBox],
+    (p) => p.paint([1, 0, 0]),
+    { edits: [set(kBox, { colour: [1, 0, 0] })] },
   ],
   [
     "several turn about their middle",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The bar above the scene: time, undo and save, views.
 import { byId, h, icon } from "../dom";
+import { toggleKeys } from "./key_list";
 import { foldButton } from "./layout";
 import { RobotState } from "../link/protocol";
 import type { State } from "../link/protocol";
@@ -89,10 +90,7 @@ export class Bar {
         "Take the wheel",
       ),
       button("theme", "theme", "Dark or light", () => setTheme(store, !store.dark)),
-      button("help", "?", "Keys", () => {
-        byId("keys").hidden = !byId("keys").hidden;
-        if (!byId("keys").hidden) byId("keys").focus();
-      }),
+      button("help", "?", "Keys", () => toggleKeys()),
       foldButton("side"),
     );
     byId("trails").classList.add("on");
@@ -167,8 +165,9 @@ export class Bar {
   }
 }
 
-export function setTheme(store: Store, dark: boolean) {
-  localStorage.setItem("theme", dark ? "dark" : "light");
+/** `chosen`: by somebody; the system's is followed until then. */
+export function setTheme(store: Store, dark: boolean, chosen = true) {
+  if (chosen) localStorage.setItem("theme", dark ? "dark" : "light");
   document.documentElement.dataset.theme = dark ? "dark" : "light";
   store.setDark(dark);
 }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What keys do, and the list of them.
-import { byId, h } from "../dom";
+// What keys do.
 import type { Inspector } from "../panes/inspector";
 import type { Touch } from "../scene/touch";
 import type { Client } from "../store/client";
@@ -8,30 +7,9 @@ import type { Pieces } from "../store/pieces";
 import type { Store } from "../store/store";
 import type { Bar, Views } from "./bar";
 import type { ViewButtons } from "./views";
+import { makeKeyList, toggleKeys } from "./key_list";
 import { dismiss } from "./notices";
 import type { WorldFile } from "./save";
-
-const kKeys: [string, string][] = [
-  ["Space", "play, pause"],
-  ["N, Shift N", "one control step, one tick"],
-  ["I", "to the next interrupt"],
-  [", .", "slower, faster"],
-  ["Ctrl R", "restart"],
-  ["1 2 F", "from above, aslant, fit"],
-  ["3 4 M", "view follows the robot, goes behind it; ruler"],
-  ["Y P K", "rays, paths, what the camera sees"],
-  ["V W B C O L R", "select; wall, box, cylinder, ball, lamp, robot"],
-  ["Q E", "turn by 15°, with Shift 1°"],
-  ["Arrows", "move by 1 cm, with Shift 1 mm"],
-  ["Shift or Ctrl click", "selects several; dragged on the floor: all in a frame"],
-  ["Ctrl A", "selects all"],
-  ["Ctrl D, Del", "copy, delete"],
-  ["Ctrl C X V", "to and from the clipboard"],
-  ["Ctrl Z Y S", "undo, redo, save"],
-  ["Shift while dragging", "without the grid of 1 cm"],
-  ["Left, right drag, wheel", "move the view, turn it, zoom"],
-  ["Esc", "nothing selected"],
-];
 
 export interface Hands {
   store: Store;
@@ -46,14 +24,7 @@ export interface Hands {
 }
 
 export function listenToKeys(hands: Hands) {
-  byId("stage").append(
-    h(
-      "div",
-      { id: "keys", hidden: true, role: "dialog", "aria-label": "Keys", tabIndex: -1 },
-      h("h3", {}, "Keys"),
-      ...kKeys.map(([k, text]) => h("div", {}, h("kbd", {}, k), text)),
-    ),
-  );
+  makeKeyList();
   addEventListener("keydown", (e) => act(e, hands));
   // a button that the mouse has pressed gives the keys back to the scene; one that the keyboard has reached keeps them
   addEventListener("click", (e) => {
@@ -62,9 +33,12 @@ export function listenToKeys(hands: Hands) {
   });
 }
 
-/** Keys that change the scene are for it alone: a field, a slider, a list has its own. */
+/**
+ * Keys that change the scene are for it alone: a field, a slider has its own. The list of pieces selects what they
+ * change, and keeps only those that it takes for itself.
+ */
 const isForScene = (target: HTMLElement) =>
-  target === document.body || target === document.documentElement || !!target.closest?.("#stage canvas");
+  target === document.body || target === document.documentElement || !!target.closest?.("#stage canvas,#pieces");
 
 function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch, inspector, viewButtons }: Hands) {
   if (e.defaultPrevented) return;
@@ -94,8 +68,9 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch,
   }
   if (key === "Escape") {
     dismiss();
-    byId("keys").hidden = true;
+    toggleKeys(false);
   }
+  if (key === "?" && target.id === "keys") return act(() => toggleKeys(false));
   if (!isForScene(target)) {
     if (key === "Escape") target.blur();
     return;
@@ -134,7 +109,7 @@ function act(e: KeyboardEvent, { store, client, pieces, bar, file, views, touch,
     ArrowRight: () => move(1, 0),
     ArrowUp: () => move(0, 1),
     ArrowDown: () => move(0, -1),
-    "?": () => byId("keys").toggleAttribute("hidden"),
+    "?": () => toggleKeys(),
   };
   const view = viewButtons.act(key);
   if (view) act(view);

@@ -85,6 +85,7 @@ export class Inspector {
     ];
   }
   private paint() {
+    if (!this.pieces.all().some((p) => this.pieces.canPaint(p))) return [];
     return [
       h("h3", {}, "Paint"),
       h(
@@ -102,12 +103,17 @@ export class Inspector {
     ];
   }
   private buttons() {
-    const { pieces } = this;
+    const { pieces } = this,
+      all = pieces.all();
+    // several lie elsewhere when they are turned about their middle
+    const turns = all.length > 1 || all.some((p) => pieces.canTurn(p));
     return h(
       "div",
       { className: "buttons" },
       h("button", { onclick: () => pieces.copy(), title: "Copy (Ctrl D)" }, "Copy"),
-      h("button", { onclick: () => pieces.turn(15), title: "Turn by 15 degrees (E, back: Q)" }, "Turn"),
+      ...(turns
+        ? [h("button", { onclick: () => pieces.turn(15), title: "Turn by 15 degrees (Q, back: E)" }, "Turn")]
+        : []),
       h("button", { onclick: () => pieces.remove(), title: "Delete (Del)" }, "Delete"),
     );
   }

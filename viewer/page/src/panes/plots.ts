@@ -65,8 +65,7 @@ export class Plots {
       id: "plot-name",
       "aria-label": "Name to plot",
       list: "names",
-      placeholder: "puck.ir0, puck.var:counter, puck.pin:D3",
-      title: "Anything that has a name; Enter plots it",
+      title: "Anything that has a name, such as ir0, var:counter and pin:D3 of a robot; Enter plots it",
       onfocus: () =>
         list.replaceChildren(
           ...this.store.world.robots
@@ -78,6 +77,7 @@ export class Plots {
         input.value = "";
       },
     }) as HTMLInputElement;
+    store.on("world", () => (input.placeholder = `${store.world.robots[0]?.name ?? "puck"}.ir0`));
     this.pane = h(
       "div",
       { className: "pane column" },

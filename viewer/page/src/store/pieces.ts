@@ -49,6 +49,17 @@ export class Pieces {
     return pointsOf(piece)?.[0] ?? piece.position;
   }
 
+  /** Has its kind a key of that name in world files? A sound has no colour, and a lamp no heading. */
+  private has(piece: Piece, key: string) {
+    return !!this.store.schema[piece.kind]?.keys.some((k) => k.key === key);
+  }
+  canPaint(piece: Piece) {
+    return this.has(piece, "colour");
+  }
+  canTurn(piece: Piece) {
+    return this.has(piece, "heading") || this.has(piece, "points");
+  }
+
   // --- edits
 
   /** Many edits as one: parsed once, undone together. */
@@ -109,6 +120,7 @@ export class Pieces {
     ++this.group;
     if (all.length === 1) {
       const [piece] = all;
+      if (!this.canTurn(piece)) return;
       if (piece.heading !== undefined) this.head(piece, piece.heading + angle);
       else if (pointsOf(piece)) this.edits([this.turned(piece, this.middle([piece]), angle)], this.group);
       return;
@@ -139,12 +151,14 @@ export class Pieces {
     if (points)
       return { op: "set", thing: piece.id, values: { points: points.map((p) => this.around(p, middle, angle)) } };
     const values: Record<string, unknown> = { position: this.around(piece.position, middle, angle) };
-    if (piece.heading !== undefined) values.heading = degrees(piece.heading + angle);
+    if (piece.heading !== undefined && this.canTurn(piece)) values.heading = degrees(piece.heading + angle);
     return { op: "set", thing: piece.id, values };
   }
   paint(colour: Vec) {
     this.edits(
-      this.all().map((p) => ({ op: "set", thing: p.id, values: { colour } })),
+      this.all()
+        .filter((p) => this.canPaint(p))
+        .map((p) => ({ op: "set", thing: p.id, values: { colour } })),
       ++this.group,
     );
   }
