@@ -111,11 +111,10 @@ std::string to_text(const Summary& s) {
   for (std::size_t i = 0; i < s.robots.size() && i < kRobotsInText; ++i) {
     const auto& r = s.robots[i];
     text += fmt::format(
-        "{:<12} {:>8} {:>8} {:>5} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>5} "
-        "min\n",
-        r.name, plain(r.x_m, 3), plain(r.y_m, 3), plain(heading_deg(r.heading_rad), 0), r.distance_m,
-        r.collisions, r.longest_wall_touch_s, 100 * r.cpu_load, 1000 * r.battery_used_wh,
-        r.battery_minutes < 0 ? "-" : fmt::format("{:.0f}", r.battery_minutes));
+        "{:<12} {:>8} {:>8} {:>5} deg {:>9.3f} {:>11} {:>9.2f} {:>5.0f}% {:>4.0f} mWh {:>9}\n", r.name,
+        plain(r.x_m, 3), plain(r.y_m, 3), plain(heading_deg(r.heading_rad), 0), r.distance_m, r.collisions,
+        r.longest_wall_touch_s, 100 * r.cpu_load, 1000 * r.battery_used_wh,
+        r.battery_minutes < 0 ? "-" : fmt::format("{:.0f} min", r.battery_minutes));
   }
   constexpr std::size_t kFaultsInText = 20;
   for (std::size_t i = 0; i < s.faults.size() && i < kFaultsInText; ++i) {

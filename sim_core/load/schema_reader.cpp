@@ -38,6 +38,14 @@ bool number_of(const toml::node& node, double& out) {
   return false;
 }
 
+/// What reads files that have such a table, and are no worlds; null: nothing.
+const char* reader_of(const std::string& table) {
+  if (table == "fault" || table == "stimulus") return "run --faults";
+  if (table == "function" || table == "interrupt" || table == "program") return "run --budgets";
+  if (table == "exercise") return "lab --table";
+  return table == "step" || table == "always" || table == "finally" ? "test" : nullptr;
+}
+
 bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }
 
 bool in_range(const KeySpec& k, double v) { return v >= k.least && v <= k.most; }
@@ -188,6 +196,10 @@ void SchemaReader::read_table(const SectionSpec& spec, const std::vector<std::st
     if (path == "world" && name == "interrupts") {
       problem(key.source(),
               "the key 'interrupts' is gone: there is one model of interrupts now; delete the line");
+      continue;
+    }
+    if (const char* reader = path.empty() ? reader_of(name) : nullptr) {
+      problem(key.source(), fmt::format("unknown key '{}'; is this a file for `twinpuck {}`?", name, reader));
       continue;
     }
     std::string all;

@@ -116,8 +116,8 @@ TEST_F(Extern, a_program_that_never_comes_ends_with_the_hosts_limit) {
             "program has not called wb_robot_init() for … s (t=0.000 s); it was ended\n@/w.toml: 0.0 s "
             "simulated in … s (… times real time), seed 1, digest …\nrobot           x (m)    y (m)   "
             "heading  path (m)  collisions  wall (s)   load     used      left\npuck            0.000    "
-            "0.000     0 deg     0.000           0      0.00     0%    0 mWh     - min\nb               "
-            "0.000    1.000     0 deg     0.000           0      0.00     0%    0 mWh     - min\nwritten: "
+            "0.000     0 deg     0.000           0      0.00     0%    0 mWh         -\nb               "
+            "0.000    1.000     0 deg     0.000           0      0.00     0%    0 mWh         -\nwritten: "
             "@/r.csv\ntwinpuck: host time: got … s, expected at most 1 s; outputs hold what was simulated"));
   EXPECT_FALSE(fs::exists(at));
   expect_whole(path("r.csv"), -1, "never");
