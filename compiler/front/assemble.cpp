@@ -112,20 +112,17 @@ bool write_depfile(const std::string& depfile, const std::string& input, const S
   return file.finish();
 }
 
-/// Of a file whose messages are counted.
-struct Messages {
-  std::string file;
-  unsigned told = 0;
-};
-
-void tell(const SMDiagnostic& message, void* context) {
-  auto& messages = *static_cast<Messages*>(context);
-  end_after_many(messages.file, messages.told);
-  const SourceMgr* sources = message.getSourceMgr();
-  const unsigned buffer = sources ? sources->FindBufferContainingLoc(message.getLoc()) : 0;
-  if (buffer && buffer != sources->getMainFileID())
-    sources->PrintIncludeStack(sources->getParentIncludeLoc(buffer), errs());
-  message.print(nullptr, errs());
+/// Counts messages. The context has those of files behind a preprocessor with the line of their source, which
+/// a handler of the SourceMgr does not get.
+MCContext::DiagHandlerTy counted(const std::string& file) {
+  return [file, told = 0u](const SMDiagnostic& message, bool, const SourceMgr& sources,
+                           std::vector<const MDNode*>&) mutable {
+    end_after_many(file, told);
+    const unsigned buffer = sources.FindBufferContainingLoc(message.getLoc());
+    if (buffer && buffer != sources.getMainFileID())
+      sources.PrintIncludeStack(sources.getParentIncludeLoc(buffer), errs());
+    message.print(nullptr, errs());
+  };
 }
 
 }  // namespace
@@ -159,10 +156,9 @@ int assemble_for_chip(const Options& options) {
   sources.AddNewSourceBuffer(
       MemoryBuffer::getMemBufferCopy(with_found_files(source, folders, found), options.input), SMLoc());
   sources.setIncludeDirs(folders);
-  Messages messages{options.input};
-  sources.setDiagHandler(tell, &messages);
   mc_options.IASSearchPaths = folders;
   MCContext context(triple, syntax.get(), registers.get(), subtarget.get(), &sources, &mc_options);
+  context.setDiagnosticHandler(counted(options.input));
   std::unique_ptr<MCObjectFileInfo> files(target.createMCObjectFileInfo(context, /*PIC=*/false));
   context.setObjectFileInfo(files.get());
 

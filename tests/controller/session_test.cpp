@@ -148,7 +148,7 @@ TEST(ControllerSession, another_version_is_named) {
   EXPECT_EQ(sim.wait(), 1);
   EXPECT_TRUE(wording::reads(
       sim.errors(),
-      "libcontroller: the simulator: got version 2 of the link, expected 1; build the program anew"));
+      "libcontroller: the simulator: got version 3 of the link, expected 2; build the program anew"));
 }
 
 TEST(ControllerSession, a_refusal_is_told) {

@@ -41,7 +41,7 @@ class Programs(unittest.TestCase):
 class Beginning(Programs):
     def test_it_says_who_it_is(self):
         run = self.run_program("from controller import Robot; Robot()")
-        self.assertEqual(run.said, [("HELLO", 1, 2, b"program.py")])
+        self.assertEqual(run.said, [("HELLO", 2, 2, b"program.py")])
 
     def test_imports_by_all_names(self):
         self.assertEqual(self.lines("""

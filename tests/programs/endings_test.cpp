@@ -31,7 +31,7 @@ def rec(number, *members):
     return struct.pack("<II", number, len(body)) + body
 
 def hello():
-    s.send(rec(HELLO, 1, 2, "raw"))
+    s.send(rec(HELLO, 2, 2, "raw"))
     s.recv(1 << 18)
 
 def step():
@@ -177,10 +177,10 @@ INSTANTIATE_TEST_SUITE_P(
                "0.000000 s"},
         Ending{"no_hello", "raw", "s.send(rec(STEP, 32))\ntime.sleep(100)\n", kTrap,
                "bad: its program: spoke wrongly: got STEP, expected HELLO first\n  at cycle 0, 0.000000 s"},
-        Ending{"hello_twice", "raw", "hello()\ns.send(rec(HELLO, 1, 2, 'again'))\ntime.sleep(100)\n", kTrap,
+        Ending{"hello_twice", "raw", "hello()\ns.send(rec(HELLO, 2, 2, 'again'))\ntime.sleep(100)\n", kTrap,
                "bad: its program: spoke wrongly: got HELLO again\n  at cycle 0, 0.000000 s"},
         Ending{"another_version", "raw", "s.send(rec(HELLO, 99, 2, 'raw'))\ntime.sleep(100)\n", kTrap,
-               "bad: its program: spoke wrongly: got version 99 of the link, expected 1\n  at cycle 0, "
+               "bad: its program: spoke wrongly: got version 99 of the link, expected 2\n  at cycle 0, "
                "0.000000 s"},
         Ending{"a_step_back", "raw", "hello()\ns.send(rec(STEP, -5))\ntime.sleep(100)\n", kTrap,
                "bad: its program: spoke wrongly: got a step of -5 ms, expected 0 to 2147483647\n  at cycle "

@@ -115,7 +115,7 @@ class Simulator:
             for name, *members in records(packet):
                 said.append((name, *members))
                 if name == "HELLO":
-                    answer += record("WELCOME", 1, int(self.supervisor), 0, 0, 7, "puck", "e-puck", "/project", "world.toml",
+                    answer += record("WELCOME", 2, int(self.supervisor), 0, 0, 7, 0, "puck", "e-puck", "/project", "world.toml",
                                      "a title", "custom", self.step_ms, 0.00628)
                     answer += b"".join(record("DEVICE", tag, kind, called, "", numbers) for tag, kind, called, numbers in self.devices)
                     answer += record("READY")

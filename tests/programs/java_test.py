@@ -79,7 +79,7 @@ public class Program extends %s {
         self.assertEqual(run.out.splitlines(), [
             "NaN true puck 32.0", "[NaN, NaN, NaN] null true null",
             "10.0 [1.0, 2.0, 3.0] 5.0 [0.0, 0.0, 0.5] 4000.0 0.032", "6 18 0 17 3 2", "true -1", "3 30.0"])
-        self.assertEqual(run.of("HELLO"), [(1, 3, b"Program")])
+        self.assertEqual(run.of("HELLO"), [(2, 3, b"Program")])
         self.assertEqual((run.of("POSITION"), run.of("LED")), ([(3, float("inf"))], [(7, 1)]))
         self.assertIn((3, 2.5), run.of("VELOCITY"))
         self.assertIn("lidar", run.err)
