@@ -399,17 +399,6 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
   if (wait_) all.push_back(*wait_);
 }
 
-bool ChipRunner::is_known_by_heart(int vector) const {
-  for (int h = 0; library_ && h < dspic::HostCalls::kHandlers; ++h)
-    if (library_->vector(h) == vector) return true;
-  return false;
-}
-
-unsigned ChipRunner::saved_by_heart() const {
-  if (!library_) return 0;
-  return 2 * static_cast<unsigned>(__builtin_popcount(library_->saved_registers()) + library_->saved_words());
-}
-
 std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }
 
 // --- watched

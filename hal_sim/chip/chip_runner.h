@@ -87,10 +87,8 @@ class ChipRunner final : public host::Runner,
   const drivers::Drivers* closed_drivers() const override {
     return library_ ? &library_->drivers() : nullptr;
   }
-  /// Is the vector's handler one that the simulator plays? Registers of its timer and counts do not show it.
-  bool is_known_by_heart(int vector) const;
-  /// Bytes that a handler known by heart saves on the stack behind the address that it returns to.
-  unsigned saved_by_heart() const;
+  /// Who plays handlers: registers of their timers and counts of the chip do not show those. Null: nobody.
+  const dspic::HostCalls* host() const { return library_.get(); }
   /// `watch` sees every step from now on, or no longer. It outlives the runner or is taken away.
   void watch_steps(StepWatch* watch, bool on);
 

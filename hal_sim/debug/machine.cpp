@@ -7,6 +7,7 @@
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/disassembler.h"
+#include "dspic30/core/host_calls.h"
 #include "dspic30/memory/sfr_table.h"
 
 namespace debug {
@@ -14,6 +15,13 @@ namespace debug {
 namespace {
 constexpr unsigned kRepeating = 0x10;  // SR.RA
 constexpr int kStackPointer = 15;
+
+/// Bytes that a handler known by heart saves on the stack behind the address that it returns to.
+unsigned saved_by(const dspic::HostCalls* host) {
+  return host ? 2 * static_cast<unsigned>(__builtin_popcount(host->saved_registers()) + host->saved_words())
+              : 0;
+}
+
 }  // namespace
 
 bool Machine::watch(chip::StepWatch* watcher, bool on) {
@@ -35,7 +43,7 @@ Address Machine::base() {
 }
 
 std::vector<Frame> Machine::frames() {
-  return trace_back(code_, pc(), runner_.processor().w(kStackPointer), runner_.saved_by_heart(),
+  return trace_back(code_, pc(), runner_.processor().w(kStackPointer), saved_by(runner_.host()),
                     [this](unsigned address) { return word(address); });
 }
 

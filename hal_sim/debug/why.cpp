@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <set>
 
+#include "dspic30/core/host_calls.h"
 #include "dspic30/memory/sfr_table.h"
 
 namespace debug {
@@ -73,9 +74,16 @@ std::string state_of(Machine& machine, int vector) {
                         interrupts.disi_active(now));
 }
 
+bool is_known_by_heart(Machine& machine, int vector) {
+  const dspic::HostCalls* const host = machine.runner().host();
+  for (int h = 0; host && h < dspic::HostCalls::kHandlers; ++h)
+    if (host->vector(h) == vector) return true;
+  return false;
+}
+
 /// The timer that a handler serves, if it stands still.
 std::string idle_timer(Machine& machine, int vector) {
-  if (machine.runner().is_known_by_heart(vector)) return "";
+  if (is_known_by_heart(machine, vector)) return "";
   return told_timer(std::string(dspic::vector_name(vector)),
                     [&](unsigned address) { return machine.word(address); });
 }
@@ -116,10 +124,10 @@ std::string Machine::interrupts() {
                                  interrupts.disi_active(machine.now()) ? ", DISI" : "", interrupts.nesting());
   for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
     if (interrupts.is_enabled(v) || interrupts.has_flag(v, machine.now()))
-      text += fmt::format("  {}{}, {}\n", state_of(machine, v), idle_timer(machine, v),
-                          machine.runner().is_known_by_heart(v)
-                              ? "served by hal_sim's driver, without a count"
-                              : fmt::format("served {} times", interrupts.served(v)));
+      text +=
+          fmt::format("  {}{}, {}\n", state_of(machine, v), idle_timer(machine, v),
+                      is_known_by_heart(machine, v) ? "served by hal_sim's driver, without a count"
+                                                    : fmt::format("served {} times", interrupts.served(v)));
   return text;
 }
 

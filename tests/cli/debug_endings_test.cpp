@@ -183,9 +183,8 @@ TEST_P(DebugEndings, the_librarys_functions_and_agendas_are_frames) {
                               "the end of the world", run.text.substr(run.text.find("digest "), 23)});
   // what plays the handler has no timer that runs, and no count
   EXPECT_EQ(said.text.find("timer 2 is off"), std::string::npos);
-  EXPECT_NE(
-      said.text.find(hal() == "sim" ? "flag clear, served by hal_sim's driver" : "flag clear, served "),
-      std::string::npos)
+  EXPECT_NE(said.text.find(hal() == "sim" ? "flag clear, served by hal_sim's driver" : "flag clear, served "),
+            std::string::npos)
       << said.text;
 }
 

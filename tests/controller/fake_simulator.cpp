@@ -101,8 +101,8 @@ Record Simulator::welcome(const World& world) {
   const std::vector<Record> hello = next();
   if (hello.size() != 1 || hello[0].number != LINK_HELLO) fail("expected HELLO");
   Packet packet;
-  packet.add(LINK_WELCOME, world.version, int{world.supervisor}, int{world.nue}, 0, world.seed, world.time_ns, "puck",
-             "GCtronic e-puck", "project", "project/worlds/w.wbt", "title", "custom", 32.0, 0.00628);
+  packet.add(LINK_WELCOME, world.version, int{world.supervisor}, int{world.nue}, 0, world.seed, world.time_ns,
+             "puck", "GCtronic e-puck", "project", "project/worlds/w.wbt", "title", "custom", 32.0, 0.00628);
   for (const Device& d : world.devices)
     packet.add(LINK_DEVICE, d.tag, d.kind, d.name, d.name + " model", d.numbers);
   packet.add(LINK_READY);
