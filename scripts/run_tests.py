@@ -50,6 +50,8 @@ def run(build, name, tests):
     environment = dict(os.environ, GTEST_COLOR="no", XDG_CACHE_HOME=os.path.abspath(f"{build}/cache"),
                        ASAN_OPTIONS="intercept_tls_get_addr=0",
                        LSAN_OPTIONS=f"suppressions={os.getcwd()}/scripts/lsan.supp:print_suppressions=0")
+    # what ends a test's programs ends them, though the run itself is one of nohup or in the background
+    command = ["env", "--default-signal=HUP,INT,QUIT", *command]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
     passed = failed = 0
     current, said, since = "", [], time.monotonic()

@@ -42,6 +42,8 @@ def main(arguments: list[str]) -> int:
     os.environ["TWINPUCK_TEST"] = "1"  # also for the processes of -n
     interrupted, outcome = Interrupted(), Invalid()
     code = pytest.main(["-p", "twinpuck.pytest_plugin", "-o", "junit_logging=system-out", *arguments], plugins=[interrupted, outcome])
+    if code != pytest.ExitCode.OK and _ending.was_interrupted():
+        return 130
     if code == pytest.ExitCode.TESTS_FAILED and outcome.bad_input:
         return 2
     if code == 7 or code == pytest.ExitCode.TESTS_FAILED and outcome.failed == outcome.invalid:
