@@ -7,6 +7,7 @@
 
 #include "dspic30/memory/hex.h"
 #include "hal_sim/board/epuck_params.h"
+#include "hal_sim/drivers/driver_params.h"
 
 namespace chip {
 

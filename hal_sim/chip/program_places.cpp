@@ -5,6 +5,7 @@
 #include <map>
 
 #include "dspic30/core/instruction_table.h"
+#include "dspic30/memory/host_places.h"
 #include "hal_sim/api/host_index.h"
 
 namespace chip {
