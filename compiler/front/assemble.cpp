@@ -115,12 +115,9 @@ bool write_depfile(const std::string& depfile, const std::string& input, const S
 /// Counts messages. The context has those of files behind a preprocessor with the line of their source, which
 /// a handler of the SourceMgr does not get.
 MCContext::DiagHandlerTy counted(const std::string& file) {
-  return [file, told = 0u](const SMDiagnostic& message, bool, const SourceMgr& sources,
+  return [file, told = 0u](const SMDiagnostic& message, bool, const SourceMgr&,
                            std::vector<const MDNode*>&) mutable {
     end_after_many(file, told);
-    const unsigned buffer = sources.FindBufferContainingLoc(message.getLoc());
-    if (buffer && buffer != sources.getMainFileID())
-      sources.PrintIncludeStack(sources.getParentIncludeLoc(buffer), errs());
     message.print(nullptr, errs());
   };
 }

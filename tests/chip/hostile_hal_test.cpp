@@ -283,7 +283,7 @@ const HostileProgram kHostile[] = {
     {"idle_forever", MAIN("scan(); IEC0 = 0; IEC1 = 0; IEC2 = 0; Idle();"), false},
     {"idle_masked", MAIN("scan(); SRbits.IPL = 7; for (;;) Idle();")},
     {"wait_never", MAIN("scan(); while (!seen[3]);"), false},
-    {"reset_forever", MAIN("start(); __asm__ volatile(\"reset\");"), false},
+    {"reset_forever", MAIN("start(); __asm__ volatile(\"reset\");"), true},
     {"main_returns", "int main(void) { scan(); return 7; }"},
     {"exit_failure", "int main(void) { scan(); exit(3); }"},
     {"abort", "int main(void) { scan(); abort(); }"},
