@@ -87,12 +87,20 @@ std::uint64_t keep_within(const fs::path& folder, std::uint64_t bytes) {
   return all;
 }
 
-std::string wrong_cache_bound() {
+/// MB, 0: not said, or what is said is none, which `wrong` says.
+static std::uint64_t said_mb(std::string& wrong) {
   const char* const said = std::getenv("TWINPUCK_CACHE_MB");
   const std::string text = said ? said : "";
   const bool is_number = text.size() < 8 && text.find_first_not_of("0123456789") == std::string::npos;
-  if (text.empty() || (is_number && std::stoi(text) > 0)) return {};
-  return "TWINPUCK_CACHE_MB: got '" + text + "', expected 1 to 9999999 MB";
+  const std::uint64_t mb = is_number && !text.empty() ? std::stoull(text) : 0;
+  if (!text.empty() && mb == 0) wrong = "TWINPUCK_CACHE_MB: got '" + text + "', expected 1 to 9999999 MB";
+  return mb;
+}
+
+std::string wrong_cache_bound() {
+  std::string wrong;
+  said_mb(wrong);
+  return wrong;
 }
 
 void keep_caches_within_bound() {
@@ -104,10 +112,10 @@ void keep_caches_within_bound() {
   const bool is_due =
       fstat(stamp, &s) == 0 && (s.st_size == 0 || std::abs(std::time(nullptr) - s.st_mtime) >= kBetweenS);
   if (is_due && flock(stamp, LOCK_EX | LOCK_NB) == 0) {
-    const char* const said = std::getenv("TWINPUCK_CACHE_MB");
-    const std::uint64_t mb = said ? std::strtoull(said, nullptr, 10) : 0;
+    std::string wrong;
+    const std::uint64_t mb = said_mb(wrong);
     if (pwrite(stamp, "\n", 1, 0) == 1) futimens(stamp, nullptr);
-    keep_within(top, mb && wrong_cache_bound().empty() ? mb << 20 : kMostCacheBytes);
+    keep_within(top, mb ? mb << 20 : kMostCacheBytes);
   }
   close(stamp);
 }

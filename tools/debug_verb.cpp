@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <csignal>
-#include <ctime>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -50,13 +49,11 @@ bool is_one_of(const std::string& word, const std::vector<std::string>& words) {
 // --- Ctrl-C at a terminal
 
 volatile std::sig_atomic_t pause_asked = 0;
-volatile std::time_t asked_ms = 0;  // when, or 0
+volatile long long asked_ms = 0;  // when, or 0
 
 /// The first pauses what runs. A second one that finds it without effect, or comes within a second, ends.
 void on_interrupt(int) {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  const std::time_t now_ms = now.tv_sec * 1000 + now.tv_nsec / 1'000'000;
+  const long long now_ms = steady_ms();
   if (pause_asked || (asked_ms != 0 && now_ms - asked_ms < 1000)) ask_for_end();
   pause_asked = 1;
   asked_ms = now_ms;

@@ -160,13 +160,17 @@ void on_signal(int) { ask_for_end(); }
 
 }  // namespace
 
+long long steady_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
+}
+
 void ask_for_end() {
   const int before = errno;
   int none = 0;
   asked.compare_exchange_strong(none, kInterrupted);
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  const long long now_ms = now.tv_sec * 1000LL + now.tv_nsec / 1'000'000;
+  const long long now_ms = steady_ms();
   if (now_ms - wished_ms.exchange(now_ms) > kOneWish_ms) ++wishes;
   sem_post(&news);
   errno = before;

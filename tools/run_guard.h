@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Ends the process when somebody (Ctrl-C, SIGTERM, SIGQUIT, a terminal that is closed) or --host-limit wants it
-// ended, whatever runs. A verb that looks at end_asked() ends by itself, with its files whole. One that does not come to it, because a
-// supervisor or the simulator loops for ever, is ended by a thread of its own, with the documented exit code.
+// ended, whatever runs. A verb that looks at end_asked() ends by itself, with its files whole. One that does not
+// come to it, because a supervisor or the simulator loops for ever, is ended by a thread of its own, with the
+// documented exit code.
 //
 // Compilers and other children end at once.
 //
@@ -20,6 +21,8 @@ int end_asked();
 
 /// Does what Ctrl-C does. For handlers of signals, too.
 void ask_for_end();
+/// Of a clock that only goes on, ms. For handlers of signals, too.
+long long steady_ms();
 
 /// kHostTime is asked for after so many seconds from now.
 void limit_host_time(double seconds);

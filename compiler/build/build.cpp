@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdlib>
 #include <iterator>
 #include <set>
 
@@ -406,12 +405,10 @@ constexpr int kAttempts = 4;  // where somebody removes the cache meanwhile
 /// The submission that a folder belongs to; empty: it is the user's own. Who grades a class says where one lies, by the
 /// environment: tests build programs of theirs as well.
 static fs::path submission_of(const fs::path& folder) {
-  const char* const said = std::getenv("TWINPUCK_SUBMISSION");
-  if (!said || !*said) return {};
-  const ReadableFiles submission({said});
-  const fs::path given = fs::absolute(folder).lexically_normal().lexically_relative(said);
-  const bool is_given_below = !given.empty() && *given.begin() != "..";
-  return is_given_below || submission.has(folder) ? fs::path(said) : fs::path();
+  const fs::path own = submission();
+  const bool is_its =
+      !own.empty() && (is_named_below(folder, own) || ReadableFiles({own.string()}).has(folder));
+  return is_its ? own : fs::path();
 }
 
 static BuildOptions with_cache(BuildOptions o) {

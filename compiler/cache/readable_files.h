@@ -8,6 +8,11 @@
 
 namespace cc {
 
+/// The folder of the submission that is graded, by TWINPUCK_SUBMISSION; empty: there is none.
+std::filesystem::path submission();
+/// Whether `place` is named below `folder`, or is it; where links lead does not matter.
+bool is_named_below(const std::filesystem::path& place, const std::filesystem::path& folder);
+
 class ReadableFiles {
  public:
   /// All.

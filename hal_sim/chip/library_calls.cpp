@@ -16,8 +16,9 @@ namespace {
 constexpr Cycle kSpeedGrace =
     board::kFcyHz / 10;  // a speed may be set a little before the motors are started
 constexpr Cycle kStandsStill = 10 * board::kFcyHz, kLookEvery = board::kFcyHz;
-// of the steps that a speed asks for a wheel makes less, of speeds set so often a second, steps/s; assumed: far from
-// what rounding and the first step make of it
+// A wheel is slow that makes less than this share of the steps asked for, where its speed is set more often than so
+// many times a second. Of lower speeds than kLeastSlow, steps/s, too few steps come in a look. Assumed: far from what
+// rounding and the first step make of it.
 constexpr double kSlow = 0.8, kOften = 200, kLeastLook_s = 0.5;
 constexpr int kLeastSlow = 20;
 constexpr int kMaxSpeed = 1000;  // steps/s [lib: motor_led/advance_one_timer/e_motors.c]

@@ -17,6 +17,7 @@
 
 #include "build.h"
 #include "compiler/cache/child_process.h"
+#include "compiler/cache/readable_files.h"
 #include "containment.h"
 #include "install/cache_bound.h"
 #include "install/places.h"
@@ -165,7 +166,8 @@ class Build {
   /// that it read could be told by the program.
   Words in_a_room(const Words& words) const {
     const fs::path root = places::product_share();
-    Words readable = {folder_.string(), submission(), controller_library().parent_path().string(),
+    Words readable = {folder_.string(), cc::submission().string(),
+                      controller_library().parent_path().string(),
                       (root / "programs" / "controller").string(), (root / "firmware" / "include").string()};
     return contained(words, folder_.string(), readable, {scratch_.string()});
   }

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <string_view>
 
+#include "compiler/cache/readable_files.h"
+
 namespace programs {
 
 namespace {
@@ -26,23 +28,13 @@ const char* const kSystem[] = {"/usr",
 /// Whether a place in the submission is a link to one outside.
 bool leads_out(const std::string& path) {
   namespace fs = std::filesystem;
-  const std::string own = submission();
-  if (own.empty()) return false;
-  const auto is_below = [](const fs::path& place, const fs::path& folder) {
-    const fs::path rest = place.lexically_relative(folder);
-    return !rest.empty() && *rest.begin() != "..";
-  };
+  const fs::path own = cc::submission();
   std::error_code none;
-  return is_below(fs::path(path).lexically_normal(), own) &&
-         !is_below(fs::weakly_canonical(path, none), fs::weakly_canonical(own, none));
+  return !own.empty() && cc::is_named_below(path, own) &&
+         !cc::is_named_below(fs::weakly_canonical(path, none), fs::weakly_canonical(own, none));
 }
 
 }  // namespace
-
-std::string submission() {
-  const char* const said = std::getenv("TWINPUCK_SUBMISSION");
-  return said ? said : "";
-}
 
 bool is_contained() {
   const char* const said = std::getenv("TWINPUCK_CONTAIN");

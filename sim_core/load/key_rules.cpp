@@ -8,7 +8,8 @@
 namespace sim {
 namespace {
 
-/// What a table of `sections` may not have together: `key` counts where `other`, of the same table, has one of `values`; without values: where it is not written.
+/// What a table of `sections` may not have together: `key` counts where `other`, of the same table, has one of
+/// `values`; without values: where it is not written.
 struct KeyRule {
   const char* sections;  // between '|'
   const char* key;

@@ -33,6 +33,18 @@ __T1Interrupt: bclr IFS0, #3  ; 3 + 1 + 3
     retfie
 )";
 
+// timer 1 every 10000 cycles; the main loop begins by a wait for its flag
+const std::string kPollsTimer1 = R"(
+__reset: mov #__SP_init, w15
+    mov #9999, w0
+    mov w0, PR1
+    mov #0x8000, w0
+    mov w0, T1CON
+main: btss IFS0, #3
+    bra main
+    bclr IFS0, #3
+)";
+
 class ProfileTest : public chip_test::ChipTest {
  protected:
   ProfileReport profile(const std::string& text, double seconds) {
@@ -123,16 +135,7 @@ TEST_F(ProfileTest, the_deepest_stack_is_known_with_its_way) {
 
 TEST_F(ProfileTest, waits_are_told_apart_from_work) {
   // polls Timer 1's flag, then counts 100 down, 3 cycles a round
-  const ProfileReport report = profile(R"(
-__reset: mov #__SP_init, w15
-    mov #9999, w0
-    mov w0, PR1
-    mov #0x8000, w0
-    mov w0, T1CON
-main: btss IFS0, #3
-    bra main
-    bclr IFS0, #3
-    mov #100, w1
+  const ProfileReport report = profile(kPollsTimer1 + R"(    mov #100, w1
 delay: dec w1, w1
     bra nz, delay
     bra main
@@ -163,16 +166,7 @@ TEST_F(ProfileTest, handlers_that_wake_the_processor_are_counted) {
 
 // without optimisation `while (1) { while (!flag) ; ... }` has one beginning for both loops
 TEST_F(ProfileTest, rounds_of_a_wait_at_the_head_are_no_turns) {
-  const ProfileReport report = profile(R"(
-__reset: mov #__SP_init, w15
-    mov #9999, w0
-    mov w0, PR1
-    mov #0x8000, w0
-    mov w0, T1CON
-main: btss IFS0, #3
-    bra main
-    bclr IFS0, #3
-    repeat #300
+  const ProfileReport report = profile(kPollsTimer1 + R"(    repeat #300
     nop
     bra main
 )",
