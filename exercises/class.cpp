@@ -75,8 +75,9 @@ std::vector<Build> find_builds(const std::set<std::string>& wanted, bool by_id,
   return builds;
 }
 
-void build_all(const std::vector<Build>& builds, const twin::Options& options, double limit_s, int jobs,
-               std::vector<Student>& students, std::vector<std::vector<std::string>>& errors) {
+void build_all(const std::vector<Build>& builds, const twin::Options& options, double limit_s,
+               const Setting& setting, std::vector<Student>& students,
+               std::vector<std::vector<std::string>>& errors) {
   const auto build = [&](std::size_t i) {
     std::vector<std::string> wrong;
     twin::Options of_student = options;
@@ -85,25 +86,27 @@ void build_all(const std::vector<Build>& builds, const twin::Options& options, d
     return nlohmann::json{{"image", image}, {"errors", wrong}}.dump(-1, ' ', false,
                                                                     nlohmann::json::error_handler_t::replace);
   };
-  run_contained(builds.size(), jobs, limit_s, build, [&](std::size_t i, const JobEnd& end) {
-    Programs& programs = students[builds[i].student].programs;
-    std::string why = end_text(end, limit_s), image;
-    std::vector<std::string> wrong;
-    if (why.empty()) {
-      const auto told = nlohmann::json::parse(end.result);
-      image = told["image"];
-      wrong = told["errors"].get<std::vector<std::string>>();
-    } else {
-      wrong = lines_in(end.errors);
-    }
-    if (image.empty())
-      errors[builds[i].student].insert(errors[builds[i].student].end(), wrong.begin(), wrong.end());
-    for (const std::string& firmware : builds[i].firmware)
-      if (image.empty())
-        programs.broken[firmware] = builds[i].folder + " does not build" + (why.empty() ? "" : ": it " + why);
-      else
-        programs.images[firmware] = image;
-  });
+  run_contained(
+      builds.size(), setting.jobs, limit_s, setting.is_over, build, [&](std::size_t i, const JobEnd& end) {
+        Programs& programs = students[builds[i].student].programs;
+        std::string why = end_text(end, limit_s), image;
+        std::vector<std::string> wrong;
+        if (why.empty()) {
+          const auto told = nlohmann::json::parse(end.result);
+          image = told["image"];
+          wrong = told["errors"].get<std::vector<std::string>>();
+        } else {
+          wrong = lines_in(end.errors);
+        }
+        if (image.empty())
+          errors[builds[i].student].insert(errors[builds[i].student].end(), wrong.begin(), wrong.end());
+        for (const std::string& firmware : builds[i].firmware)
+          if (image.empty())
+            programs.broken[firmware] =
+                builds[i].folder + " does not build" + (why.empty() ? "" : ": it " + why);
+          else
+            programs.images[firmware] = image;
+      });
 }
 
 }  // namespace
@@ -120,10 +123,9 @@ void try_class(const std::string& folder, const twin::Options& options, bool by_
                Class& all, const std::function<void(const Student&)>& row) {
   for (const fs::path& home : folders_of(folder))
     all.students.push_back({home.filename().string(), home.string(), {}, {}});
-  const int jobs = all.setting.jobs;
   const std::vector<Build> builds = find_builds(wanted_programs(all.exercises), by_id, all.students);
   std::vector<std::vector<std::string>> errors(all.students.size());
-  build_all(builds, options, limit_s, jobs, all.students, errors);
+  build_all(builds, options, limit_s, all.setting, all.students, errors);
 
   Setting alone = all.setting;  // within one of the processes
   alone.jobs = 1;
@@ -133,25 +135,31 @@ void try_class(const std::string& folder, const twin::Options& options, bool by_
     for (const Exercise* e : all.exercises) {
       student.cells.emplace_back();
       student.cells.back().exercise = e;
+      student.cells.back().verdict = Verdict::Open;  // unless it is tried, below
+      student.cells.back().why = "interrupted";
     }
   const auto attempt = [&](std::size_t i) {
     return pack(try_exercise(*all.exercises[i % each], alone, all.students[i / each].programs,
                              [](const std::vector<std::string>&) {}));
   };
   std::size_t next_row = 0;
-  run_contained(each * all.students.size(), jobs, limit_s, attempt, [&](std::size_t i, const JobEnd& end) {
-    Student& student = all.students[i / each];
-    Cell& cell = student.cells[i % each];
-    const std::string why = end_text(end, limit_s);
-    if (!why.empty() || !unpack(end.result, alone, student.programs, cell)) {
-      cell.verdict = end.how == JobEnd::How::TimedOut ? Verdict::TimedOut : Verdict::Died;
-      cell.why = why.empty() ? "the simulator said nothing" : why;
-      cell.problems = lines_in(end.errors);
-    }
-    if (cell.verdict == Verdict::Broken) cell.problems = errors[i / each];
-    --open[i / each];
-    for (; next_row < open.size() && open[next_row] == 0; ++next_row) row(all.students[next_row]);
-  });
+  run_contained(each * all.students.size(), all.setting.jobs, limit_s, all.setting.is_over, attempt,
+                [&](std::size_t i, const JobEnd& end) {
+                  Student& student = all.students[i / each];
+                  Cell& cell = student.cells[i % each];
+                  const std::string why = end_text(end, limit_s);
+                  cell.why.clear();
+                  if (!why.empty() || !unpack(end.result, alone, student.programs, cell)) {
+                    cell.verdict = end.how == JobEnd::How::TimedOut ? Verdict::TimedOut : Verdict::Died;
+                    cell.why = why.empty() ? "the simulator said nothing" : why;
+                    cell.problems = lines_in(end.errors);
+                  }
+                  if (cell.verdict == Verdict::Broken) cell.problems = errors[i / each];
+                  --open[i / each];
+                  for (; next_row < open.size() && open[next_row] == 0; ++next_row)
+                    row(all.students[next_row]);
+                });
+  for (; next_row < open.size(); ++next_row) row(all.students[next_row]);
 }
 
 std::string shell_word(const std::string& word) {

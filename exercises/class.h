@@ -33,7 +33,8 @@ bool is_class(const std::string& folder, const std::set<std::string>& known,
               const std::set<std::string>& wanted, bool by_id);
 
 /// Tries everything, `setting.jobs` at a time, each piece for at most `limit_s` real seconds. `row` gets
-/// every student, by name, as soon as those before are known. Notes go to stderr.
+/// every student, by name, as soon as those before are known. Notes go to stderr. Where `setting.is_over`
+/// says so, what is left is not tried, and its cells say that.
 void try_class(const std::string& folder, const twin::Options& options, bool by_id, double limit_s,
                Class& all, const std::function<void(const Student&)>& row);
 

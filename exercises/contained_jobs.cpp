@@ -25,6 +25,7 @@ namespace {
 
 constexpr std::size_t kMostErrors = 64u << 10;  // bytes of standard error that are kept
 constexpr std::size_t kMostResult = 64u << 20;  // bytes of a result; more is no result
+constexpr long kLook_ms = 100;                  // between two looks whether it is over
 
 using JobClock = std::chrono::steady_clock;
 
@@ -118,11 +119,15 @@ void finish_job(Job& job) {
 
 }  // namespace
 
-void run_contained(std::size_t count, int at_once, double limit_s,
+void run_contained(std::size_t count, int at_once, double limit_s, const std::function<bool()>& is_over,
                    const std::function<std::string(std::size_t)>& work,
                    const std::function<void(std::size_t, const JobEnd&)>& done) {
   std::vector<std::unique_ptr<Job>> running;
   for (std::size_t next = 0; next < count || !running.empty();) {
+    if (is_over()) {
+      for (const auto& job : running) finish_job(*job);
+      return;
+    }
     while (next < count && running.size() < static_cast<std::size_t>(std::max(1, at_once)))
       running.push_back(begin_job(next++, limit_s, work));
     std::vector<pollfd> ends;
@@ -133,7 +138,7 @@ void run_contained(std::size_t count, int at_once, double limit_s,
       first = std::min(first, job->until);
     }
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(first - JobClock::now()).count();
-    poll(ends.data(), ends.size(), static_cast<int>(std::clamp<long>(left + 1, 0, 60'000)));
+    poll(ends.data(), ends.size(), static_cast<int>(std::clamp<long>(left + 1, 0, kLook_ms)));
     for (std::size_t i = 0; i < running.size(); ++i) {
       Job& job = *running[i];
       const auto look = [&](int& end, short events, std::string& text, std::size_t most, bool last) {
@@ -166,7 +171,7 @@ void run_contained(std::size_t count, int at_once, double limit_s,
         }
       }
       finish_job(*job);
-      done(job->index, job->end);
+      if (!is_over()) done(job->index, job->end);  // who ends it all may have ended this one
     }
   }
 }

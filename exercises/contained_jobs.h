@@ -22,9 +22,10 @@ struct JobEnd {
 };
 
 /// Runs work(0) to work(count - 1), `at_once` at a time, each for at most `limit_s` real seconds. What a
-/// child prints is not shown. done() is called here, in the order in which they end. Throws
+/// child prints is not shown. done() is called here, in the order in which they end. Once `is_over` says so,
+/// none is begun any more, and who has not ended is ended; done() hears of neither. Throws
 /// std::runtime_error when no process can be made.
-void run_contained(std::size_t count, int at_once, double limit_s,
+void run_contained(std::size_t count, int at_once, double limit_s, const std::function<bool()>& is_over,
                    const std::function<std::string(std::size_t)>& work,
                    const std::function<void(std::size_t, const JobEnd&)>& done);
 

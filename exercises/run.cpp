@@ -132,7 +132,8 @@ StepResult try_step(const Step& step, const Setting& setting, const Programs& pr
   if (setting.jobs > 1 && !timed)
     make_in_processes(result.trials, setting.jobs);
   else
-    for (TrialResult& t : result.trials) make_trial(t);
+    for (TrialResult& t : result.trials)
+      if (!setting.is_over()) make_trial(t);
   for (const TrialResult& t : result.trials) tell(t.problems);
   return result;
 }
@@ -186,13 +187,16 @@ const char* verdict_text(Verdict verdict) {
       return "seen";
     case Verdict::None:
       return "none";
+    case Verdict::Open:
+      return "open";
     default:
       return "FAIL";
   }
 }
 
 bool is_failure(Verdict verdict) {
-  return verdict != Verdict::Pass && verdict != Verdict::Seen && verdict != Verdict::None;
+  return verdict != Verdict::Pass && verdict != Verdict::Seen && verdict != Verdict::None &&
+         verdict != Verdict::Open;
 }
 
 std::vector<TrialResult> trials_of(const Step& step, const Setting& setting, const Programs& programs) {

@@ -21,6 +21,8 @@ struct Setting {
   bool full = false;     ///< as many and as long as the table has for figures
   int jobs = 1;          ///< processes
   bool is_mine = false;  ///< exercises S are looked at, not judged
+  /// Somebody wants no more trials: what is under way has no verdict.
+  std::function<bool()> is_over = [] { return false; };
 };
 
 enum class Verdict {
@@ -28,11 +30,12 @@ enum class Verdict {
   Fail,
   Seen,      ///< nothing to be right or wrong
   None,      ///< there is no program for it
+  Open,      ///< it was not tried, or not to its end
   Broken,    ///< its program does not build
   TimedOut,  ///< it took longer than it may
   Died       ///< the simulator did
 };
-/// "pass", "FAIL", "seen", "none"; what did not come to a verdict is a FAIL as well.
+/// "pass", "FAIL", "seen", "none", "open"; what else did not come to a verdict is a FAIL as well.
 const char* verdict_text(Verdict verdict);
 bool is_failure(Verdict verdict);
 

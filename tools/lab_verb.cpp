@@ -22,6 +22,7 @@
 #include "tools/command_line.h"
 #include "tools/lab_replay.h"
 #include "tools/printable.h"
+#include "tools/run_guard.h"
 #include "tools/verbs.h"
 
 namespace tools {
@@ -88,6 +89,12 @@ void write_tables(const LabArguments& a, const lab::Class& all, std::vector<std:
   if (!a.junit.empty()) write_file(a.junit, "--junitxml", lab::class_junit(all), problems);
 }
 
+/// Somebody has ended it before all was tried.
+int told_end() {
+  complain({"lab: interrupted; tables hold what was tried"});
+  return end_asked();
+}
+
 int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& chosen,
                 twin::Options options) {
   lab::Class all;
@@ -102,6 +109,7 @@ int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& 
   for (fs::directory_iterator it(a.mine), end; it != end; ++it)
     width = std::max(width, it->path().filename().string().size());
   std::cout << lab::class_header(all, width) << std::flush;
+  GracefulEnd guard([] {});
   lab::try_class(a.mine, options, !a.ids.empty(),
                  a.limit_s > 0    ? a.limit_s
                  : a.setting.full ? kFullLimit_s
@@ -109,12 +117,14 @@ int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& 
                  all, [&](const lab::Student& student) {
                    std::cout << lab::class_row(all, student, width) << std::flush;
                  });
+  guard.finishing();
   std::cout << '\n' << lab::class_notes(all);
   std::vector<std::string> problems;
   if (!a.csv.empty()) write_file(a.csv, "--csv", lab::class_csv(all), problems);
   if (!a.runs.empty()) write_file(a.runs, "--runs", lab::class_runs_csv(all), problems);
   write_tables(a, all, problems);
   complain(problems);
+  if (end_asked() != 0) return told_end();
   if (!problems.empty()) return kInvalidRun;
   for (const lab::Student& student : all.students)
     for (const lab::Cell& cell : student.cells)
@@ -157,10 +167,15 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
                    {}};
   if (one.name.empty() || one.name == ".") one.name = fs::canonical(a.mine).filename().string();
   int passed = 0, failed = 0, seen = 0, missing = 0;
+  GracefulEnd guard([] {});
   for (const lab::Exercise* e : chosen) {
     lab::Cell cell = lab::try_exercise(*e, a.setting, programs, complain);
+    if (end_asked() != 0) {
+      all.exercises.resize(one.cells.size());
+      break;
+    }
     for (const lab::StepResult& step : cell.steps)
-      if (csv.is_open()) csv << lab::csv_rows(e->id, step);
+      if (csv.is_open()) csv << lab::csv_rows(e->id, step) << std::flush;
     draw_plots(a.plot, cell, problems);
     ++(cell.verdict == lab::Verdict::None   ? missing
        : lab::is_failure(cell.verdict)      ? failed
@@ -178,11 +193,13 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
       break;
     }
   }
+  guard.finishing();
   all.students.push_back(std::move(one));
   csv.flush();
   if (csv.is_open() && !csv) problems.push_back(runs + ": " + runs_option + ": cannot be written");
   write_tables(a, all, problems);
   complain(problems);
+  if (end_asked() != 0) return told_end();
   if (!problems.empty()) return kInvalidRun;
   if (chosen.size() > 1) {
     std::cout << fmt::format("{} of {} pass", passed, passed + failed);
@@ -277,6 +294,7 @@ void check_together(const LabArguments& a, const std::string& table,
 int lab(const LabArguments& given) {
   LabArguments a = given;
   a.setting.is_mine = !a.mine.empty();
+  a.setting.is_over = [] { return end_asked() != 0; };
   std::vector<std::string> problems;
   const std::string table = a.table.empty() ? (places::share_root() / "docs/lab.toml").string() : a.table;
   auto all = lab::read_table(table, problems);
@@ -369,7 +387,8 @@ void add_lab(CLI::App& app, int& exit_code) {
       "Examples: twinpuck lab I1 --mine .\n"
       "          twinpuck lab --mine class --jobs 4 --html class.html --junitxml class.xml\n"
       "          twinpuck lab --mine class/anna --replay I1:corners:3 --picture I1.png --report I1.html\n"
-      "Exit codes: 0 all pass, 1 one fails, 2 bad input, 5 nothing to run, 7 an output was lost");
+      "Exit codes: 0 all pass, 1 one fails, 2 bad input, 5 nothing to run, 7 an output was lost, "
+      "130 interrupted: the tables have what was tried");
   verb->callback([a, &exit_code] { exit_code = lab(*a); });
 }
 

@@ -63,7 +63,9 @@ const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
 /// All events up to now have been.
 void hurry_to_pending(Cpu& cpu) {
   const Interrupts& interrupts = cpu.parts.interrupts;
-  if (interrupts.pending(cpu.true_now() + 2, interrupts.cpu().level()) != kNoVector) --cpu.now;
+  if (interrupts.pending(cpu.true_now() + 2, interrupts.cpu().level()) == kNoVector) return;
+  --cpu.now;
+  cpu.note_effect();  // no other round of a wait takes as long
 }
 void hurry_to_exception(Cpu& cpu) {
   if (cpu.deadline > cpu.now + kInterruptReturnCycles) return;  // nothing comes so soon

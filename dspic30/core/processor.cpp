@@ -16,6 +16,7 @@ namespace {
 // from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal
 // (1024 periods of 7.3728 MHz) and for the PLL (20 us)
 constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
+constexpr Cycle kLongHold = 250, kOneByOne = 30000;  // of handlers known by heart (note_hold)
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
 
 }  // namespace
@@ -225,10 +226,12 @@ inline unsigned Processor::handlers(int next_vector) const {
       continue;
     }
     const bool flag = interrupts.sources().flag(irq);
-    const bool held = all || !interrupts.sources().enabled(irq) ||
-                      interrupts.sources().priority(irq) <= floor ||
-                      (flag && next_vector != kFirstIrqVector + irq);
-    state |= static_cast<unsigned>(held) << h | static_cast<unsigned>(flag) << (kFlagsAt + h);
+    const bool by_program = all || !interrupts.sources().enabled(irq) ||
+                            interrupts.sources().priority(irq) <= floor ||
+                            (flag && next_vector != kFirstIrqVector + irq),
+               held = by_program || (!flag && by_heart_[h].one_by_one_until > 0);
+    state |= static_cast<unsigned>(held) << h | static_cast<unsigned>(flag) << (kFlagsAt + h) |
+             static_cast<unsigned>(by_program) << (kByProgramAt + h);
   }
   return state;
 }
@@ -253,11 +256,12 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     if (irq < 0) continue;
     const unsigned bit = 1u << h;
     ByHeart& handler = by_heart_[h];
+    if (note_hold(h, (state >> (kByProgramAt + h) & 1) != 0)) state = handlers(next_vector);
     // events that came while it was held off set its flag
     const bool has_come = handler.source <= cpu.now || handler.missed_at > 0;
     if ((held_ & bit) && has_come && raise_held(h)) {
-      raised = true;
-      state = handlers(next_vector);
+      raised = true;  // it is let in, if at all, once that was looked at
+      continue;
     }
     const bool pending = (state >> (kFlagsAt + h) & 1) != 0;
     // a flag that the program has set brings it once more
@@ -268,6 +272,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     // From here on only those that are let in or held off just now.
     if (!((state ^ held_) & bit)) continue;
     held_ ^= bit;
+    if (!is_held(h) && handler.one_by_one_until <= cpu.now) handler.one_by_one_until = 0;
     if (!is_held(h) && handler.missed_at > 0) count_missed(h);
     // it was due just now
     if (is_held(h) && h == 0 && cpu.host_due <= cpu.now) {
@@ -282,7 +287,8 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     if (waits_->is_waiting()) waits_->stir(cpu);  // what it looks at stands, or moves again
   }
   // a flag of one that is let in is looked at each time
-  const bool is_let_in = (state >> kFlagsAt & ~held_) != 0;
+  constexpr unsigned kAll = (1u << HostCalls::kHandlers) - 1;
+  const bool is_let_in = (state >> kFlagsAt & kAll & ~held_) != 0;
   seen_ = raised || raised_own || is_let_in ? kUnseen : state;
   if (raised) return true;
   if (!cpu.host_stale) return false;
@@ -301,6 +307,24 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
   cpu.host_comes = irqs_[0] >= 0 && interrupts.sources().enabled(irqs_[0]);
   cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
   return false;
+}
+
+/// A program that holds a handler off for long, now and again, finds it at instants that a share of each cycle
+/// does not tell: for a while each of its events sets its flag, as if it were held off until then. True: that
+/// begins now.
+bool Processor::note_hold(std::size_t h, bool by_program) {
+  const Cpu& cpu = *cpu_;
+  ByHeart& handler = by_heart_[h];
+  if (by_program == handler.held_by_program) return false;
+  handler.held_by_program = by_program;
+  if (by_program) {
+    handler.held_since = cpu.host_handlers == 0 ? cpu.now : kNever;
+    return false;
+  }
+  if (handler.held_since == kNever || cpu.now - handler.held_since < kLongHold) return false;
+  const bool begins = handler.one_by_one_until == 0;
+  handler.one_by_one_until = cpu.now + kOneByOne;
+  return begins;
 }
 
 /// Sets the flag of a handler that is held off, as its source does. A second event is lost, and told; those
@@ -343,8 +367,20 @@ void Processor::begin_handler() {
   enter_handler(cpu);
   cpu.host_due = kNever;
   follow_host(kNoVector);
+  lose_until_cleared();
   const bool overflows = cpu.parts.interrupts.control().has_trap(Trap::StackError);
   cpu.next = overflows ? host_place(kHostHandlerReturn) : go_on_with_handler(cpu, cpu.next);
+}
+
+/// The handler's own code clears its flag behind what it saves: an event that comes until then is lost.
+void Processor::lose_until_cleared() {
+  Cpu& cpu = *cpu_;
+  ByHeart& handler = by_heart_[0];
+  const Cycle saves = __builtin_popcount(cpu.host->saved_registers()) + cpu.host->saved_words();
+  constexpr Cycle kClears = 1;  // and makes ready for constants, one instruction more
+  if (handler.source > cpu.now + saves + kClears) return;
+  cpu.parts.interrupts.note_missed(irqs_[0], 1, handler.source);
+  handler.source = cpu.host->source_event(0, handler.source);
 }
 
 /// The handler that calls nothing was pending.

@@ -114,6 +114,8 @@ class Processor {
   bool follow_changed_handlers(unsigned state, int next_vector);
   bool is_held(std::size_t handler) const { return (held_ >> handler & 1) != 0; }
   bool raise_held(std::size_t handler);
+  bool note_hold(std::size_t handler, bool by_program);
+  void lose_until_cleared();
   void count_missed(std::size_t handler);
   bool is_host_first(int vector) const;
   void begin_handler();
@@ -130,10 +132,13 @@ class Processor {
   struct ByHeart {
     Cycle source = kNever;  // when the source of a held one sets the flag next
     Cycle missed_at = 0;  // ... found it set; what comes later is counted when the flag falls. 0: it did not
+    bool held_by_program = true;  // or it is asleep
+    Cycle held_since = kNever;    // ... kNever: never let in so far, or its own handler does
+    Cycle one_by_one_until = 0;   // it was held off for long: each time it comes is an event; 0: it was not
   };
   std::array<ByHeart, 2> by_heart_;
   std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none
-  static constexpr unsigned kFlagsAt = 2, kUnseen = ~0u;
+  static constexpr unsigned kFlagsAt = 2, kByProgramAt = 4, kUnseen = ~0u;
   unsigned held_ = 3;        // handlers that the program holds off, or it is asleep, a bit each
   unsigned seen_ = kUnseen;  // handlers() when follow_host() looked last
 };

@@ -26,6 +26,7 @@ constexpr Frame frame_of(int slot) {
   if (slot == kScanAccSlot) return {6, kScanTadCycles6};
   return {3, kScanTadCycles3};
 }
+constexpr Cycle kInTime = 40;
 constexpr Frame kMicroFrame{3, kScanTadCycles6};
 /// Cycles from a channel's hold instant to the end of its frame.
 constexpr Cycle hold_to_end(Frame f, int channel) {
@@ -96,13 +97,12 @@ void AdcScan::set_round(Cycle round, Cycle at) {
 }
 
 // The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes
-// now and begins a new sequence.
+// now and begins a new sequence. One that is late by a few instructions is taken to be in time.
 void AdcScan::release(Cycle at) {
   const Cycle since = std::exchange(clock_.held_since, -1);
   if (since < 0 || !clock_.is_on) return;
   const Cycle first = clock_.run.cycle_of(clock_.run.first + clock_.frames(since));
-  const std::int64_t lost = at < first ? 0 : (at - first) / clock_.run.sequence();
-  if (lost <= 0) return;
+  if (at - first < kInTime) return;
   settle(since);
   clock_.run.origin = at - clock_.run.sequence();
 }

@@ -239,7 +239,10 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
     if (node.serial >= ticks_.walked()) continue;
     const Cycle cost = shares_.cost_of(node);
     walk_cost_ += cost;
-    if (!motors_.needs_handler(node)) continue;  // a motor, whose firings are a share
+    if (!motors_.needs_handler(node)) {  // a motor, whose firings are a share
+      if (pays_firings_) walk_cost_ += cost_of_firing(node, tick);
+      continue;
+    }
     settle(node, tick - 1);
     ticks_.walk_to(node.serial, false);
     AgendaCount& count = motors_.count_of(node);
@@ -263,7 +266,16 @@ AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
   return nullptr;
 }
 
+/// What a motor that fires at this tick adds to the handler; 0: it does not.
+Cycle AgendaTimer::cost_of_firing(Node& node, std::int64_t tick) {
+  const AgendaMotor& m = motors_.bring_to(AgendaList::wheel_of(node.kind), tick - 1);
+  if (!m.count.counts() || m.count.tick != tick - 1 || m.count.ticks_to_fire() > 1) return 0;
+  const AgendaCosts& costs = shares_.costs();
+  return !m.saves_power() ? costs.motor_step : m.phase_on ? costs.motor_off : costs.motor_half;
+}
+
 void AgendaTimer::finish(Cycle at) {
+  pays_firings_ = false;
   if (!ticks_.is_walking()) return;
   ticks_.end_walk();
   if (ticks_.is_running() && !ticks_.has_no_flag()) resume(ticks_.walk_tick(), at);
@@ -303,6 +315,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
 
 void AgendaTimer::release(Cycle at, bool pending) {
   if (!ticks_.is_held()) return;
+  pays_firings_ = pending;
   const std::int64_t done = ticks_.let_go();
   if (!ticks_.is_walking()) resume(done, at, pending);
 }

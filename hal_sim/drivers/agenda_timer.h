@@ -119,12 +119,14 @@ class AgendaTimer {
   void abandon(Cycle at);
   void lose(std::int64_t ticks);
   void find_next_fire();
+  Cycle cost_of_firing(Node& node, std::int64_t tick);
 
   // what each look at the ticks needs lies together, with large swarms in mind
   AgendaTicks ticks_;
   AgendaMotors motors_;
   AgendaList list_;
   Cycle walk_cost_ = 0;        // since it was taken last
+  bool pays_firings_ = false;  // the handler was held off, so no share has paid for the motors' firings
   std::uint64_t history_ = 0;  // of commands, for the hash
   Cycle origin_ = 0;           // ... which counts from here
   AgendaShares shares_;

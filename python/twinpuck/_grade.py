@@ -26,19 +26,22 @@ import xml.etree.ElementTree as ElementTree
 from . import _ending, _matrix, _outputs
 
 _BUBBLEWRAP = "/usr/bin/bwrap"
+_INTERRUPTED = "not graded to its end: interrupted"
 _ENDINGS = {"--csv": ".csv", "--html": ".html", "--junitxml": ".xml"}
 _CODES = "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 7 a table could not be written, 130 interrupted"
 
 
 @dataclasses.dataclass
 class Case:
-    """A test's outcome for one submission. outcome: "passed", "failed", "skipped"; text: why, first line first."""
+    """A test's outcome for one submission. outcome: "passed", "failed", "skipped"; text: why, first line first; has_no_world:
+    it failed because none could be opened."""
 
     name: str
     points: float
     outcome: str
     text: str = ""
     seconds: float = 0.0
+    has_no_world: bool = False
 
 
 @dataclasses.dataclass
@@ -65,9 +68,16 @@ class Grade:
         return "skip" if outcomes == {"skipped"} else "pass" if share == 1 else "FAIL" if share == 0 else f"{100 * share:.0f} %"
 
     def why(self, test: str) -> str:
-        """The first line of why the first run of a test failed."""
-        return next((case.text.split("\n")[0] for case in self.cases
+        """The first line of why the first run of a test failed; empty: it did not, or `problem` says it."""
+        line = next((case.text.split("\n")[0] for case in self.cases
                      if base_name(case.name) == test and case.outcome == "failed"), "")
+        return line if line != self.problem else ""
+
+    def told_by_all(self) -> str:
+        """Why no test could open a world, as all tell it: the program cannot be built, mostly. Empty: some could."""
+        ran = [case for case in self.cases if case.outcome != "skipped"]
+        lines = {case.text.split("\n")[0] if case.has_no_world else "" for case in ran}
+        return lines.pop() if len(lines) == 1 else ""
 
 
 def base_name(name: str) -> str:
@@ -97,15 +107,19 @@ def run_tests(arguments: list[str]) -> int:
         def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
             points = next((value for key, value in report.user_properties if key == "twinpuck_points"), 1.0)
             if report.when == "call" or report.outcome != "passed":
-                cases.append(Case(report.nodeid, points, report.outcome, reason(report), report.duration))
+                cases.append(Case(report.nodeid, points, report.outcome, reason(report), report.duration,
+                                  said(report).startswith("twinpuck.WorldError: ")))
 
         def pytest_collectreport(self, report: pytest.CollectReport) -> None:
             if report.failed:
                 cases.append(Case(report.nodeid, 0, "failed", "the test cannot be read: " + report.longreprtext))
 
-    def reason(report: pytest.TestReport) -> str:
+    def said(report: pytest.TestReport) -> str:
         crash = getattr(report.longrepr, "reprcrash", None)
-        first = re.sub(r"^twinpuck\.\w+: ", "", crash.message if crash else report.longreprtext)
+        return crash.message if crash else report.longreprtext
+
+    def reason(report: pytest.TestReport) -> str:
+        first = re.sub(r"^twinpuck\.\w+: ", "", said(report))
         shown = [content for name, content in report.sections if name.startswith("world ")]
         return "\n".join([first, *shown]) if report.outcome == "failed" else ""
 
@@ -193,6 +207,7 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     """Runs the tests on one submission, within its time."""
     result, mine, work = Grade(student.name), student / options.program, base / student.name
     if _is_ending.is_set():
+        result.problem = _INTERRUPTED
         return result
     if not mine.is_dir():
         result.problem = f"got no folder {options.program!r}, expected the program there"
@@ -213,12 +228,14 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
         environment["TWINPUCK_SUBMISSION"] = str(student.resolve())  # its builds read nothing else
         environment["PATH"] = "/usr/local/bin:/usr/bin:/bin"  # what they see
     log = work / "log.txt"
-    if wait_for(words, environment, log, options.limit_s) is None:
+    if wait_for(words, environment, log, options.limit_s) is None and not _is_ending.is_set():
         result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
     result.cases = cases_of(work / "result.json")
     if not result.cases:
         last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-1:]
-        result.problem = result.problem or "the tests ended without a result" + "".join(f": {line}" for line in last)
+        without_result = "the tests ended without a result" + "".join(f": {line}" for line in last)
+        result.problem = result.problem or (_INTERRUPTED if _is_ending.is_set() else without_result)
+    result.problem = result.problem or result.told_by_all()
     return result
 
 
@@ -409,7 +426,8 @@ def main(arguments: list[str]) -> int:
         if wrong := unreadable(options, programs[0], base):
             print(wrong, file=sys.stderr)
             return 2
-        return write_all(grade_all(students, options, base), options, base)
+        code = write_all(grade_all(students, options, base), options, base)
+        return _ending.INTERRUPTED if _is_ending.is_set() else code
     except KeyboardInterrupt:
         return 130
     finally:
@@ -447,19 +465,17 @@ def write_all(grades: list[Grade], options: argparse.Namespace, base: pathlib.Pa
 
 
 def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: pathlib.Path) -> list[Grade]:
-    """All of them, so many at a time, in their order."""
+    """All of them, so many at a time, in their order. Who interrupts has those that were graded by then."""
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         graded = [pool.submit(grade, student, options, base) for student in students]
         try:
-            return [each.result() for each in graded]
+            concurrent.futures.wait(graded)
         except KeyboardInterrupt:  # nobody stays behind
             _is_ending.set()
-            for each in graded:
-                each.cancel()
             for group in list(_running):
                 with contextlib.suppress(ProcessLookupError):  # it has just ended
                     os.killpg(group, signal.SIGKILL)
-            raise
+        return [each.result() for each in graded]
 
 
 if __name__ == "__main__":

@@ -49,6 +49,12 @@ void spend(unsigned n) { while (n--) __asm__ volatile("nop"); }
   "\n"
 #define ENDS_IN_MAIN "int main(void) { start(); seen[9]++; e_activate_agenda(bad, 10); while (1) seen[8]++; }"
 
+// sections that hold handlers off, over and over: rounds in sixteens, and steps
+#define SECTIONS(more, begin, inside, end, outside)                                                     \
+  "void count(void) { if (++seen[8] % 16 == 0) { seen[0]++; seen[1] = e_get_steps_left(); } }\n"        \
+  "int main(void) { start(); " more "e_set_speed_left(500); e_set_speed_right(300); while (1) { " begin \
+  " for (odd = 0; odd < " #inside "; odd++); " end " for (odd = 0; odd < " #outside "; odd++); count(); } }"
+
 // seen[8] counts rounds of the main loop: not compared
 const Injected kInjected[] = {
     // --- returns that lead elsewhere
@@ -287,6 +293,20 @@ const Injected kInjected[] = {
      "void bad(void){ seen[0]++; } int main(void){ start(); e_set_speed_left(500); "
      "e_activate_agenda(bad,50); spend(20000); IEC0bits.T2IE=0; spend(3000); Sleep(); seen[1]++; while(1); "
      "}"},
+    {"sleep_over_and_over",
+     "int main(void){ start(); e_set_speed_left(500); while(1) { Sleep(); seen[0]=e_get_steps_left(); } }"},
+    // --- sections held off, shorter than a tick, about as long, and longer: how ticks and frames fall on them
+    {"sections_50_200", SECTIONS("", "SRbits.IPL = 7;", 50, "SRbits.IPL = 0;", 200), 2},
+    {"sections_300_40", SECTIONS("", "SRbits.IPL = 7;", 300, "SRbits.IPL = 0;", 40), 3},
+    {"sections_300_5", SECTIONS("", "__asm__ volatile(\"disi #0x3FFF\");", 300, "DISICNT = 0;", 5), 3},
+    {"sections_300_200", SECTIONS("", "IEC0bits.T2IE = 0;", 300, "IEC0bits.T2IE = 1;", 200), 3},
+    {"sections_700_40", SECTIONS("", "SRbits.IPL = 7;", 700, "SRbits.IPL = 0;", 40), 3},
+    {"sections_scan_50_200", SECTIONS("e_init_ad_scan(0);", "SRbits.IPL = 7;", 50, "SRbits.IPL = 0;", 200),
+     3},
+    {"sections_scan_150_40", SECTIONS("e_init_ad_scan(0);", "SRbits.IPL = 7;", 150, "SRbits.IPL = 0;", 40),
+     3},
+    {"sections_scan_300_40", SECTIONS("e_init_ad_scan(0);", "SRbits.IPL = 7;", 300, "SRbits.IPL = 0;", 40),
+     3},
     // --- what a callback sees, and leaves alone
     {"sees",
      "void bad(void){ seen[0]++; seen[1]=SRbits.IPL; seen[2]=INTTREG; seen[3]=IFS0bits.T2IF; "

@@ -281,6 +281,51 @@ TEST_F(LabClass, other_seeds_are_other_runs) {
   EXPECT_FALSE(has(runs, ",,1,1,")) << runs;
 }
 
+/// A table whose second exercise does not end for hours.
+constexpr const char* kQuickAndLong = R"([[exercise]]
+id = "Q"
+title = "quick"
+[[exercise.step]]
+worlds = ["wall"]
+firmware = "lab/obstacle"
+seconds = 1
+seeds = [1, 1]
+says = "run"
+[[exercise]]
+id = "L"
+title = "long"
+[[exercise.step]]
+worlds = ["wall"]
+firmware = "lab/obstacle"
+seconds = 1
+seeds = [100000, 100000]
+says = "run"
+)";
+
+TEST_F(LabClass, what_was_tried_before_ctrl_c_stands_in_the_tables) {
+  write("t.toml", kQuickAndLong);
+  for (const char* name : {"anna", "bob"}) write("class/" + std::string(name) + "/obstacle/main.c", kStands);
+  // a student's, by exercises: the header of the file is 100 bytes, a run is a line
+  const Said one = twinpuck("lab --table t.toml --mine class/anna --csv r.csv --junitxml r.xml",
+                            "cd '" + path("") + "' && " + signal_once("INT", path("r.csv"), 1, "0.3"));
+  EXPECT_EQ(one.exit_code, 130) << one.text;
+  EXPECT_TRUE(has(one.text, "lab: interrupted; tables hold what was tried\n")) << one.text;
+  const std::string runs = read(path("r.csv")), suite = read(path("r.xml"));
+  EXPECT_TRUE(has(runs, "\nQ,")) << runs;
+  EXPECT_FALSE(has(runs, "\nL,")) << runs;
+  EXPECT_TRUE(has(suite, "tests=\"1\" failures=\"0\"")) << suite;
+  // a class's, by students
+  const Said all = in_folder(
+      "(exec twinpuck lab --table t.toml --mine class --csv c.csv --limit 600 > out.txt) & p=$!; n=0; "
+      "until [ $n = 1200 ] || grep -q 'twinpuck lab' /proc/[0-9]*/cmdline; do sleep 0.05; n=$((n + 1)); "
+      "done; "
+      "sleep 3; kill -s INT $p; wait $p; echo code $?; cat out.txt");
+  EXPECT_TRUE(has(all.text, "code 130\n")) << all.text;
+  EXPECT_EQ(row(all.text, "anna"), "anna pass open 1 of 2") << all.text;
+  EXPECT_EQ(row(all.text, "bob"), "bob open open 0 of 2") << all.text;
+  EXPECT_EQ(read(path("c.csv")), "student,Q,L,passed,judged\nanna,pass,open,1,2\nbob,open,open,0,2\n");
+}
+
 TEST_F(LabClass, a_line_says_what_it_asks) {
   struct Case {
     const char *bounds, *says;

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: MIT
 """twinpuck grade: a class of planted errors, its tables, and what programs may not do."""
+import contextlib
 import csv
 import os
+import pathlib
 import re
 import signal
 import subprocess
@@ -186,6 +188,10 @@ def test_the_faultless_program_has_all_points(graded):
     assert (rows["faultless"]["points"], rows["faultless"]["of"], rows["faultless"]["problem"]) == ("7", "7", ""), done.stdout
     assert rows["nothing"]["points"] == "0"
     assert rows["wrong_led"]["points"] == "6" and rows["slow"]["points"] == "4"
+    for name in ("semicolon", "too_large"):  # who reads the table alone knows why there are no points
+        reads(rows[name]["problem"], PLANTED[name][2])
+    assert done.stdout.count("error: expected ';' at end of declaration") == 1, "not once a test"
+    assert rows["null"]["problem"] == rows["recursion"]["problem"] == "", "a program that fails its tests was graded"
     assert re.search(r"^faultless +pass +pass +pass +pass +7$", done.stdout, re.M)
 
 
@@ -319,6 +325,35 @@ def test_ctrl_c_ends_all_of_it(tmp_path):
     time.sleep(0.5)
     running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
     assert str(tmp_path) not in running
+
+
+def is_named_by_a_process(text):
+    """Is it in some process's command line?"""
+    for line in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            if text.encode() in line.read_bytes():
+                return True
+    return False
+
+
+def test_who_was_graded_before_ctrl_c_stands_in_the_tables(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text(
+        "import time\ndef test_a(firmware):\n    time.sleep(61.25 if firmware.name == 'b_slow' else 0)\n")
+    for name in ("a_quick", "b_slow", "c_late"):
+        (tmp_path / "class" / name).mkdir(parents=True)
+    with subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class", "--jobs", "1", "--csv", "g.csv"], cwd=tmp_path,
+                          text=True, stdout=subprocess.PIPE) as child:
+        until = time.monotonic() + 60
+        while time.monotonic() < until and not is_named_by_a_process(f"{tmp_path}/class/b_slow"):
+            time.sleep(0.2)
+        child.send_signal(signal.SIGINT)
+        said = child.communicate(timeout=20)[0]
+    assert child.returncode == 130
+    rows = {row["submission"]: (row["points"], row["problem"]) for row in csv.DictReader(open(tmp_path / "g.csv", encoding="utf-8"))}
+    stopped = ("0", "not graded to its end: interrupted")
+    assert rows == {"a_quick": ("1", ""), "b_slow": stopped, "c_late": stopped}, said
+    assert re.search(r"^a_quick +pass +1$", said, re.M) and "c_late: not graded to its end: interrupted" in said
 
 
 @pytest.fixture
