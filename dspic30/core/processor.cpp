@@ -28,7 +28,7 @@ Processor::Processor(Dspic30f6014a& chip, ProgramMemory& program, std::shared_pt
       chip_(chip) {
   cpu_->host = host;
   cpu_->waits = waits_.get();
-  if (host) cpu_->follow_host = [this] { follow_host(kNoVector); };
+  if (host) cpu_->follow_host = [this] { follow_entry(); };
   cpu_->serve_ram(plain_from);
   for (std::size_t h = 0; host && h < irqs_.size(); ++h)
     if (const int vector = host->vector(static_cast<int>(h)); vector != kNoVector)
@@ -247,6 +247,12 @@ __attribute__((always_inline)) inline bool Processor::follow_host(int next_vecto
   return follow_changed_handlers(state, next_vector);
 }
 
+/// A handler has just begun, so that none is let in: what comes at this very instant sets its flag first.
+void Processor::follow_entry() {
+  while (follow_host(kNoVector)) {
+  }
+}
+
 bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
   Cpu& cpu = *cpu_;
   Interrupts& interrupts = cpu.parts.interrupts;
@@ -366,7 +372,7 @@ void Processor::begin_handler() {
   waits_->cut(cpu);
   enter_handler(cpu);
   cpu.host_due = kNever;
-  follow_host(kNoVector);
+  follow_entry();
   lose_until_cleared();
   const bool overflows = cpu.parts.interrupts.control().has_trap(Trap::StackError);
   cpu.next = overflows ? host_place(kHostHandlerReturn) : go_on_with_handler(cpu, cpu.next);
@@ -391,7 +397,7 @@ void Processor::serve_pending(int vector) {
   waits_->cut(cpu);
   interrupts.enter(vector, cpu.now);
   interrupts.lower(vector - kFirstIrqVector);
-  follow_host(kNoVector);
+  follow_entry();
   cpu.now += cpu.host->pending_cycles();
   cpu.settle();
   interrupts.leave_to(level, cpu.now - kInterruptReturnCycles);

@@ -110,6 +110,7 @@ class Processor {
   bool rests(Cycle until);
   void sleep(Cycle until);
   bool follow_host(int vector);
+  void follow_entry();
   unsigned handlers(int next_vector) const;
   bool follow_changed_handlers(unsigned state, int next_vector);
   bool is_held(std::size_t handler) const { return (held_ >> handler & 1) != 0; }

@@ -138,10 +138,10 @@ int AdcScan::pair_of_lit(std::int64_t period) const {
 
 Cycle AdcScan::first_fill(Cycle at) const {
   if (!clock_.is_on || clock_.run.micro_only) return at;
-  if (clock_.held_since >= 0) return kNever;  // no handler comes that would fill it
   const std::int64_t have = clock_.acc_samples(at);
   const std::int64_t missing = (2 * kAccSamples - 1 - have % kAccSamples) % kAccSamples;
   if (missing == 0) return at;
+  if (clock_.held_since >= 0) return kNever;  // no handler comes by itself that would fill it
   return clock_.full_cycle(kScanPeriod * (have + missing - 1) + kScanAccSlot) + kScanAccIsrCycles;
 }
 
