@@ -307,6 +307,11 @@ const Injected kInjected[] = {
      3},
     {"sections_scan_300_40", SECTIONS("e_init_ad_scan(0);", "SRbits.IPL = 7;", 300, "SRbits.IPL = 0;", 40),
      3},
+    {"scan_begins_beside_a_long_handler",
+     "void __attribute__((interrupt,no_auto_psv)) _T1Interrupt(void){ IFS0bits.T1IF=0; spend(150); } int "
+     "main(void){ start(); PR1=9000; IPC0bits.T1IP=6; IEC0bits.T1IE=1; T1CONbits.TON=1; seen[0]=1; "
+     "e_init_ad_scan(0); seen[1]=1; while(1); }",
+     0, kTwice},
     // --- what a callback sees, and leaves alone
     {"sees",
      "void bad(void){ seen[0]++; seen[1]=SRbits.IPL; seen[2]=INTTREG; seen[3]=IFS0bits.T2IF; "
