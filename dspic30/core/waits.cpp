@@ -34,10 +34,10 @@ void Waits::begin(Cpu& cpu) {
   look_head_ = cpu.next;
   cpu.heads.is_met = false;
   look_began_ = cpu.true_now();
-  // looks that no known wait has brought come more and more seldom, but often enough to find the rest
-  if (!at_head_ && look_began_ >= look_by_) {
+  // looks that no known wait has brought come more and more seldom
+  if (!at_head_) {
     look_by_ = look_began_ + look_gap_;
-    look_gap_ = std::min(look_gap_ + kRarestLooks, kMostGap);
+    look_gap_ = std::min(2 * look_gap_, kMostGap);
   }
   // a function of the host that waits is none of these
   if (stands_in_host(cpu)) {
@@ -374,16 +374,13 @@ void Waits::cut(Cpu& cpu) {
 }
 
 // Handlers seldom wait, so they may work on for a while first; one in sixteen for less, as a wait in a short
-// one would never be found. One that comes into another goes by that one's time, unless that is so far away.
+// one would never be found. One that comes into another goes by that one's time.
 void Waits::begin_handler(const Cpu& cpu, Cycle at) {
+  if (cpu.parts.interrupts.cpu().nesting() > 0) return;
   constexpr unsigned kMix = 0x9E3779B1u, kFourBits = 28;  // evenly, whatever the handlers' rhythm
   const bool is_soon = ++handlers_ * kMix >> kFourBits == 0;
   const Cycle first = is_soon ? kSoonInHandler : kFirstInHandler;
-  Schedule& schedule = schedules_[1];
-  if (cpu.parts.interrupts.cpu().nesting() > 0)
-    schedule.at = std::min(schedule.at, at + (is_soon ? first : kRarestLooks));
-  else
-    schedule = {at + first, first};
+  schedules_[1] = {at + first, first};
 }
 
 // --- by heart
