@@ -26,7 +26,7 @@ constexpr Frame frame_of(int slot) {
   if (slot == kScanAccSlot) return {6, kScanTadCycles6};
   return {3, kScanTadCycles3};
 }
-constexpr Cycle kInTime = 40;
+constexpr Cycle kInTime = 150;  // more than agendas take that set a flag
 constexpr Frame kMicroFrame{3, kScanTadCycles6};
 /// Cycles from a channel's hold instant to the end of its frame.
 constexpr Cycle hold_to_end(Frame f, int channel) {
@@ -97,7 +97,8 @@ void AdcScan::set_round(Cycle round, Cycle at) {
 }
 
 // The converter goes on meanwhile without a stop and sets the flag, which remembers one call. That call comes
-// now and begins a new sequence. One that is late by a few instructions is taken to be in time.
+// now and begins a new sequence. One that is hardly late is taken to be in time: all samples are looked at
+// otherwise, too often beside agendas.
 void AdcScan::release(Cycle at) {
   const Cycle since = std::exchange(clock_.held_since, -1);
   if (since < 0 || !clock_.is_on) return;

@@ -195,7 +195,7 @@ TEST(AdcScan, frames_that_come_while_the_handler_is_masked_are_lost_but_the_newe
     robot.scan().release(now);
     // the converter went on without a stop; one call comes now, however many sequences ended, and lists the
     // channels of the next one
-    if (constexpr Cycle kInTime = 40; next + kInTime <= now) {
+    if (constexpr Cycle kInTime = 150; next + kInTime <= now) {
       want.interrupt(call = now);
       next = call + kFrame;
     } else if (next <= now) {

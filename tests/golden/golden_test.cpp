@@ -32,8 +32,8 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "867d06151a833ff2"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "2e8a135043cd8140"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "0afb51c684d44528"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "97652a57607588c6"},
                                          Pinned{"push", "worlds/push.toml", 10, "ac2021f067257d43"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
                                                 "4e36fdee9d289ae8"}),
