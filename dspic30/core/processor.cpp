@@ -16,8 +16,10 @@ namespace {
 // from the event that wakes to the next instruction [?]: Idle goes on at once; Sleep waits for the crystal
 // (1024 periods of 7.3728 MHz) and for the PLL (20 us)
 constexpr Cycle kResetCycles = 295;  // 20 us from a reset's cause to the first instruction [?]
-constexpr Cycle kLongHold = 250, kOneByOne = 30000;  // of handlers known by heart (note_hold)
 constexpr Cycle kIdleWakeCycles = 2, kSleepWakeCycles = 2048 + 295;
+// of handlers known by heart (note_hold()) [assumed: a sixth of a tick, since shorter sections change little,
+// and 20 ticks, since sections that matter come again by then]
+constexpr Cycle kLongHold = 250, kOneByOne = 30000;
 
 }  // namespace
 
