@@ -39,6 +39,7 @@ def listed(program):
     return names
 
 
+times = []  # milliseconds and name of each test: BUILD_FOLDER/tests/times.txt, the slowest first
 failures = []  # names of those that failed, said once more at the end: a long log's last lines are what one sees
 
 
@@ -63,6 +64,7 @@ def run(build, name, tests):
         if begin:
             current, said, since = begin.group(1), [], time.monotonic()
         elif result and current:
+            times.append((int(result.group(3)), f"{name}: {current}"))
             if result.group(1) == "FAILED":
                 failed += 1
                 failures.append(f"{name}: {current}")
@@ -133,6 +135,8 @@ def main():
     if options.jobs > 1:
         run_built()
     first.join()
+    with open(f"{options.build}/tests/times.txt", "w", encoding="utf-8") as file:
+        file.writelines(f"{time} {test}\n" for time, test in sorted(times, reverse=True))
     passed, failed = (sum(column) for column in zip(*counts)) if counts else (0, 0)
     if passed + failed == 0:
         print(f"make test: T: got '{options.filter}', expected a part of a test's or a program's name", file=sys.stderr)
