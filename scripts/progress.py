@@ -25,11 +25,11 @@ def brief(text):
     return (found.group(1) or found.group(2)) if found else text
 
 
-def read_lines(process):
-    """The lines of a process as they come; None whenever SILENCE_S have passed without one."""
+def read_lines(process, silence=SILENCE_S):
+    """The lines of a process as they come; None whenever so many seconds have passed without one."""
     pending = b""
     while True:
-        ready, _, _ = select.select([process.stdout], [], [], SILENCE_S)
+        ready, _, _ = select.select([process.stdout], [], [], silence)
         if not ready:
             yield None
             continue

@@ -7,18 +7,21 @@
 While one program runs, the next ones are built, so the first results come early; when all are built, two run beside
 each other. The filter selects programs or single
 tests; a program that runs a list of tests, as firmware_register_test does, runs those of its list that match.
+A test that runs for longer than TWINPUCK_TEST_LIMIT seconds (900) is ended, first what it has started. How long each
+took stands in BUILD_FOLDER/tests/times.txt, milliseconds and name, the slowest first.
 Exit code: 0 all passed, 1 some failed or did not build, 5 nothing selected.
 """
 import argparse
 import os
 import queue
 import re
+import signal
 import subprocess
 import sys
 import threading
 import time
 
-from progress import ninja, read_lines, say
+from progress import SILENCE_S, ninja, read_lines, say
 
 RESULT = re.compile(r"^\[\s+(OK|FAILED|SKIPPED)\s+\] ([^ ,]+).*\((\d+) ms\)$")
 SOURCE = re.compile(r"(?<![\w./-])(\.\./\S+?)(?=:\d+:)")  # as the compiler was told it, from the build folder
@@ -39,7 +42,31 @@ def listed(program):
     return names
 
 
-times = []  # milliseconds and name of each test: BUILD_FOLDER/tests/times.txt, the slowest first
+def started_by(pid):
+    """The processes that a process has started and that still run, those they have started first."""
+    found = []
+    for folder in filter(str.isdigit, os.listdir("/proc")):
+        try:
+            with open(f"/proc/{folder}/stat", encoding="utf-8", errors="replace") as file:
+                parent = int(file.read().rsplit(")", 1)[1].split()[1])
+        except OSError:
+            continue  # over by now
+        if parent == pid:
+            found += started_by(int(folder)) + [int(folder)]
+    return found
+
+
+def end_what_hangs(pid):
+    """Ends what a test has started, so that the test can tell and the next ones run; itself where that is nothing."""
+    for one in started_by(pid) or [pid]:
+        try:
+            os.kill(one, signal.SIGKILL)
+        except ProcessLookupError:
+            pass
+
+
+LIMIT_S = float(os.environ.get("TWINPUCK_TEST_LIMIT", 900))  # some 30 times what the slowest takes on a free machine
+times = []  # milliseconds and name of each test
 failures = []  # names of those that failed, said once more at the end: a long log's last lines are what one sees
 
 
@@ -55,17 +82,23 @@ def run(build, name, tests):
     command = ["env", "--default-signal=HUP,INT,QUIT", *command]
     process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=environment)
     passed = failed = 0
-    current, said, since = "", [], time.monotonic()
-    for line in read_lines(process):
-        if line is None:
+    current, said, since, hangs = "", [], time.monotonic(), False
+    for line in read_lines(process, min(SILENCE_S, LIMIT_S)):
+        if current and time.monotonic() - since > LIMIT_S:
+            say(f"...   {name}: {current} is ended, it has run for more than {LIMIT_S:.0f} s")
+            end_what_hangs(process.pid)
+            hangs = True
+            since = time.monotonic()  # what is left of it has the same time to end
+        elif line is None:
             say(f"...   {name}: {current}, {time.monotonic() - since:.0f} s")
+        if line is None:
             continue
         begin, result = BEGIN.match(line), RESULT.match(line)
         if begin:
-            current, said, since = begin.group(1), [], time.monotonic()
+            current, said, since, hangs = begin.group(1), [], time.monotonic(), False
         elif result and current:
             times.append((int(result.group(3)), f"{name}: {current}"))
-            if result.group(1) == "FAILED":
+            if result.group(1) == "FAILED" or hangs:
                 failed += 1
                 failures.append(f"{name}: {current}")
                 say("\n".join([f"FAIL  {name}: {current}"] + ["      " + s for s in said]))

@@ -31,6 +31,34 @@ TEST_F(RunTests, a_failing_test_is_told_with_a_path_that_opens_from_here) {
       "\"here/test.cpp:9: cannot start\"\nfailed: x_test: mine.drives\n0 passed, 1 failed"));
 }
 
+// what hangs is ended, and the tests behind it run: what a test waits for, or the program itself
+TEST_F(RunTests, a_test_that_does_not_end_is_ended_and_fails) {
+  write("out/build.ninja", "build x_test: phony\nbuild y_test: phony\n");
+  write("out/tests/programs.txt", "x_test x_test\ny_test y_test\n");
+  write("out/tests/x_test",
+        "#!/bin/sh\necho '[ RUN      ] Mine.waits'\nsh -c 'sleep 1000; true'\n"
+        "echo '[       OK ] Mine.waits (3 ms)'\necho '[ RUN      ] Mine.goes_on'\n"
+        "echo '[       OK ] Mine.goes_on (2 ms)'\n");
+  write("out/tests/y_test",
+        "#!/usr/bin/python3\nprint('[ RUN      ] Mine.turns', flush=True)\nwhile True: pass\n");
+  for (const char* name : {"x_test", "y_test"}) {
+    fs::permissions(folder / "out/tests" / name, fs::perms::owner_all);
+  }
+  const int status = std::system(("cd '" + folder.string() + "' && TWINPUCK_TEST_LIMIT=1 '" TWINPUCK_SOURCE_DIR
+                                  "/scripts/run_tests.py' out 1 >'" + path("said") + "' 2>&1")
+                                     .c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  const std::string said = read(path("said"));
+  EXPECT_TRUE(reads(said,
+                    "...   x_test: Mine.waits is ended, it has run for more than 1 s\nFAIL  x_test: Mine.waits\n"))
+      << said;
+  EXPECT_TRUE(reads(said, "ok    x_test: Mine.goes_on\n")) << said;
+  EXPECT_TRUE(reads(said,
+                    "failed: x_test: Mine.waits\nfailed: y_test: ended with status -9 in Mine.turns\n"
+                    "1 passed, 2 failed\n"))
+      << said;
+}
+
 // a program that runs a list of its tests, as firmware_register_test does, shows that list and nothing else
 TEST_F(RunTests, a_filter_keeps_to_the_tests_that_a_program_lists) {
   write("out/build.ninja", "build x_test: phony\n");
