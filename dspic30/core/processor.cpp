@@ -164,7 +164,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
       if (const KnownHandler known = cpu.table().known_handlers();
           known && outlook.vector >= kFirstIrqVector && known(cpu, outlook.vector, until))
         continue;
-      waits_->cut(cpu);
+      waits_->cut(cpu, outlook.vector);
       enter_interrupt(outlook.vector);
       if (cpu.host) continue;  // its level may hold handlers off
       outlook.horizon = cpu.parts.interrupt_horizon(outlook.vector);
@@ -326,10 +326,12 @@ bool Processor::note_hold(std::size_t h, bool by_program) {
   if (by_program == handler.held_by_program) return false;
   handler.held_by_program = by_program;
   if (by_program) {
-    handler.held_since = cpu.host_handlers == 0 ? cpu.now : kNever;
+    handler.is_held_by_other = cpu.host_handlers > 0;
+    handler.held_since = handler.is_held_by_other && h == 0 ? kNever : cpu.now;
     return false;
   }
   if (handler.held_since == kNever || cpu.now - handler.held_since < kLongHold) return false;
+  if (handler.is_held_by_other && cpu.now - std::exchange(handler.held_at, cpu.now) > kOneByOne) return false;
   const bool begins = handler.one_by_one_until == 0;
   handler.one_by_one_until = cpu.now + kOneByOne;
   return begins;
@@ -371,7 +373,7 @@ void Processor::count_missed(std::size_t h) {
 /// The handler that calls the program. What it holds off is held from its first cycle on.
 void Processor::begin_handler() {
   Cpu& cpu = *cpu_;
-  waits_->cut(cpu);
+  waits_->cut(cpu, kFirstIrqVector + irqs_[0]);
   enter_handler(cpu);
   cpu.host_due = kNever;
   follow_entry();
@@ -396,7 +398,7 @@ void Processor::serve_pending(int vector) {
   Cpu& cpu = *cpu_;
   Interrupts& interrupts = cpu.parts.interrupts;
   const int level = interrupts.cpu().level();
-  waits_->cut(cpu);
+  waits_->cut(cpu, vector);
   interrupts.enter(vector, cpu.now);
   interrupts.lower(vector - kFirstIrqVector);
   follow_entry();

@@ -133,9 +133,11 @@ class Processor {
   struct ByHeart {
     Cycle source = kNever;  // when the source of a held one sets the flag next
     Cycle missed_at = 0;  // ... found it set; what comes later is counted when the flag falls. 0: it did not
-    bool held_by_program = true;  // or it is asleep
-    Cycle held_since = kNever;    // ... kNever: never let in so far, or its own handler does
-    Cycle one_by_one_until = 0;   // it was held off for long: each time it comes is an event; 0: it was not
+    bool held_by_program = true;    // or it is asleep
+    bool is_held_by_other = false;  // ... it is one known by heart that does
+    Cycle held_since = kNever;      // ... kNever: never let in so far, or its own handler does
+    Cycle held_at = 0;              // when another one let it in last
+    Cycle one_by_one_until = 0;     // it was held off for long: each time it comes is an event; 0: it was not
   };
   std::array<ByHeart, 2> by_heart_;
   std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none

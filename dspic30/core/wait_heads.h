@@ -26,12 +26,12 @@ class WaitHeads {
   /// Does the program stop at this head, at that true time?
   bool would_stop(const Decoded* d, Cycle when) const {
     const Head* const head = find(d);
-    return head && !passes && !is_met && when >= std::max(from, head->from);
+    return head && !passes && !is_met && when >= head->from;
   }
   /// The program comes to it at that true time. False: it does not stop. What `passes` says is over.
   bool is_due(const Decoded* d, Cycle when) const {
     const Head* const head = find(d);
-    return head && when >= std::max(from, head->from);
+    return head && when >= head->from;
   }
   /// The program has stopped at one; `deadline` was its deadline.
   void meet(Cycle deadline) {
@@ -41,6 +41,10 @@ class WaitHeads {
   /// A look from there at `now`, true time, found a wait, or none: then the program does not stop there for a
   /// while, each time for longer.
   void pause(const Decoded* d, bool is_wait, Cycle now);
+  /// Up to that true time the program does not stop there.
+  void hold(const Decoded* d, Cycle until) {
+    if (Head* const head = find(d)) head->from = std::max(head->from, until);
+  }
   /// A wait of that head has ended: how often before?
   unsigned count_end(const Decoded* d) {
     Head* const head = find(d);
@@ -49,7 +53,6 @@ class WaitHeads {
 
   bool is_met = false;  ///< the program has stopped at one; kept_deadline was its deadline
   bool passes = false;  ///< the one where it stands is passed
-  Cycle from = 0;       ///< true time from which on the program stops at any
   Cycle kept_deadline = 0;
 
  private:

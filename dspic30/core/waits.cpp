@@ -34,19 +34,21 @@ void Waits::begin(Cpu& cpu) {
   look_head_ = cpu.next;
   cpu.heads.is_met = false;
   look_began_ = cpu.true_now();
-  // looks that no known wait has brought come more and more seldom
-  if (!at_head_) {
-    look_by_ = look_began_ + look_gap_;
-    look_gap_ = std::min(2 * look_gap_, kMostGap);
-  }
+  note_look(cpu);
   // a function of the host that waits is none of these
   if (stands_in_host(cpu)) {
     schedule(cpu).at = std::max(cpu.stands_until, look_began_ + 1);
     return;
   }
-  // A round begins here.
+  is_turned_ = at_head_;
+  begin_here(cpu);
+}
+
+/// A round begins here.
+void Waits::begin_here(Cpu& cpu) {
+  state_ = State::Away;
   round_began_ = cpu.clocks.own_cycles(cpu.now);
-  round_began_at_ = look_began_;
+  round_began_at_ = cpu.true_now();
   round_delayed_ = cpu.delayed;
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
@@ -71,8 +73,20 @@ void Waits::begin(Cpu& cpu) {
   state_ = State::Looking;
   chances_ = 2;
   again_ = 0;
-  is_turned_ = at_head_;
   if (!comes_round_) begin_round(cpu);
+}
+
+// Looks of the program that no known wait has brought come more and more seldom, but often enough to find the
+// rest. One that is due is put off wherever the program comes to a known head first; where it always does, it
+// needs none.
+void Waits::note_look(const Cpu& cpu) {
+  if (cpu.parts.interrupts.cpu().nesting() > 0 || look_began_ < look_by_ ||
+      (at_head_ && ++put_off_ < kMostPutOff))
+    return;
+  put_off_ = 0;
+  ++looks_beside_;
+  look_by_ = look_began_ + look_gap_;
+  look_gap_ = std::min(look_gap_ + look_gap_ / 2, kMostGap);
 }
 
 // a loop that counts is soon over, or comes to where its flags change: it goes on for so long.
@@ -80,7 +94,8 @@ void Waits::begin(Cpu& cpu) {
 bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
   if (rounds < 0 || was_passed(count.round(), kFewestRounds + 4)) return false;
   const Cycle pause = (rounds + 2) * count.round().took;
-  pass(cpu, count.round(), pause, pause);
+  pass(cpu, count.round(), pause);
+  cpu.heads.hold(count.round().first, round_began_at_ + pause);
   return true;
 }
 
@@ -88,7 +103,7 @@ bool Waits::is_passed(Cpu& cpu, const Count& count, Cycle rounds) {
 // it waits for more; once may be the rest of the round that an interrupt came into
 bool Waits::is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now) {
   if (!at_head_ || (passes_ > 1 && was_passed(wait, 2))) return false;
-  pass(cpu, wait, 0, kRarestLooks);
+  pass(cpu, wait, kRarestLooks);
   schedule(cpu).at = look_behind(cpu, wait.first, now);
   return true;
 }
@@ -100,6 +115,7 @@ bool Waits::passes(Cpu& cpu, const Decoded* head) {
   look_began_ = cpu.true_now();
   round_began_ = cpu.clocks.own_cycles(cpu.now);
   if (!is_passed(cpu, *wait, look_began_)) return false;
+  note_look(cpu);
   cpu.heads.passes = false;
   if (const Cycle at = schedule(cpu).at; at < cpu.pause_at) {
     cpu.pause_at = at;
@@ -118,22 +134,32 @@ Cycle Waits::look_behind(Cpu& cpu, const Decoded* head, Cycle now) {
   return is_due ? now + kFirstBehind + kStepBehind * (n % kStepsBehind) : later;
 }
 
+/// How long behind something a look comes, each time after another while, up to 40 cycles doubled so often.
+Cycle Waits::soon(unsigned look, unsigned doublings) {
+  constexpr unsigned kMix = 0x9E3779B1u, kByte = 24;  // evenly, whatever the rhythm
+  const Cycle first = kFirstBehind << look % doublings;
+  return first + (first * (look * kMix >> kByte) >> 8);
+}
+
 Cycle Waits::look_beside_heads(const Cpu& cpu, Cycle now) const {
   return cpu.parts.interrupts.cpu().nesting() > 0
              ? now + kRarestLooks
-             : std::clamp(look_by_, now + kFirstLooks, now + kRarestLooks);
+             : std::clamp(look_by_, now + soon(looks_beside_ + put_off_, kBesideDoublings),
+                          now + kRarestLooks);
 }
 
+// a loop may have two heads, and come to them in turn
 bool Waits::was_passed(const KnownWaits::Wait& wait, Cycle rounds) const {
-  return passed_ == &wait && round_began_ - passed_at_ <= rounds * wait.took;
+  for (const Passed& passed : passed_)
+    if (passed.wait == &wait) return round_began_ - passed.at <= rounds * wait.took;
+  return false;
 }
 
-void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in) {
+void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle look_in) {
   passes_ = was_passed(wait, 2) ? passes_ + 1 : 1;
-  passed_ = &wait;
-  passed_at_ = round_began_;
+  if (passed_[0].wait != &wait) passed_[1] = passed_[0];
+  passed_[0] = {&wait, round_began_};
   cpu.still_since = kNever;
-  cpu.heads.from = look_began_ + heads_in;
   cpu.heads.passes = at_head_;
   if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + look_in;
 }
@@ -214,7 +240,8 @@ void Waits::look(Cpu& cpu) {
       end_round(cpu);
     } else if (!is_turned_ && cpu.heads.has_any() && cpu.heads.has(cpu.next)) {
       is_turned_ = true;  // so that a wait has one head, wherever in it the look began
-      begin_round(cpu);
+      begin_here(cpu);
+      if (comes_round_) break;
     } else if (steps_ == kLongestRound) {
       fail(cpu);
     }
@@ -297,7 +324,6 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   cpu.delayed = delayed_;
   cut_ = nullptr;
   cpu.heads.pause(wait->first, true, cpu.true_now());
-  cpu.heads.from = 0;
   schedule(cpu).between = kFirstLooks;
   cpu.still_since = until_ == kNever && !cpu.looks_outside ? std::min(cpu.still_since, look_began_) : kNever;
   cpu.still_reads = wait->memory.reads() || cpu.reads_core;
@@ -332,7 +358,7 @@ void Waits::wait(Cpu& cpu) {
   if (counts_ && cpu.clocks.own_cycles(cpu.now) >= ends_) {
     leave(cpu);
     // it ends now, or its flags change; then the program comes to its head again
-    cpu.heads.from = now + 2 * took;
+    cpu.heads.hold(wait_->first, now + 2 * took);
     schedule(cpu).at = is_by_head_ ? look_behind(cpu, wait_->first, now) : now + 2 * took;
     return;
   }
@@ -357,7 +383,7 @@ void Waits::leave(Cpu& cpu) {
   counts_ = nullptr;
 }
 
-void Waits::cut(Cpu& cpu) {
+void Waits::cut(Cpu& cpu, int vector) {
   const bool waits = is_waiting();
   if (waits) {
     cut_ = wait_->first;
@@ -370,17 +396,27 @@ void Waits::cut(Cpu& cpu) {
     schedule(cpu).at = 0;
   state_ = State::Away;
   cpu.heads.is_met = false;
-  begin_handler(cpu, cpu.true_now());
+  begin_handler(cpu, vector, cpu.true_now());
 }
 
-// Handlers seldom wait, so they may work on for a while first; one in sixteen for less, as a wait in a short
-// one would never be found. One that comes into another goes by that one's time.
-void Waits::begin_handler(const Cpu& cpu, Cycle at) {
-  if (cpu.parts.interrupts.cpu().nesting() > 0) return;
-  constexpr unsigned kMix = 0x9E3779B1u, kFourBits = 28;  // evenly, whatever the handlers' rhythm
-  const bool is_soon = ++handlers_ * kMix >> kFourBits == 0;
-  const Cycle first = is_soon ? kSoonInHandler : kFirstInHandler;
-  schedules_[1] = {at + first, first};
+// Handlers seldom wait, so they may work on for a while before a look. Those of short ones come soon, each time
+// after another while, and of each vector more and more seldom. One that comes into another goes by that one's
+// time, unless its own comes first.
+void Waits::begin_handler(const Cpu& cpu, int vector, Cycle at) {
+  Schedule own{at + kFirstInHandler, kFirstInHandler};
+  HandlerLooks& looks = handler_looks_[static_cast<std::size_t>(vector)];
+  const bool is_soon = looks.left-- == 0;
+  if (is_soon) {
+    const Cycle after = soon(looks.done, kHandlerDoublings);
+    own = {at + after, after};
+    looks.left = static_cast<std::uint16_t>(++looks.done / kLooksAsOften);
+    if (looks.done == kMostLooks) looks.done /= 2;
+  }
+  Schedule& schedule = schedules_[1];
+  if (cpu.parts.interrupts.cpu().nesting() == 0)
+    schedule = own;
+  else if (is_soon)
+    schedule.at = std::min(schedule.at, own.at);
 }
 
 // --- by heart
@@ -393,7 +429,6 @@ bool Waits::knows(const Cpu& cpu, const ByHeart& wait) const {
 
 void Waits::note(Cpu& cpu, const ByHeart& wait) {
   cpu.heads.pause(wait.head, true, cpu.true_now());
-  cpu.heads.from = 0;
   cpu.still_since = kNever;
   Schedule& next = schedule(cpu);
   next.between = kFirstLooks;
@@ -401,7 +436,7 @@ void Waits::note(Cpu& cpu, const ByHeart& wait) {
   jumped_ += wait.cut - wait.came;
   cut_ = wait.head;
   next.at = look_beside_heads(cpu, wait.cut_true);
-  begin_handler(cpu, wait.cut_true);
+  begin_handler(cpu, wait.vector, wait.cut_true);
   resumed_ = wait.went_on;
   resumed_delayed_ = cpu.delayed;
 }
@@ -429,18 +464,18 @@ Cycle Waits::back_by(const Cpu& cpu, Cycle over) const {
   const Cycle now = cpu.true_now();
   if (!cpu.heads.would_stop(head, now)) return kNever;
   const Cycle back = over + cpu.clocks.true_at(cpu.now + wait_->took) - now + 1;
-  return back < look_beside_heads(cpu, now) ? back : kNever;
+  return back < std::min(look_by_, look_beside_heads(cpu, now)) ? back : kNever;
 }
 
 // cut(), resume(), and at the head begin() and enter(), at once
-void Waits::go_through(Cpu& cpu, Cycle cut, Cycle cut_true) {
+void Waits::go_through(Cpu& cpu, int vector, Cycle cut, Cycle cut_true) {
   waited_ += cut - entered_;
   entered_ = resumed_ = cpu.clocks.own_cycles(cpu.now);
   entered_at_ = resumed_at_ = cpu.true_now();
   delayed_ = resumed_delayed_ = cpu.delayed;
   if (counts_) ends_ += entered_ - cut;
   schedule(cpu) = {look_beside_heads(cpu, cut_true), kFirstLooks};
-  begin_handler(cpu, cut_true);
+  begin_handler(cpu, vector, cut_true);
   at_head_ = is_by_head_ = true;
   cut_ = nullptr;
   cpu.looks_outside = cpu.reads_core = false;
@@ -455,8 +490,13 @@ void Waits::hint(Cpu& cpu) {
   schedule(cpu).at = 0;
 }
 
+// where nothing has changed, it is found again within a round, and has waited all the time
 void Waits::stir(Cpu& cpu) {
-  if (is_waiting()) leave(cpu);
+  if (is_waiting()) {
+    cut_ = wait_->first;
+    leave(cpu);
+    note_resumed(cpu);
+  }
   state_ = State::Away;
   schedule(cpu).at = 0;
 }
@@ -466,10 +506,10 @@ void Waits::forget(Cpu& cpu) {
   state_ = State::Away;
   at_head_ = false;
   cut_ = nullptr;
-  passed_ = nullptr;
+  passed_ = {};
   look_gap_ = kRarestLooks;
+  put_off_ = 0;
   look_by_ = cpu.now + look_gap_;
-  cpu.heads.from = 0;
   for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
 }
 

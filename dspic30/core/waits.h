@@ -22,6 +22,7 @@
 
 #include "dspic30/core/counting.h"
 #include "dspic30/core/cpu.h"
+#include "dspic30/periph/vectors.h"
 
 namespace dspic {
 
@@ -38,14 +39,12 @@ class Waits {
   /// At a head where the program would stop: what it waited for has come, so that it goes on. `head`: the
   /// instruction that begins now.
   bool passes(Cpu& cpu, const Decoded* head);
-  /// An interrupt is about to be entered.
-  void cut(Cpu& cpu);
+  /// An interrupt is about to be entered, by that vector.
+  void cut(Cpu& cpu, int vector);
   /// A handler has returned.
   void resume(Cpu& cpu) {
     cpu.returned = false;
-    resumed_ = cpu.clocks.own_cycles(cpu.now);
-    resumed_delayed_ = cpu.delayed;
-    resumed_at_ = cpu.true_now();
+    note_resumed(cpu);
   }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
@@ -55,16 +54,19 @@ class Waits {
   void forget(Cpu& cpu);
 
   /// A wait in a loop that counts, as it would be found at its own known head: when the program comes there,
-  /// is cut by a handler, and goes on. Cycles of the program, and true ones.
+  /// is cut by the handler of a vector, and goes on. Cycles of the program, and true ones.
   struct ByHeart {
     const Decoded* head = nullptr;
+    int vector = 0;
     Cycle came = 0, cut = 0, went_on = 0;
     Cycle came_true = 0, cut_true = 0;
   };
   /// Would it be found?
   bool knows(const Cpu& cpu, const ByHeart& wait) const;
   /// Is there neither a wait nor a look up to then, true time?
-  bool is_free_until(const Cpu& cpu, Cycle when) const { return is_away() && schedule(cpu).at > when; }
+  bool is_free_until(const Cpu& cpu, Cycle when) const {
+    return is_away() && std::min(schedule(cpu).at, look_by_) > when;
+  }
   /// It has been so.
   void note(Cpu& cpu, const ByHeart& wait);
   /// Behind it the program has come to the head once more, and gone on.
@@ -76,9 +78,9 @@ class Waits {
   Cycle back_by(const Cpu& cpu, Cycle over) const;
   /// Does the present wait read any of these bytes of RAM, counted from its start?
   bool reads(unsigned first, unsigned end) const { return wait_->memory.reads(first, end); }
-  /// That handler has been there, and nothing came before back_by(): the wait goes on. It was cut when the
-  /// program had taken `cut` cycles, at `cut_true`.
-  void go_through(Cpu& cpu, Cycle cut, Cycle cut_true);
+  /// That handler, of a vector, has been there, and nothing came before back_by(): the wait goes on. It was cut
+  /// when the program had taken `cut` cycles, at `cut_true`.
+  void go_through(Cpu& cpu, int vector, Cycle cut, Cycle cut_true);
 
   bool is_away() const { return state_ == State::Away; }
   bool is_waiting() const { return state_ == State::Waiting; }
@@ -100,16 +102,20 @@ class Waits {
     Cycle at = kFirstLooks;  // true time
     Cycle between = kFirstLooks;
   };
-  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;       // cycles between two looks
-  static constexpr Cycle kRarestInVain = 1 << 18;                       // ... where none ever found a wait
-  static constexpr Cycle kFirstInHandler = 4096, kSoonInHandler = 600;  // ... since it began
-  static constexpr int kLongestRound = 256, kUsualRound = 32;           // instructions
+  static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;        // cycles between two looks
+  static constexpr Cycle kRarestInVain = 1 << 18;                        // ... where none ever found a wait
+  static constexpr Cycle kFirstInHandler = 4096;                         // ... since it began
+  static constexpr std::uint16_t kLooksAsOften = 8, kMostLooks = 60000;  // then a handler less has one
+  static constexpr int kLongestRound = 256, kUsualRound = 32;            // instructions
   static constexpr Cycle kFewestRounds = 16;  // of a loop that counts: fewer are not jumped over
   static constexpr int kMostAgain = 2;
   // behind the first ends of a wait with a known head it looks soon, each time after another while
   static constexpr unsigned kStepsBehind = 17;
   static constexpr Cycle kFirstBehind = 40, kStepBehind = 29;
+  // of kFirstBehind: so up to the length of a tick of the agenda, and of seven
+  static constexpr unsigned kHandlerDoublings = 5, kBesideDoublings = 8;
   static constexpr Cycle kMostGap = 1 << 27;     // between two looks beside known heads
+  static constexpr int kMostPutOff = 4;          // times, of such a look
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
@@ -117,6 +123,7 @@ class Waits {
   }
   Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0]; }
   void begin(Cpu& cpu);
+  void begin_here(Cpu& cpu);
   void begin_round(Cpu& cpu);
   void look(Cpu& cpu);
   void end_round(Cpu& cpu);
@@ -124,10 +131,17 @@ class Waits {
   void come_round(Cpu& cpu);
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
   bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now);
+  void note_resumed(const Cpu& cpu) {
+    resumed_ = cpu.clocks.own_cycles(cpu.now);
+    resumed_delayed_ = cpu.delayed;
+    resumed_at_ = cpu.true_now();
+  }
+  void note_look(const Cpu& cpu);
+  static Cycle soon(unsigned look, unsigned doublings);
   Cycle look_behind(Cpu& cpu, const Decoded* head, Cycle now);
   Cycle look_beside_heads(const Cpu& cpu, Cycle now) const;
   bool was_passed(const KnownWaits::Wait& wait, Cycle rounds) const;
-  void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle heads_in, Cycle look_in);
+  void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle look_in);
   void fail(Cpu& cpu);
   void enter(Cpu& cpu, const KnownWaits::Wait* wait);
   void enter_count(Cpu& cpu, const Count* count, Cycle rounds);
@@ -135,7 +149,7 @@ class Waits {
   Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
-  void begin_handler(const Cpu& cpu, Cycle at);
+  void begin_handler(const Cpu& cpu, int vector, Cycle at);
   /// Looks are rare, and each robot has one of these. `wait` goes on.
   void forget_probe(const KnownWaits::Wait* wait = nullptr) {
     if (probe_ && (wait == &probe_->round || wait == &probe_->proven.round()))
@@ -159,7 +173,10 @@ class Waits {
   Cycle ends_ = 0;                          // of a loop that counts: cycles of the program
   Cycle delayed_ = 0;                       // Cpu::delayed as it began: what passes in it counts once
   Cycle waited_ = 0, jumped_ = 0;
-  unsigned handlers_ = 0;              // that have come into the program
+  struct HandlerLooks {
+    std::uint16_t left = 0, done = 0;  // handlers until the next one with a soon look; such looks
+  };
+  std::array<HandlerLooks, kVectors> handler_looks_;
   unsigned hints_ = 0, hint_gap_ = 1;  // since the last look that one brought; between two
   const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
   Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
@@ -178,11 +195,16 @@ class Waits {
   struct Range {
     const Decoded *first = nullptr, *last = nullptr;
   } behind_;
-  int behind_in_ = 0, again_ = 0;                           // instructions; looks
-  const KnownWaits::Wait* passed_ = nullptr;                // met at its head last, in another state
+  int behind_in_ = 0, again_ = 0;  // instructions; looks
+  struct Passed {
+    const KnownWaits::Wait* wait = nullptr;
+    Cycle at = 0;  // cycles of the program
+  };
+  std::array<Passed, 2> passed_;                            // met at their heads last, in another state
   int passes_ = 0;                                          // in a row
-  Cycle passed_at_ = 0;                                     // cycles of the program
   Cycle look_by_ = kRarestLooks, look_gap_ = kRarestLooks;  // true time
+  int put_off_ = 0;                                         // times that the look which is due was
+  unsigned looks_beside_ = 0;                               // that were due
   /// The round that is looked at.
   struct Probe {
     KnownWaits::Wait round;

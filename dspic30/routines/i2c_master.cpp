@@ -89,6 +89,7 @@ class Primitive {
     for (known_ = 0; known_ < kPlaces; ++known_) {
       wait_.head = first() + known_;
       if (!cpu_.table().is_wait(wait_.head)) continue;
+      wait_.vector = kVector;
       wait_.came = cpu_.clocks.own_cycles(head + known_);
       wait_.came_true = cpu_.clocks.true_at(head + known_);
       if (cpu_.waits->knows(cpu_, wait_)) return true;

@@ -275,7 +275,7 @@ class UartHandler {
     is_through_ = is_through;
     cut_ = cpu_.clocks.own_cycles(cpu_.now);
     cut_true_ = cpu_.now;
-    if (!is_through) cpu_.waits->cut(cpu_);
+    if (!is_through) cpu_.waits->cut(cpu_, vector_);
     Interrupts& interrupts = cpu_.parts.interrupts;
     level_ = interrupts.cpu().level();
     pc_ = cpu_.address_of(cpu_.next);
@@ -326,7 +326,7 @@ class UartHandler {
       cpu_.settle();
       cpu_.clocks.set_share(share_);
     }
-    if (is_through_) cpu_.waits->go_through(cpu_, cut_, cut_true_);
+    if (is_through_) cpu_.waits->go_through(cpu_, vector_, cut_, cut_true_);
     return true;
   }
 

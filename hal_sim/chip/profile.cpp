@@ -110,7 +110,7 @@ void Profile::after(const Step& step) {
   functions_[static_cast<std::size_t>(function_of(step.pc))].own += took;
   if (contexts_.size() > 1) in_handlers_ += took;
   watch_stack(step.end);
-  watch_flags();
+  watch_flags(step);
   if (step.left) return leave_handler();
   if (step.pc == dspic::kHostHandlerReturn) return call_agenda(step);
   if (dspic::is_host_place(step.pc) && step.next == step.pc) {  // a function of the host that waits
@@ -267,10 +267,10 @@ void Profile::leave_handler() {
 }
 
 // an enabled flag that fell without a service was cleared by the program
-void Profile::watch_flags() {
+void Profile::watch_flags(const Step& step) {
   const dspic::Interrupts& interrupts = device_.parts().interrupts;
   const std::uint64_t flags = interrupts.sources().flags(), enabled = interrupts.sources().enabled_mask();
-  std::uint64_t fell = flags_ & ~flags;
+  std::uint64_t fell = flags_ & ~flags & ~step.served_unseen;
   flags_ = flags & enabled;
   for (const Context& context : contexts_)
     if (context.vector >= dspic::kFirstIrqVector)
@@ -453,8 +453,11 @@ ProfileReport Profile::report() const {
   }
   std::stable_sort(report.functions.begin(), report.functions.end(),
                    [](const auto& a, const auto& b) { return a.own > b.own; });
-  // Interrupts.
-  for (const auto& [vector, tally] : interrupts_)
+  // Interrupts: those that a handler known by heart serves within steps, too, where some were merged.
+  std::map<int, InterruptTally> interrupts = interrupts_;
+  for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
+    if (device_.interrupts().missed(vector) > 0) interrupts.try_emplace(vector);
+  for (const auto& [vector, tally] : interrupts)
     report.interrupts.push_back(
         {vector, dspic::vector_name(vector), tally.cycles, tally.latency, tally.period,
          vector >= dspic::kFirstIrqVector ? device_.interrupts().missed(vector) : 0, tally.missed});

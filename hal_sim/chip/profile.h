@@ -167,7 +167,7 @@ class Profile final : public StepWatch {
   bool is_same_ram(const std::vector<std::uint8_t>& before, int counter, bool& counts) const;
   unsigned pointers_of(unsigned begin, unsigned end) const;
   void end_wait(Round& round);
-  void watch_flags();
+  void watch_flags(const Step& step);
   void watch_stack(Cycle at);
 
   const dspic::FirmwareFile& file_;

@@ -307,6 +307,17 @@ const Injected kInjected[] = {
      3},
     {"sections_scan_300_40", SECTIONS("e_init_ad_scan(0);", "SRbits.IPL = 7;", 300, "SRbits.IPL = 0;", 40),
      3},
+    // a callback of 500 cycles at each tick: a frame comes once a tick, when it lets it in
+    {"frames_between_callbacks_of_each_tick",
+     "void spin(void){ for (odd = 0; odd < 100; odd++); } int main(void){ start(); e_init_ad_scan(0); "
+     "e_activate_agenda(spin, 1); while (1) if (++seen[8] % 256 == 0) seen[0]++; }",
+     6},
+    // delay loops in a handler that takes half of the time
+    {"handler_that_counts",
+     "void __attribute__((interrupt,no_auto_psv)) _T1Interrupt(void){ IFS0bits.T1IF=0; "
+     "for (odd = 0; odd < 100; odd++); } int main(void){ start(); e_init_ad_scan(1); PR1=2107; "
+     "IPC0bits.T1IP=4; IEC0bits.T1IE=1; "
+     "T1CONbits.TON=1; e_set_speed_left(300); while (1) seen[8]++; }"},
     {"scan_begins_beside_a_long_handler",
      "void __attribute__((interrupt,no_auto_psv)) _T1Interrupt(void){ IFS0bits.T1IF=0; spend(150); } int "
      "main(void){ start(); PR1=9000; IPC0bits.T1IP=6; IEC0bits.T1IE=1; T1CONbits.TON=1; seen[0]=1; "

@@ -194,8 +194,8 @@ int main(void) {
   EXPECT_EQ(text[1], text[0]);
   EXPECT_EQ(ends[1], ends[0]);
   EXPECT_EQ(hash[1], hash[0]);  // each word on the line at its cycle, each step of the motor
-  // waits are found by looks, whose instants routines known by heart move (docs/limits.md): a load of 0.0003
-  constexpr double kNear = 0.0003 * 3 * 14745600;
+  // waits are found by looks, whose instants routines known by heart move (docs/limits.md): a load of 0.0005
+  constexpr double kNear = 0.0005 * 3 * 14745600;
   EXPECT_NEAR(static_cast<double>(idle[1]), static_cast<double>(idle[0]), kNear);
 }
 

@@ -242,6 +242,31 @@ TEST_F(ChipProgram, functions_of_a_hex_file_are_found) {
   EXPECT_EQ(row(found.text, "sub_" + address), row(named.text, "control_tick")) << found.text;
 }
 
+// a tick or frame that came while it was held off is served within a step: its flag was not cleared unserved
+TEST_F(ChipProgram, what_handlers_known_by_heart_serve_late_is_not_missed) {
+  write("held/main.c",
+        "#include <p30F6014A.h>\n#include <a_d/advance_ad_scan/e_ad_conv.h>\n"
+        "#include <motor_led/advance_one_timer/e_agenda.h>\n#include <motor_led/e_init_port.h>\n"
+        "volatile unsigned i;\nstatic void spin(void) { for (i = 0; i < 70; i++); }\n"
+        "int main(void) {\n  e_init_port();\n  e_init_ad_scan(ALL_ADC);\n  e_activate_agenda(spin, 3);\n"
+        "  e_start_agendas_processing();\n  while (1) {\n    SRbits.IPL = 7;\n    for (i = 0; i < 90; i++);\n"
+        "    SRbits.IPL = 0;\n    for (i = 0; i < 500; i++);\n  }\n}\n");
+  const std::string json = (folder / "held.json").string();
+  for (const std::string hal : {"sim", "dspic"}) {
+    const auto run = twinpuck("run maze --fw '*=" + path("held") + "' --hal " + hal +
+                              " --for 0.5 --profile-json '" + json + "'");
+    EXPECT_EQ(run.exit_code, 0) << run.text;
+    std::ifstream in(json);
+    int rows = 0;
+    const auto robot = nlohmann::json::parse(in)["robots"][0];
+    for (const auto& interrupt : robot["interrupts"]) {
+      if (interrupt["missed"] != 0) ADD_FAILURE() << hal << ": " << interrupt;
+      rows += interrupt["name"] == "T2";
+    }
+    EXPECT_EQ(rows, 1);
+  }
+}
+
 TEST_F(ChipProgram, a_run_shows_its_profile) {
   const std::string json = (folder / "profile.json").string();
   const auto run =
