@@ -58,9 +58,9 @@ void Profiles::begin(const std::string& option, std::vector<std::string>& proble
   for (int i = 0; i < twin_.robots(); ++i) {
     chip::ChipRunner* runner = chip_runner(twin_, i);
     if (!runner) continue;
-    watched_.push_back(
-        {i, runner,
-         std::make_unique<chip::Profile>(runner->image()->file(), runner->processor(), runner->device())});
+    watched_.push_back({i, runner,
+                        std::make_unique<chip::Profile>(runner->image()->file(), runner->processor(),
+                                                        runner->device(), runner->host())});
     runner->watch_steps(watched_.back().profile.get(), true);
   }
   if (watched_.empty())

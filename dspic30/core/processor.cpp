@@ -318,8 +318,9 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
 }
 
 /// A program that holds a handler off for long, now and again, finds it at instants that a share of each cycle
-/// does not tell: for a while each of its events sets its flag, as if it were held off until then. True: that
-/// begins now.
+/// does not tell: for a while each of its events sets its flag, as if it were held off until then. The same goes
+/// for another handler known by heart that holds it off for long twice within such a while. True: that begins
+/// now.
 bool Processor::note_hold(std::size_t h, bool by_program) {
   const Cpu& cpu = *cpu_;
   ByHeart& handler = by_heart_[h];

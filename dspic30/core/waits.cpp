@@ -47,11 +47,7 @@ void Waits::begin(Cpu& cpu) {
 /// A round begins here.
 void Waits::begin_here(Cpu& cpu) {
   state_ = State::Away;
-  round_began_ = cpu.clocks.own_cycles(cpu.now);
-  round_began_at_ = cpu.true_now();
-  round_delayed_ = cpu.delayed;
-  cpu.looks_outside = cpu.reads_core = false;
-  cpu.watched_until = kNever;
+  note_round(cpu);
   // What is known to wait or to count from here on needs no look.
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
   if (const Count* known = cpu.known_counts.at(cpu.next); known && known->is_plain(cpu)) {
@@ -164,6 +160,14 @@ void Waits::pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle look_in) {
   if (schedule(cpu).at <= look_began_) schedule(cpu).at = look_began_ + look_in;
 }
 
+void Waits::note_round(Cpu& cpu) {
+  round_began_ = cpu.clocks.own_cycles(cpu.now);
+  round_began_at_ = cpu.true_now();
+  round_delayed_ = cpu.delayed;
+  cpu.looks_outside = cpu.reads_core = false;
+  cpu.watched_until = kNever;
+}
+
 void Waits::begin_round(Cpu& cpu) {
   if (!probe_) probe_ = std::make_unique<Probe>();
   KnownWaits::Wait& round = probe_->round;
@@ -171,15 +175,11 @@ void Waits::begin_round(Cpu& cpu) {
   round.state = CoreState(cpu);
   round.registers = 0;
   round.memory.clear();
-  round_began_ = cpu.clocks.own_cycles(cpu.now);
-  round_began_at_ = cpu.true_now();
-  round_delayed_ = cpu.delayed;
+  note_round(cpu);
   cpu.dc |= kNotSet;
   steps_ = 0;
   probe_->trace.clear();
   behind_ = {};
-  cpu.looks_outside = cpu.reads_core = false;
-  cpu.watched_until = kNever;
 }
 
 // What a known wait reads of RAM is as it was, but what the program did before has left other values in

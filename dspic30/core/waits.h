@@ -125,6 +125,7 @@ class Waits {
   void begin(Cpu& cpu);
   void begin_here(Cpu& cpu);
   void begin_round(Cpu& cpu);
+  void note_round(Cpu& cpu);
   void look(Cpu& cpu);
   void end_round(Cpu& cpu);
   bool goes_elsewhere(Cpu& cpu);

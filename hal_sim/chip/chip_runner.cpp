@@ -440,9 +440,6 @@ void ChipRunner::run_watched(Cycle end) {
       if (step.entered >= dspic::kFirstIrqVector)
         step.flagged = step.by_heart ? due : device().interrupts().flag_since(step.entered);
     }
-    for (int h = 0; library_ && h < dspic::HostCalls::kHandlers; ++h)
-      if (const int vector = library_->vector(h); vector != dspic::kNoVector)
-        step.served_unseen |= std::uint64_t{1} << (vector - dspic::kFirstIrqVector);
     step.left = device().interrupts().nesting() < nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);

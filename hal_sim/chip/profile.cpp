@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "dspic30/core/host_calls.h"
 #include "dspic30/core/instruction_table.h"
 #include "dspic30/device/chip_parts.h"
 #include "hal_sim/chip/program_places.h"
@@ -35,7 +36,7 @@ void Spread::add(Cycle value, Cycle at) {
 }
 
 Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& processor,
-                 dspic::Dspic30f6014a& device)
+                 dspic::Dspic30f6014a& device, const dspic::HostCalls* host)
     : file_(file),
       processor_(processor),
       device_(device),
@@ -45,6 +46,9 @@ Profile::Profile(const dspic::FirmwareFile& file, const dspic::Processor& proces
       handler_by_heart_(static_cast<int>(file.code.functions.size() + 1)),
       contexts_(1),
       functions_(file.code.functions.size() + 2) {
+  for (int h = 0; host && h < dspic::HostCalls::kHandlers; ++h)
+    if (const int vector = host->vector(h); vector != dspic::kNoVector)
+      served_by_heart_ |= std::uint64_t{1} << (vector - dspic::kFirstIrqVector);
   const auto& functions = file.code.functions;
   // what the host plays stands in the image as a jump to it
   for (std::size_t f = 0; f < functions.size(); ++f)
@@ -110,7 +114,7 @@ void Profile::after(const Step& step) {
   functions_[static_cast<std::size_t>(function_of(step.pc))].own += took;
   if (contexts_.size() > 1) in_handlers_ += took;
   watch_stack(step.end);
-  watch_flags(step);
+  watch_flags();
   if (step.left) return leave_handler();
   if (step.pc == dspic::kHostHandlerReturn) return call_agenda(step);
   if (dspic::is_host_place(step.pc) && step.next == step.pc) {  // a function of the host that waits
@@ -266,11 +270,12 @@ void Profile::leave_handler() {
   cuts_.pop_back();
 }
 
-// an enabled flag that fell without a service was cleared by the program
-void Profile::watch_flags(const Step& step) {
+// An enabled flag that fell without a service was cleared by the program; handlers known by heart serve theirs
+// within steps.
+void Profile::watch_flags() {
   const dspic::Interrupts& interrupts = device_.parts().interrupts;
   const std::uint64_t flags = interrupts.sources().flags(), enabled = interrupts.sources().enabled_mask();
-  std::uint64_t fell = flags_ & ~flags & ~step.served_unseen;
+  std::uint64_t fell = flags_ & ~flags & ~served_by_heart_;
   flags_ = flags & enabled;
   for (const Context& context : contexts_)
     if (context.vector >= dspic::kFirstIrqVector)

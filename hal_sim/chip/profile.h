@@ -75,8 +75,9 @@ struct ProfileReport {
 
 class Profile final : public StepWatch {
  public:
-  /// Both outlive this.
-  Profile(const dspic::FirmwareFile& file, const dspic::Processor& processor, dspic::Dspic30f6014a& device);
+  /// All outlive this. `host`: who plays handlers (ChipRunner::host()); null: nobody.
+  Profile(const dspic::FirmwareFile& file, const dspic::Processor& processor, dspic::Dspic30f6014a& device,
+          const dspic::HostCalls* host);
 
   void after(const Step& step) override;
   void was_reset(Cycle at) override;
@@ -167,7 +168,7 @@ class Profile final : public StepWatch {
   bool is_same_ram(const std::vector<std::uint8_t>& before, int counter, bool& counts) const;
   unsigned pointers_of(unsigned begin, unsigned end) const;
   void end_wait(Round& round);
-  void watch_flags(const Step& step);
+  void watch_flags();
   void watch_stack(Cycle at);
 
   const dspic::FirmwareFile& file_;
@@ -180,9 +181,10 @@ class Profile final : public StepWatch {
   std::vector<Context> contexts_;
   std::vector<FunctionTally> functions_;
   std::map<int, InterruptTally> interrupts_;
-  std::map<unsigned, Loop> loops_;  // by their first instruction
-  std::vector<Cut> cuts_;           // one a handler
-  std::uint64_t flags_ = 0;         // enabled ones, as they were
+  std::map<unsigned, Loop> loops_;     // by their first instruction
+  std::vector<Cut> cuts_;              // one a handler
+  std::uint64_t flags_ = 0;            // enabled ones, as they were
+  std::uint64_t served_by_heart_ = 0;  // flags, bit i of IRQ i, whose handlers the host plays
   Cycle from_ = -1, to_ = 0, in_handlers_ = 0, slept_ = 0;
   std::int64_t steps_ = 0;
   unsigned stack_base_ = 0, stack_top_ = 0;

@@ -2,8 +2,6 @@
 // Sees a chip robot's program instruction by instruction: profiles, debuggers. It changes nothing, and a
 // robot without one pays nothing.
 #pragma once
-#include <cstdint>
-
 #include "dspic30/core/processor.h"
 
 namespace chip {
@@ -13,15 +11,14 @@ using dspic::Cycle;
 /// What happened between two instruction boundaries: an instruction, an iteration of a REPEAT, the entry of a
 /// handler, or sleep.
 struct Step {
-  Cycle begin = 0, end = 0;         ///< by the true clock
-  Cycle took = 0;                   ///< of the program's own cycles: without the share of handlers by heart
-  unsigned pc = 0;                  ///< of the instruction; at a handler's entry of the one that is put off
-  unsigned next = 0;                ///< of the one that follows
-  int entered = dspic::kNoVector;   ///< vector of the handler that begins
-  Cycle flagged = -1;               ///< when its flag rose; -1: a trap's
-  bool by_heart = false;            ///< it is the host's: the function that it calls first comes next
-  std::uint64_t served_unseen = 0;  ///< flags, a bit an IRQ, that handlers by heart serve within steps
-  bool left = false;                ///< RETFIE
+  Cycle begin = 0, end = 0;        ///< by the true clock
+  Cycle took = 0;                  ///< of the program's own cycles: without the share of handlers by heart
+  unsigned pc = 0;                 ///< of the instruction; at a handler's entry of the one that is put off
+  unsigned next = 0;               ///< of the one that follows
+  int entered = dspic::kNoVector;  ///< vector of the handler that begins
+  Cycle flagged = -1;              ///< when its flag rose; -1: a trap's
+  bool by_heart = false;           ///< it is the host's: the function that it calls first comes next
+  bool left = false;               ///< RETFIE
   bool slept = false;
 };
 

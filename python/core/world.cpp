@@ -76,8 +76,8 @@ void World::listen() {
                                          [&](const std::string& m) { return m == "*" || m == name; });
     auto* const runner = is_measured ? dynamic_cast<chip::ChipRunner*>(mind.runner()) : nullptr;
     if (!runner) continue;
-    auto& profile = profiles_[robot] =
-        std::make_unique<chip::Profile>(runner->image()->file(), runner->processor(), runner->device());
+    auto& profile = profiles_[robot] = std::make_unique<chip::Profile>(
+        runner->image()->file(), runner->processor(), runner->device(), runner->host());
     runner->watch_steps(profile.get(), true);
   }
 }

@@ -98,7 +98,7 @@ TEST_F(CodeCyclesTest, straight_code_is_exact_and_branches_have_a_least_and_a_mo
 TEST_F(CodeCyclesTest, a_run_agrees) {
   read(kStraight);
   add_robot(hex(kStraight));
-  chip::Profile profile(file_, runner().processor(), runner().device());
+  chip::Profile profile(file_, runner().processor(), runner().device(), runner().host());
   runner().watch_steps(&profile, true);
   run_for(0.01);
   runner().watch_steps(&profile, false);

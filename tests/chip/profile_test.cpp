@@ -50,7 +50,7 @@ class ProfileTest : public chip_test::ChipTest {
   ProfileReport profile(const std::string& text, double seconds) {
     add_robot(hex(text));
     file_ = with_labels(text);
-    chip::Profile profile(file_, runner().processor(), runner().device());
+    chip::Profile profile(file_, runner().processor(), runner().device(), runner().host());
     runner().watch_steps(&profile, true);
     run_for(seconds);
     runner().watch_steps(&profile, false);

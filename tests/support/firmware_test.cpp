@@ -233,8 +233,8 @@ void FirmwareTest::start(const Caller& caller) {
   for (auto& r : robots_) {
     auto* const runner = r->is_measured_ ? dynamic_cast<chip::ChipRunner*>(r->mind().runner()) : nullptr;
     if (!runner) continue;
-    r->profile_ =
-        std::make_shared<chip::Profile>(runner->image()->file(), runner->processor(), runner->device());
+    r->profile_ = std::make_shared<chip::Profile>(runner->image()->file(), runner->processor(),
+                                                  runner->device(), runner->host());
     runner->watch_steps(r->profile_.get(), true);
   }
   for (auto& r : robots_) {
