@@ -183,7 +183,6 @@ void guard_process() {
   sigfillset(&all);
   pthread_sigmask(SIG_SETMASK, &all, &before);
   std::thread(watch).detach();
-  pthread_sigmask(SIG_SETMASK, &before, nullptr);
   struct sigaction action {};
   action.sa_handler = on_signal;
   action.sa_flags = SA_RESTART | SA_ONSTACK;
@@ -194,6 +193,7 @@ void guard_process() {
   struct sigaction inherited {};
   if (sigaction(SIGHUP, nullptr, &inherited) == 0 && inherited.sa_handler != SIG_IGN)
     sigaction(SIGHUP, &action, nullptr);
+  pthread_sigmask(SIG_SETMASK, &before, nullptr);  // what came meanwhile is handled
 }
 
 int end_asked() { return asked.load(std::memory_order_relaxed); }

@@ -313,20 +313,6 @@ def test_hidden_seeds_give_parts_of_points_and_time_is_limited(tmp_path, command
     assert rows["slow"]["points"] == "0"
 
 
-def test_ctrl_c_ends_all_of_it(tmp_path):
-    (tmp_path / "tests").mkdir()
-    (tmp_path / "tests" / "test_a.py").write_text("import time\ndef test_a(): time.sleep(61.25)\n")
-    (tmp_path / "class" / "a").mkdir(parents=True)
-    child = subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class"], cwd=tmp_path, stdout=subprocess.DEVNULL,
-                             stderr=subprocess.DEVNULL)
-    time.sleep(3)
-    child.send_signal(signal.SIGINT)
-    assert child.wait(20) == 130
-    time.sleep(0.5)
-    running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
-    assert str(tmp_path) not in running
-
-
 def is_named_by_a_process(text):
     """Is it in some process's command line?"""
     for line in pathlib.Path("/proc").glob("[0-9]*/cmdline"):
@@ -334,6 +320,28 @@ def is_named_by_a_process(text):
             if text.encode() in line.read_bytes():
                 return True
     return False
+
+
+def wait_until_graded(submission):
+    """Returns when a process has begun to grade the folder."""
+    until = time.monotonic() + 60
+    while not is_named_by_a_process(str(submission)):
+        assert time.monotonic() < until, submission
+        time.sleep(0.2)
+
+
+def test_ctrl_c_ends_all_of_it(tmp_path):
+    (tmp_path / "tests").mkdir()
+    (tmp_path / "tests" / "test_a.py").write_text("import time\ndef test_a(): time.sleep(61.25)\n")
+    (tmp_path / "class" / "a").mkdir(parents=True)
+    child = subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class"], cwd=tmp_path, stdout=subprocess.DEVNULL,
+                             stderr=subprocess.DEVNULL)
+    wait_until_graded(tmp_path / "class" / "a")
+    child.send_signal(signal.SIGINT)
+    assert child.wait(20) == 130
+    time.sleep(0.5)
+    running = [os.readlink(f"/proc/{pid}/cwd") for pid in os.listdir("/proc") if pid.isdigit() and os.path.exists(f"/proc/{pid}/cwd")]
+    assert str(tmp_path) not in running
 
 
 def test_who_was_graded_before_ctrl_c_stands_in_the_tables(tmp_path):
@@ -344,9 +352,7 @@ def test_who_was_graded_before_ctrl_c_stands_in_the_tables(tmp_path):
         (tmp_path / "class" / name).mkdir(parents=True)
     with subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class", "--jobs", "1", "--csv", "g.csv"], cwd=tmp_path,
                           text=True, stdout=subprocess.PIPE) as child:
-        until = time.monotonic() + 60
-        while time.monotonic() < until and not is_named_by_a_process(f"{tmp_path}/class/b_slow"):
-            time.sleep(0.2)
+        wait_until_graded(tmp_path / "class" / "b_slow")
         child.send_signal(signal.SIGINT)
         said = child.communicate(timeout=20)[0]
     assert child.returncode == 130
@@ -437,7 +443,7 @@ def test_a_signal_leaves_nothing_behind(small):
     (small / "tests" / "test_a.py").write_text("import time\ndef test_a(): time.sleep(62.25)\n")
     before = set(os.listdir("/var/tmp"))
     child = subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class", "--jobs", "2"], cwd=small)
-    time.sleep(4)
+    wait_until_graded(small / "class" / "good")
     child.send_signal(signal.SIGTERM)
     assert child.wait(20) == 130
     time.sleep(0.5)

@@ -37,7 +37,8 @@ def by_view(folder, hal, _):
     with live.start("world.toml", "--hal", hal, command=TWINPUCK, cwd=folder, timeout=300) as page:
         page.ask("speed", factor="max")
         page.ask("play")
-        page.event("serial", lambda e: said.append(e["text"]) or "end\n" in "".join(said))
+        # the other port's text may come in between
+        page.event("serial", lambda e: e["port"] == 1 and (said.append(e["text"]) or "end\n" in "".join(said)))
     return "".join(said)
 
 
