@@ -507,6 +507,9 @@ void Waits::forget(Cpu& cpu) {
   at_head_ = false;
   cut_ = nullptr;
   passed_ = {};
+  handler_looks_ = {};
+  looks_beside_ = hints_ = 0;
+  hint_gap_ = 1;
   look_gap_ = kRarestLooks;
   put_off_ = 0;
   look_by_ = cpu.now + look_gap_;
