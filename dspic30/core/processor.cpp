@@ -504,7 +504,7 @@ void Processor::translate_all() {
   cpu_->hot = 0;
   cpu_->forget_code();
 }
-Cycle Processor::now() const { return cpu_->now; }
+Cycle Processor::now() const { return cpu_->true_now(); }
 Cycle Processor::own_cycles() const { return cpu_->clocks.own_cycles(cpu_->now); }
 void Processor::wait_until(Cycle at) {
   rest_until_ = 0;

@@ -32,7 +32,8 @@ class Events {
  public:
   static constexpr int kMostSlots = 42;
 
-  /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset.
+  /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin, send or
+  /// receive, or ask for a reset.
   int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
     slots_[static_cast<std::size_t>(count_)] = {&owner, irqs};
     ids_[static_cast<std::size_t>(count_)] = static_cast<std::uint8_t>(id);
