@@ -13,7 +13,8 @@ namespace api {
 namespace {
 
 constexpr int kAgendaHandler = 0, kScanHandler = 1;
-constexpr Cycle kEntryCycles = 4, kRetfieCycles = 3, kCallCycles = 2;  // [DS70143 5.4, 19.1]
+// the fourth cycle between flag and handler is the last one of the program's own instruction [DS70143 5.4, 19.1]
+constexpr Cycle kEntryCycles = 3, kRetfieCycles = 3, kCallCycles = 2;
 
 drivers::AgendaCosts costs_of(Level level) {
   const CallCycles& c = call_cycles(level);

@@ -63,6 +63,8 @@ inline double IrCircuit::ambient_noise(int sensor, Cycle at, bool lit) const {
 
 // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
 inline double IrCircuit::settled_share(int sensor, Cycle lit_for) const {
+  constexpr int kPairs = kEmitterLines;  // sensors n and n + 4 are beside line n
+  if (!(driven_ >> sensor % kPairs & 1)) return 0;
   if (lit_for >= kSettled) return 1;
   Settled& kept = settled_[sensor < kRingSensors / 2 ? 0 : 1];
   if (lit_for != kept.lit_for) kept.settle(lit_for);

@@ -47,6 +47,9 @@ class IrCircuit {
   // --- emitters
   /// The level of a line 0 to 3 is this from `at` on.
   void set_line(int line, bool high, Cycle at);
+  /// Lines that the processor can drive, a bit each: the others' emitters stay dark, whoever flashes them. All, at
+  /// the beginning.
+  void set_driven(unsigned lines) { driven_ = lines; }
   /// Lines that are high.
   int lines_on() const { return lines_on_; }
   /// Cycles for which the emitter beside a sensor has been on by its line at `at`; -1: it was off.
@@ -99,6 +102,7 @@ class IrCircuit {
 
   const Specimen& robot_;
   int lines_on_ = 0;
+  unsigned driven_ = (1u << kEmitterLines) - 1;
   std::unique_ptr<std::array<Line, kEmitterLines>> lines_;  // null: no line was ever high
   struct Settled {
     Cycle lit_for = -1;

@@ -21,6 +21,7 @@ const PortWiring& wiring(Port port) { return kWiring[static_cast<std::size_t>(po
 
 Pins::Pins(const Consumers& consumers) : to_(consumers) {
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kWiring[i].implemented;
+  emitter_directions_changed();
 }
 
 int Pins::port_index(char port) {
@@ -53,6 +54,7 @@ void Pins::write(char letter, Register reg, std::uint16_t value, Cycle at) {
   bool is_current_new = false;
   if (reg == Register::Tris) {
     tris = value;
+    if (to.emitters) emitter_directions_changed();
     if (to.coils) to_.motors.set_directions(value, at);
   } else {
     if (driver_) value = beside_driver(port, value, at);
@@ -70,6 +72,16 @@ void Pins::write(char letter, Register reg, std::uint16_t value, Cycle at) {
     follow_motors(at);
   else if (changed)
     to_.power.draw(at);
+}
+
+/// A driver flashes the emitters of pins that are outputs, no others.
+void Pins::emitter_directions_changed() {
+  unsigned lines = 0;
+  for (int line = 0; line < kEmitterLines; ++line) {
+    const Pin pin = kEmitterPins[line];
+    lines |= static_cast<unsigned>((tris_[pin.port] & pin.mask()) == 0) << line;
+  }
+  to_.ir.set_driven(lines);
 }
 
 void Pins::outputs_changed(Port port, unsigned changed, Cycle at) {
@@ -122,6 +134,7 @@ void Pins::processor_reset(Cycle at) {
   for (int line = 0; line < kEmitterLines; ++line) to_.ir.set_line(line, false, at);
   lat_.fill(0);
   for (std::size_t i = 0; i < kPorts; ++i) tris_[i] = kWiring[i].implemented;
+  emitter_directions_changed();
   follow(at);
 }
 

@@ -116,6 +116,7 @@ class Pins {
   }
   /// Latch or direction of these pins of a port changed: their consumers follow.
   void outputs_changed(Port port, unsigned changed, Cycle at);
+  void emitter_directions_changed();
 
   PinDriver* driver_ = nullptr;
   std::array<std::uint16_t, kPorts> lat_{};  // of D the high byte only: the low one is the coils

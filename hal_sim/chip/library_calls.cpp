@@ -251,11 +251,32 @@ void LibraryCalls::look_for_slow(int wheel, std::int64_t steps, double span_s) {
   w.looked_steps = steps;
 }
 
+/// The chip tells of inputs that a program drives; a scan known by heart writes no latch.
+void LibraryCalls::look_for_dark_emitters(Cycle now) {
+  const board::PinDriver* const driver = board_.pins().driver();
+  if (!driver || driver->mean_pulses() == 0) return;
+  for (const board::Pin pin : board::kEmitterPins) {
+    const char letter = dspic::kPortLetters[pin.port];
+    if (!(board_.pins().read(letter, board::Pins::Register::Tris, now) & pin.mask())) continue;
+    const std::string tris = fmt::format("TRIS{}{}", letter, pin.bit);
+    const bool is_told = std::any_of(diagnoses_.begin(), diagnoses_.end(),
+                                     [&](const board::Diagnosis& d) { return d.place == tris; });
+    if (!is_told)
+      diagnoses_.push_back(
+          {"input driven", tris,
+           fmt::format("LAT{}{} is written again and again by the scan, but {} = 1 makes the pin an "
+                       "input: the emitters of the proximity sensors stay dark",
+                       letter, pin.bit, tris),
+           "call e_init_port() first", now, 0, 1});
+  }
+}
+
 void LibraryCalls::look(Cycle now) {
   const double span_s = static_cast<double>(now - looked_at_) / board::kFcyHz;
   const bool is_long = span_s >= kLeastLook_s;
   if (is_long) looked_at_ = now;
   next_look_ = now + kLookEvery;
+  look_for_dark_emitters(now);
   for (int wheel = 0; wheel < 2; ++wheel) {
     Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
     if (w.speed == 0) continue;

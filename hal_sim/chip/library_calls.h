@@ -65,6 +65,7 @@ class LibraryCalls final {
     std::int64_t looked_steps = 0;
   };
   void look_for_slow(int wheel, std::int64_t steps, double span_s);
+  void look_for_dark_emitters(Cycle now);
 
   void note(const std::string& cause, const std::string& place, const std::string& message,
             const std::string& hint);

@@ -201,6 +201,31 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   EXPECT_GT(r.variable("calls"), 5);
 }
 
+// the scan known by heart flashed its emitters through pins that are inputs
+TEST_F(Misuse, sensors_stay_dark_until_the_ports_are_set_up) {
+  wall(0.06, -0.5, 0.06, 0.5);
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+volatile int before, behind;
+int main(void) { long i; e_init_ad_scan(ALL_ADC);
+  for (i = 0; i < 300000; i++);
+  before = e_get_prox(0); e_init_port();
+  for (i = 0; i < 300000; i++);
+  behind = e_get_prox(0); while (1); })");
+  run_for(2);
+  EXPECT_EQ(r.variable("before"), 0);
+  EXPECT_GT(r.variable("behind"), 100);
+  ASSERT_EQ(r.diagnoses().size(), 4u) << r.diagnoses_text();
+  std::string places;
+  for (const board::Diagnosis& d : r.diagnoses()) {
+    EXPECT_EQ(d.cause, "input driven");
+    places += d.place + ' ';
+  }
+  for (const char* tris : {"TRISF7 ", "TRISF8 ", "TRISG0 ", "TRISG1 "})
+    EXPECT_NE(places.find(tris), std::string::npos) << places;
+}
+
 TEST_F(Misuse, a_wait_for_the_band_gap_ends) {
   Robot& r = add_robot_with_source(std::string(kHead) + R"(
 int main(void) { RCONbits.LVDEN = 1; RCONbits.BGST = 0; while (!RCONbits.BGST); calls = 7; while (1); })");

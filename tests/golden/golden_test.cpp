@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "0afb51c684d44528"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "97652a57607588c6"},
-                                         Pinned{"push", "worlds/push.toml", 10, "ac2021f067257d43"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "4a5c3f35222c49ef"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "e42ca1a102a6f09e"},
+                                         Pinned{"push", "worlds/push.toml", 10, "5debde68d2675145"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "4e36fdee9d289ae8"}),
+                                                "94026a9f9e9d22b6"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
