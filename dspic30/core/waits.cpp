@@ -449,6 +449,10 @@ void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
   cpu.heads.passes = false;
 }
 
+void Waits::note_left(Cpu& cpu, const Decoded* head, Cycle at_true) {
+  schedule(cpu).at = look_behind(cpu, head, at_true);
+}
+
 Cycle Waits::back_by(const Cpu& cpu, Cycle over) const {
   if (!is_waiting() || until_ != kNever) return kNever;
   const Decoded* const head = wait_->first;

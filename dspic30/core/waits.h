@@ -71,6 +71,8 @@ class Waits {
   void note(Cpu& cpu, const ByHeart& wait);
   /// Behind it the program has come to the head once more, and gone on.
   void note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true);
+  /// ... or has left the loop without coming to the head again.
+  void note_left(Cpu& cpu, const Decoded* head, Cycle at_true);
 
   /// A handler known by heart comes now and is over by `over`, true time: if it changes nothing that the
   /// present wait reads, and nothing else comes, by when the program would be back at the wait's head and found

@@ -31,7 +31,7 @@ void Dci::attach() {
   f_.bus.mark_unmodelled(
       kCon1,
       std::integral_constant<std::uint16_t, sfr_bits("DCICON1", "DCISIDL", "CSCKD", "COFSD", "COFSM")>());
-  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, true);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::Dci, false, true);
 }
 
 void Dci::reset(Cycle /*now*/) {

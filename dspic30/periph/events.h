@@ -32,12 +32,13 @@ class Events {
  public:
   static constexpr int kMostSlots = 42;
 
-  /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin, send or
-  /// receive, or ask for a reset.
-  int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward) {
+  /// `irqs`: bit i if the event may set the flag of IRQ i; `outward`: it may move a pin or ask for a reset;
+  /// `sends`: whoever is outside hears of it.
+  int add(EventOwner& owner, int id, std::uint64_t irqs, bool outward, bool sends = false) {
     slots_[static_cast<std::size_t>(count_)] = {&owner, irqs};
     ids_[static_cast<std::size_t>(count_)] = static_cast<std::uint8_t>(id);
     outward_ |= static_cast<std::uint64_t>(outward) << count_;
+    sends_ |= static_cast<std::uint64_t>(sends) << count_;
     when_[static_cast<std::size_t>(count_)] = kNever;
     return count_++;
   }
@@ -76,7 +77,7 @@ class Events {
     if (watch_) watch_->about_to_be_read(at);
   }
   /// Earliest instant at which the processor may notice something: a slot that acts outwards, or one cycle
-  /// after a slot that may set one of these flags.
+  /// after a slot that sends, or may set one of these flags.
   Cycle notice_horizon(std::uint64_t irqs) {
     if (irqs != noticed_irqs_) find_noticed(irqs);
     Cycle horizon = kNever;
@@ -104,7 +105,7 @@ class Events {
   Cycle delay(std::size_t slot) const { return static_cast<Cycle>(~outward_ >> slot & 1); }
   __attribute__((noinline)) void find_noticed(std::uint64_t irqs) {
     noticed_irqs_ = irqs;
-    noticed_ = outward_;
+    noticed_ = outward_ | sends_;
     for (int s = 0; s < count_; ++s)
       if (slots_[static_cast<std::size_t>(s)].irqs & irqs) noticed_ |= std::uint64_t{1} << s;
   }
@@ -144,7 +145,7 @@ class Events {
   EventWatch* watch_ = nullptr;
   // slots that notice_horizon() looks for, and for which flags; at the beginning for none
   std::uint64_t noticed_ = 0, noticed_irqs_ = ~std::uint64_t{0};
-  std::uint64_t outward_ = 0;  // slots that act outwards
+  std::uint64_t outward_ = 0, sends_ = 0;  // slots that act outwards, that send
   std::size_t queued_ = 0;
   std::array<Known, kMostSlots + 1> queue_{kNone};  // and what is known, the soonest last
   int count_ = 0;

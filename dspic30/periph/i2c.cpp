@@ -37,7 +37,7 @@ void I2c::attach() {
   // slew rate and levels of the pins (DISSLW, SMEN) have no digital effect
   f_.bus.mark_unmodelled(
       kCon, std::integral_constant<std::uint16_t, sfr_bits("I2CCON", "I2CSIDL", "IPMIEN", "A10M")>());
-  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, true);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << irq::MasterI2c, false, true);
 }
 
 void I2c::reset(Cycle /*now*/) {

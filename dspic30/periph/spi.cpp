@@ -22,7 +22,7 @@ void Spi::attach() {
   f_.bus.mark_unmodelled(base_ + kStat, kSpisidl);
   f_.bus.mark_unmodelled(
       base_ + kCon, std::integral_constant<std::uint16_t, sfr_bits("SPI1CON", "FRMEN", "SPIFSD", "SSEN")>());
-  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << (number_ == 1 ? irq::Spi1 : irq::Spi2), true);
+  slot_ = f_.events.add(*this, 0, std::uint64_t{1} << (number_ == 1 ? irq::Spi1 : irq::Spi2), false, true);
 }
 
 void Spi::reset(Cycle /*now*/) {

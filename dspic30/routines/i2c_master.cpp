@@ -231,7 +231,10 @@ class Primitive {
       pass(i, rest + i - from);
       instruction(i, 0);
     }
-    return rest + kPlaces - from;
+    const Cycle left = rest + kPlaces - from;
+    if (known_ < from && !goes_round)
+      cpu_.waits->note_left(cpu_, wait_.head, cpu_.clocks.true_at(cpu_.now + left));
+    return left;
   }
   /// So long behind the handler it comes to a place of the round.
   void pass(int place, Cycle behind) {

@@ -63,8 +63,6 @@ inline double IrCircuit::ambient_noise(int sensor, Cycle at, bool lit) const {
 
 // the phototransistor follows the flash with one time constant; after 300 us nothing is missing
 inline double IrCircuit::settled_share(int sensor, Cycle lit_for) const {
-  constexpr int kPairs = kEmitterLines;  // sensors n and n + 4 are beside line n
-  if (!(driven_ >> sensor % kPairs & 1)) return 0;
   if (lit_for >= kSettled) return 1;
   Settled& kept = settled_[sensor < kRingSensors / 2 ? 0 : 1];
   if (lit_for != kept.lit_for) kept.settle(lit_for);
@@ -95,6 +93,7 @@ __attribute__((always_inline)) inline double IrCircuit::reflected_counts(int sen
 }
 
 IrConversion IrCircuit::conversion(int sensor, Cycle at, Cycle lit_for) const {
+  if (!is_driven(sensor)) lit_for = -1;
   const std::size_t i = static_cast<std::size_t>(sensor);
   const Setup& setup = robot_.setup();
   IrConversion c;
@@ -119,10 +118,12 @@ IrConversion IrCircuit::conversion(int sensor, Cycle at, Cycle lit_for) const {
 // --- samples
 
 int IrCircuit::counts_in_dark(int sensor, Cycle at, Cycle lit_for) const {
+  if (!is_driven(sensor)) return kAdcMax;
   return adc_counts(kAdcMax - reflected_counts(sensor, at, lit_for));
 }
 
 int IrCircuit::counts(int sensor, Cycle at, Cycle lit_for) const {
+  if (!is_driven(sensor)) lit_for = -1;
   if (robot_.damage()) return damaged_counts(sensor, at, lit_for);
   const bool lit = lit_for >= 0;
   if (is_dark()) return lit ? counts_in_dark(sensor, at, lit_for) : kAdcMax;

@@ -91,6 +91,8 @@ class IrCircuit {
     }
     void note_pulse(LongPulses& pulses, Cycle end) const;
   };
+  /// Sensors n and n + 4 are beside line n.
+  bool is_driven(int sensor) const { return (driven_ >> sensor % kEmitterLines & 1) != 0; }
   /// Counts that light pulls a dark sample down, and that its noise adds to this.
   double light_counts(int sensor, Cycle at) const;
   double ambient_noise(int sensor, Cycle at, bool lit) const;

@@ -87,6 +87,11 @@ unsigned ProgramPlaces::stack_word(unsigned address) const {
   return processor_.ram(address) | static_cast<unsigned>(processor_.ram(address + 1)) << 8;
 }
 
+unsigned ProgramPlaces::stack_address(unsigned top) const {
+  const unsigned high = stack_word(top - 2);
+  return high <= 0x7F ? high << 16 | stack_word(top - 4) : 0;
+}
+
 unsigned ProgramPlaces::call_before(unsigned address) const {
   if (address % 2 || address < 4 || !file_.words.count(address - 2)) return 0;
   if (is_short_call(program_.read(address - 2))) return address - 2;
@@ -107,8 +112,9 @@ unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
   unsigned at = std::min(stack, dspic::Processor::kRamEnd) & ~1u;
   const unsigned end = std::max(at, kDeepestLook) - kDeepestLook;
   for (; at >= dspic::Processor::kRamStart + 4 && at > end; at -= 2) {
-    const unsigned high = stack_word(at - 2);
-    const unsigned call = high <= 0x7F ? call_before(high << 16 | stack_word(at - 4)) : 0;
+    const unsigned back = stack_address(at);
+    if (back == dspic::kHostHandlerReturn) break;  // the handler's, known by heart
+    const unsigned call = call_before(back);
     if (call == 0) continue;
     if (is_own(call)) return last_jump(call, address);
     if (is_handler_code(call)) break;
@@ -134,8 +140,9 @@ std::vector<unsigned> ProgramPlaces::callers(unsigned address, unsigned own_plac
   const auto* inner = file_.code.function_at(address);
   unsigned at = std::min<unsigned>(processor_.w(15), dspic::Processor::kRamEnd) & ~1u;
   for (; at >= dspic::Processor::kRamStart + 4 && calls.size() < most; at -= 2) {
-    const unsigned high = stack_word(at - 2);
-    const unsigned call = high <= 0x7F ? call_before(high << 16 | stack_word(at - 4)) : 0;
+    const unsigned back = stack_address(at);
+    if (back == dspic::kHostHandlerReturn) break;
+    const unsigned call = call_before(back);
     if (call == 0) continue;
     if (is_handler_code(call)) break;
     const unsigned to = target(call);

@@ -147,7 +147,8 @@ const Injected kInjected[] = {
     {"ipl_3",
      "void bad(void){ seen[0]++; } int main(void){ int i; start(); e_set_speed_left(500); "
      "e_activate_agenda(bad,7); for(i=0;i<20;i++){ SRbits.IPL=3; seen[1]=seen[0]; spend(9000); "
-     "seen[2]+=seen[0]-seen[1]; SRbits.IPL=0; spend(20000);} while(1); }"},
+     "seen[2]+=seen[0]-seen[1]; SRbits.IPL=0; spend(20000);} while(1); }",
+     1},
     {"ipl_4",
      "void bad(void){ seen[0]++; } int main(void){ int i; start(); e_set_speed_left(500); "
      "e_activate_agenda(bad,7); for(i=0;i<20;i++){ SRbits.IPL=4; seen[1]=seen[0]; spend(9000); "

@@ -201,6 +201,20 @@ int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
   EXPECT_GT(r.variable("calls"), 5);
 }
 
+// what main() has called lies deeper on the stack than the handler's frame
+TEST_F(Misuse, who_held_an_interrupt_off_in_an_agenda_of_the_library_is_not_main) {
+  Robot& r = add_robot_with_source(std::string(kHead) + R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_acc.h>
+#include <utility/utility.h>
+int main(void) { e_init_port(); e_start_agendas_processing(); e_init_ad_scan(ALL_ADC);
+  e_activate_agenda(e_display_angle, 500);
+  while (1) wait(150000); })");
+  run_for(0.5);
+  EXPECT_NE(r.diagnoses_text().find("called by the handler of T2"), std::string::npos) << r.diagnoses_text();
+  EXPECT_EQ(r.diagnoses_text().find("main()"), std::string::npos) << r.diagnoses_text();
+}
+
 // the scan known by heart flashed its emitters through pins that are inputs
 TEST_F(Misuse, sensors_stay_dark_until_the_ports_are_set_up) {
   wall(0.06, -0.5, 0.06, 0.5);
