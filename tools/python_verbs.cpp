@@ -47,7 +47,8 @@ int become(const char* module, const std::vector<std::string>& arguments) {
   sigemptyset(&ends);
   for (const int s : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) sigaddset(&ends, s);
   pthread_sigmask(SIG_BLOCK, &ends, &usual);
-  if (const int asked = end_asked()) return asked;  // by one that came before: the guard would be gone with it
+  if (const int asked = end_asked())
+    return asked;  // by one that came before: the guard would be gone with it
   execvp(python.c_str(), argv.data());
   pthread_sigmask(SIG_SETMASK, &usual, nullptr);
   complain({python + ": cannot be started: " + std::strerror(errno) +
