@@ -232,8 +232,7 @@ class Primitive {
       instruction(i, 0);
     }
     const Cycle left = rest + kPlaces - from;
-    if (known_ < from && !goes_round)
-      cpu_.waits->note_left(cpu_, wait_.head, cpu_.clocks.true_at(cpu_.now + left));
+    if (known_ < from) cpu_.waits->note_left(cpu_, wait_.head, cpu_.clocks.true_at(cpu_.now + left));
     return left;
   }
   /// So long behind the handler it comes to a place of the round.

@@ -251,6 +251,11 @@ void LibraryCalls::look_for_slow(int wheel, std::int64_t steps, double span_s) {
   w.looked_steps = steps;
 }
 
+bool LibraryCalls::is_told(const char* cause, const std::string& place) const {
+  return std::any_of(diagnoses_.begin(), diagnoses_.end(),
+                     [&](const board::Diagnosis& d) { return d.cause == cause && d.place == place; });
+}
+
 /// The chip tells of inputs that a program drives; a scan known by heart writes no latch.
 void LibraryCalls::look_for_dark_emitters(Cycle now) {
   const board::PinDriver* const driver = board_.pins().driver();
@@ -259,9 +264,7 @@ void LibraryCalls::look_for_dark_emitters(Cycle now) {
     const char letter = dspic::kPortLetters[pin.port];
     if (!(board_.pins().read(letter, board::Pins::Register::Tris, now) & pin.mask())) continue;
     const std::string tris = fmt::format("TRIS{}{}", letter, pin.bit);
-    const bool is_told = std::any_of(diagnoses_.begin(), diagnoses_.end(),
-                                     [&](const board::Diagnosis& d) { return d.place == tris; });
-    if (!is_told)
+    if (!is_told("input driven", tris))
       diagnoses_.push_back(
           {"input driven", tris,
            fmt::format("LAT{}{} is written again and again by the scan, but {} = 1 makes the pin an "
@@ -288,10 +291,7 @@ void LibraryCalls::look(Cycle now) {
     } else if (now - w.since >= kStandsStill) {
       const std::string side = wheel == 0 ? "left" : "right";
       const std::string place = "e_set_speed_" + side + "()";
-      const bool is_told = std::any_of(diagnoses_.begin(), diagnoses_.end(), [&](const board::Diagnosis& d) {
-        return d.cause == "wheel stands" && d.place == place;
-      });
-      if (!is_told)
+      if (!is_told("wheel stands", place))
         diagnoses_.push_back({"wheel stands", place,
                               "the " + side + " wheel was given " + std::to_string(w.speed) +
                                   " steps/s, and has not turned for 10 s; set at " + places_.text_of(w.place),

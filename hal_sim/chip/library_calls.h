@@ -66,6 +66,7 @@ class LibraryCalls final {
   };
   void look_for_slow(int wheel, std::int64_t steps, double span_s);
   void look_for_dark_emitters(Cycle now);
+  bool is_told(const char* cause, const std::string& place) const;
 
   void note(const std::string& cause, const std::string& place, const std::string& message,
             const std::string& hint);

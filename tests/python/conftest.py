@@ -5,6 +5,7 @@ import os
 import pathlib
 import re
 import subprocess
+import time
 
 import pytest
 
@@ -24,6 +25,14 @@ def reads(said, wanted, what=""):
     """Fails unless it is said word for word, but for line ends behind it; each … is what has no space and varies."""
     said = said.rstrip("\n")
     assert re.fullmatch(re.escape(wanted).replace("…", r"\S+?"), said), f"{what}\ngot\n  {said!r}\nexpected\n  {wanted!r}"
+
+
+def wait_until(condition, what):
+    """Returns when condition() holds; fails, with `what` in the text, where it does not within 60 s."""
+    until = time.monotonic() + 60
+    while not condition():
+        assert time.monotonic() < until, what
+        time.sleep(0.001)
 
 
 @pytest.fixture(scope="session")

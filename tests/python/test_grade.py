@@ -13,7 +13,7 @@ import xml.etree.ElementTree
 import pytest
 
 import twinpuck  # noqa: F401  the module must be there
-from conftest import TWINPUCK, reads
+from conftest import TWINPUCK, reads, wait_until
 
 CAN_CONTAIN = subprocess.run(["bwrap", "--ro-bind", "/", "/", "--dev", "/dev", "--proc", "/proc", "--unshare-all", "true"],
                              stderr=subprocess.DEVNULL, check=False).returncode == 0
@@ -324,10 +324,7 @@ def is_named_by_a_process(text):
 
 def wait_until_graded(submission):
     """Returns when a process has begun to grade the folder."""
-    until = time.monotonic() + 60
-    while not is_named_by_a_process(str(submission)):
-        assert time.monotonic() < until, submission
-        time.sleep(0.2)
+    wait_until(lambda: is_named_by_a_process(str(submission)), submission)
 
 
 def test_ctrl_c_ends_all_of_it(tmp_path):

@@ -11,7 +11,7 @@ import xml.etree.ElementTree
 
 import pytest
 
-from conftest import TWINPUCK, reads
+from conftest import TWINPUCK, reads, wait_until
 
 WORLD = """twinpuck = 1
 [arena]
@@ -398,13 +398,11 @@ def test_markers_of_somebody_else_are_theirs(mine, command):
 
 def wait_until_handled(process, number):
     """Returns when `process` catches or holds back the signal; before that the system's way to end it is all there is."""
-    until = time.monotonic() + 60
-    while time.monotonic() < until:
+    def is_handled():
         masks = re.findall(r"^Sig(?:Blk|Cgt):\s*(\w+)$", pathlib.Path(f"/proc/{process}/status").read_text(), re.M)
-        if any(int(mask, 16) >> (number - 1) & 1 for mask in masks):
-            return
-        time.sleep(0.001)
-    raise AssertionError(f"process {process} has not handled signal {number} within 60 s")
+        return any(int(mask, 16) >> (number - 1) & 1 for mask in masks)
+
+    wait_until(is_handled, f"process {process}, signal {number}")
 
 
 # what came while Python was beginning was told with a traceback, and ended the process by the signal
