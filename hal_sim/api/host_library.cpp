@@ -199,7 +199,7 @@ void HostLibrary::begin_handler(Cycle at) {
 
 HandlerStep HostLibrary::next_in_handler(Cycle at) {
   HandlerStep step;
-  const Function function = agendas().next(step.divides_by_zero);
+  const Function function = agendas().next(at, step.divides_by_zero);
   step.cycles = agendas().take_walk_cost();
   if (walk_begins_) step.cycles += agendas().list().size() == 0 ? cycles_.walk_empty : cycles_.walk_begin;
   // a walk that begins with no list has no end of its own

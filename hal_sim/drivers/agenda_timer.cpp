@@ -219,13 +219,23 @@ void AgendaTimer::begin(Cycle at) {
   walk_cost_ = 0;
 }
 
-AgendaTimer::Function AgendaTimer::next(bool& divided_by_zero) {
+/// The callback has returned. Behind a long one the rest of the list is late, motors among them.
+void AgendaTimer::walk_on(Cycle at) {
+  const std::int64_t tick = ticks_.walk_tick();
+  if (!ticks_.is_running() || at - ticks_.line().cycle_of(tick) < kAgendaTickCycles) return;
+  motors_.note_command();
+  motors_.bring_both(at);  // those that were earlier have come to this tick in time
+  ticks_.come_late(tick, at);
+}
+
+AgendaTimer::Function AgendaTimer::next(Cycle at, bool& divided_by_zero) {
   divided_by_zero = false;
   const AgendaCosts& costs = shares_.costs();
   const std::int64_t tick = ticks_.walk_tick();
   if (!ticks_.is_walking()) return nullptr;
   // the callback has returned: its counter is zeroed now, whatever it did itself
   if (ticks_.is_calling()) {
+    walk_on(at);
     ticks_.walk_to(ticks_.walked(), false);
     Node* node = nullptr;
     for (Node& one : list_.nodes())

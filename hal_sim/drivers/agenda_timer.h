@@ -9,12 +9,13 @@
 // handler then walks the list with begin / next / finish, and what next() names is called.
 // A handler that takes longer than a tick delays the following tick to its end and loses the others, as the
 // processor with its single pending flag does; motors lose them too. So does a program that masks the handler
-// (hold()). Motors' pins change at their nominal ticks.
+// (hold()). Motors' pins change at their nominal ticks, and behind a callback that takes longer than a tick when
+// it returns.
 //
 // Modelled: list order, counters that survive speed and cycle changes, pause, restart, reset, destroy from
 // within callbacks, lost ticks, division by zero in the power-save half.
-// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; what nodes
-// earlier in the list and other handlers delay the pins by.
+// Not modelled: a list edited while the interrupt walks it (the robot races); use of freed nodes; what shorter
+// callbacks earlier in the list and other handlers delay the pins by.
 // Source: [lib: motor_led/advance_one_timer/e_agenda.c], facts restated.
 #pragma once
 #include <cstdint>
@@ -93,9 +94,9 @@ class AgendaTimer {
   /// a motor traps, or when it was let go as pending. One that has not finished never will: agendas that it
   /// has not come to have lost this tick.
   void begin(Cycle at);
-  /// The next callback of this tick, in list order, or null when the list's end is reached. `divided_by_zero`
-  /// is set when a motor's firing trapped; the walk is then over.
-  Function next(bool& divided_by_zero);
+  /// The next callback of this tick, in list order, or null when the list's end is reached; `at`, the one before
+  /// has returned. `divided_by_zero` is set when a motor's firing trapped; the walk is then over.
+  Function next(Cycle at, bool& divided_by_zero);
   /// Processor cycles that the walk has taken since this was asked last.
   Cycle take_walk_cost();
   /// The handler returns.
@@ -114,6 +115,7 @@ class AgendaTimer {
   void changed();
   void settle(Node& node, std::int64_t tick);
   void disturb(const Node& node);
+  void walk_on(Cycle at);
   void resume(std::int64_t done, Cycle at);
   void resume(std::int64_t done, Cycle at, bool pending);
   void abandon(Cycle at);

@@ -203,12 +203,12 @@ TEST(AgendaMotors, speed_zero_with_a_cycle_set_by_hand_divides_by_zero) {
   EXPECT_EQ(d.timer.ticks().next_interrupt(), 5 * kTick);
   bool trap = false;
   d.timer.begin(5 * kTick);
-  EXPECT_EQ(d.timer.next(trap), nullptr);
+  EXPECT_EQ(d.timer.next(5 * kTick, trap), nullptr);
   EXPECT_FALSE(trap);
   d.timer.finish(5 * kTick);
   EXPECT_EQ(d.timer.ticks().next_interrupt(), 20 * kTick);  // 15 ticks on, then 10000 / 0
   d.timer.begin(20 * kTick);
-  d.timer.next(trap);
+  d.timer.next(20 * kTick, trap);
   EXPECT_TRUE(trap);
 }
 
@@ -222,9 +222,9 @@ TEST(Agendas, newest_runs_first_and_counters_survive_a_new_cycle) {
   EXPECT_EQ(timer.ticks().next_interrupt(), 10 * kTick);
   bool trap;
   timer.begin(10 * kTick);
-  EXPECT_EQ(timer.next(trap), &user_b);
-  EXPECT_EQ(timer.next(trap), &user_a);
-  EXPECT_EQ(timer.next(trap), nullptr);
+  EXPECT_EQ(timer.next(10 * kTick, trap), &user_b);
+  EXPECT_EQ(timer.next(10 * kTick, trap), &user_a);
+  EXPECT_EQ(timer.next(10 * kTick, trap), nullptr);
   timer.finish(10 * kTick + 500);
   // 7 ticks counted; a cycle of 5 fires at the very next tick
   timer.set_cycle(&user_a, 5, 17 * kTick + 3);
@@ -238,8 +238,8 @@ TEST(Agendas, a_long_callback_loses_ticks_but_one_is_remembered) {
   timer.start(0);
   bool trap;
   timer.begin(10 * kTick);
-  timer.next(trap);
-  timer.next(trap);
+  timer.next(10 * kTick, trap);
+  timer.next(14 * kTick + 50, trap);
   timer.finish(14 * kTick + 100);  // ticks 11 to 14 came: 11 is remembered and runs now, three are lost
   EXPECT_EQ(timer.ticks().at(14 * kTick + 100), 11);
   EXPECT_EQ(timer.ticks().at(15 * kTick), 12);
@@ -443,7 +443,7 @@ class Twin {
     while (closed_.ticks().next_interrupt() <= std::max(until, now)) {
       Cycle at = std::max(closed_.ticks().next_interrupt(), now);
       closed_.begin(at);
-      while (const void* f = closed_.next(trapped_)) {
+      while (const void* f = closed_.next(at, trapped_)) {
         const int function = f == &user_a ? 0 : f == &user_b ? 1 : 2;
         closed_log_.push_back({function, at});
         const Script script = script_of(function, static_cast<int>(closed_log_.size()));
@@ -538,7 +538,7 @@ TEST(Agendas, each_command_makes_what_was_told_of_a_motor_old) {
          ASSERT_LT(at, 70 * kTick);
          bool divides = false;
          timer.begin(at);
-         EXPECT_EQ(timer.next(divides), nullptr);
+         EXPECT_EQ(timer.next(at, divides), nullptr);
          timer.finish(at);
        }},
       {"stop", [&] { timer.stop(80 * kTick); }},

@@ -112,6 +112,7 @@ class Agendas {
  private:
   Cycle interrupt(Cycle began) {
     Cycle at = began;
+    Cycle fires_at = began;                 // what is delayed by less than a tick counts as in time
     const std::vector<Node*> walk = list_;  // nodes activated meanwhile stand before the one being processed
     for (Node* n : walk) {
       bool alive = false;
@@ -121,11 +122,12 @@ class Agendas {
       ++n->counter;
       if (static_cast<std::uint16_t>(n->counter) > static_cast<std::uint16_t>(n->cycle - 1)) {
         if (n->function == kLeft) {
-          fire(left, began, kLeft);
+          fire(left, fires_at, kLeft);
         } else if (n->function == kRight) {
-          fire(right, began, kRight);
+          fire(right, fires_at, kRight);
         } else {
           at += callback(n->function, at);
+          if (running_ && at - fires_at >= kTick) fires_at = at;
         }
         if (trapped) return at;
         n->counter = 0;
