@@ -84,8 +84,8 @@ Decoded& Decoded::operator=(const Decoded& o) {
 CodeTable::CodeTable(const CodeState& state, std::vector<std::uint32_t> told,
                      std::shared_ptr<const KnownCalls> known)
     : state_(state),
-      told_(std::move(told)),
       known_(std::move(known)),
+      told_(std::move(told)),
       words_(zeroed<Decoded>()),
       beside_(zeroed<Beside>()) {
   Decoded nowhere;
@@ -110,9 +110,10 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
   beside.plain = run;
   const auto address = static_cast<std::uint32_t>(2 * index);
   const bool is_told = std::binary_search(told_.begin(), told_.end(), address);
-  beside.tells = is_told || known_at(address);
-  word.state = beside.tells ? Decoded::Fronted : Decoded::Met;
-  word.run = is_told ? &tell : beside.tells ? &answer : run;
+  const bool is_fronted = is_told || known_at(address);
+  beside.tells.store(is_fronted, std::memory_order_release);
+  word.state = is_fronted ? Decoded::Fronted : Decoded::Met;
+  word.run = is_told ? &tell : is_fronted ? &answer : run;
   words_[index] = word;
   decoded_.push_back(static_cast<std::uint32_t>(index));
 }
@@ -121,6 +122,7 @@ void CodeTable::decode(const Decoded* d, const ProgramMemory& program, std::uint
 void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, int hot) {
   const std::uint8_t again = hot == 0 ? 1 : 0xFF;
   bool only_ready, is_warm = false;
+  std::uint64_t marks;
   // One thread at a time translates a place. What runs seldom is only asked whether a translation lies ready.
   {
     const std::lock_guard lock(mutex_);
@@ -139,6 +141,7 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
     }
     if (!only_ready) warmth.times = 0;
     warmth.is_busy = true;
+    marks = marks_;
   }
   // Translating takes long, so others may use the table meanwhile.
   const Translation translation = translator.translate(cpu, d, only_ready);
@@ -146,7 +149,9 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   const std::lock_guard lock(mutex_);
   Warmth& warmth = warmth_[d];
   warmth.is_busy = false;
-  if (translation.run) {
+  if (marks != marks_) {
+    d->heat.store(again, std::memory_order_relaxed);
+  } else if (translation.run) {
     d->state.store(Decoded::Fronted, std::memory_order_release);
     d->run.store(translation.run, std::memory_order_release);
     warmth.first = translation.first;
@@ -157,25 +162,51 @@ void CodeTable::warm(const Cpu& cpu, const Decoded* d, Translator& translator, i
   }
 }
 
-void CodeTable::mark_wait(const Decoded* d, Run stop) {
-  const std::lock_guard lock(mutex_);
-  const std::size_t index = index_of(d);
-  if (beside_[index].wait.load(std::memory_order_relaxed)) return;
+// a function that is put in front of it
+void CodeTable::forget_translations_of(std::size_t index) {
+  ++marks_;
   for (const auto& [head, warmth] : warmth_) {
-    const std::ptrdiff_t place = d - head;
+    const std::ptrdiff_t place = &words_[index] - head;
     if (place < warmth.first || place > warmth.last) continue;
     const Beside& beside = beside_[index_of(head)];
     if (head->state.load(std::memory_order_relaxed) != Decoded::Fronted ||
         beside.wait.load(std::memory_order_relaxed))
       continue;
-    head->run.store(beside.tells ? &tell : beside.plain, std::memory_order_release);
-    head->state.store(beside.tells ? Decoded::Fronted : Decoded::Met, std::memory_order_release);
+    const bool tells = beside.tells.load(std::memory_order_relaxed);
+    head->run.store(tells ? &tell : beside.plain, std::memory_order_release);
+    head->state.store(tells ? Decoded::Fronted : Decoded::Met, std::memory_order_release);
     head->heat.store(0xFF, std::memory_order_relaxed);
     --translated_;
   }
+}
+
+void CodeTable::mark_wait(const Decoded* d, Run stop) {
+  const std::lock_guard lock(mutex_);
+  const std::size_t index = index_of(d);
+  if (beside_[index].wait.load(std::memory_order_relaxed)) return;
+  forget_translations_of(index);
   beside_[index].wait.store(d->run.load(std::memory_order_relaxed), std::memory_order_release);
   d->state.store(Decoded::Fronted, std::memory_order_release);
   d->run.store(stop, std::memory_order_release);
+}
+
+void CodeTable::tell_also(std::uint32_t address) {
+  const std::lock_guard lock(mutex_);
+  const auto place = std::lower_bound(told_.begin(), told_.end(), address);
+  if (place != told_.end() && *place == address) return;
+  told_.insert(place, address);
+  const std::size_t index = address / 2;
+  const Decoded& word = words_[index];
+  Beside& beside = beside_[index];
+  if (!is_decoded(&word)) return;
+  forget_translations_of(index);
+  beside.tells.store(true, std::memory_order_release);
+  if (beside.wait.load(std::memory_order_relaxed)) {
+    beside.wait.store(&tell, std::memory_order_release);
+  } else {
+    word.state.store(Decoded::Fronted, std::memory_order_release);
+    word.run.store(&tell, std::memory_order_release);
+  }
 }
 
 int CodeTable::translated() const {
@@ -200,11 +231,19 @@ void CodeTable::forget() {
 
 bool CodeStore::tell(const std::vector<std::uint32_t>& addresses) {
   const std::lock_guard lock(mutex_);
-  if (told_ == addresses) return true;
+  if (std::includes(told_.begin(), told_.end(), addresses.begin(), addresses.end())) return true;
   if (!told_.empty()) return false;
   told_ = addresses;
   tables_.clear();
   return true;
+}
+
+void CodeStore::tell_also(std::uint32_t address) {
+  const std::lock_guard lock(mutex_);
+  const auto place = std::lower_bound(told_.begin(), told_.end(), address);
+  if (place != told_.end() && *place == address) return;
+  told_.insert(place, address);
+  for (const auto& table : tables_) table->tell_also(address);
 }
 
 std::vector<std::uint32_t> CodeStore::told() const {

@@ -95,7 +95,7 @@ class CodeTable {
   }
   /// Of a word that is decoded.
   const WordRegisters& registers(const Decoded* d) const { return beside_[index_of(d)].registers; }
-  bool tells(const Decoded* d) const { return beside_[index_of(d)].tells; }
+  bool tells(const Decoded* d) const { return beside_[index_of(d)].tells.load(std::memory_order_acquire); }
   /// The routine known by heart that begins at a program address; null: none.
   const KnownRoutine* known_at(unsigned address) const { return known_ ? known_->find(address) : nullptr; }
   /// Handlers of interrupts that are known by heart; null: none.
@@ -105,6 +105,8 @@ class CodeTable {
   /// A wait is known to begin at a word that was met: `stop` runs there each time, and what ran before is
   /// beside_wait(). What was translated with it would go round past it, so it is forgotten.
   void mark_wait(const Decoded* d, Run stop);
+  /// The onlooker is told of one more instruction. What was translated with it would not tell, so it is forgotten.
+  void tell_also(std::uint32_t address);
   bool is_wait(const Decoded* d) const { return beside_[index_of(d)].wait.load(std::memory_order_acquire); }
   Run beside_wait(const Decoded* d) const {
     return beside_[index_of(d)].wait.load(std::memory_order_acquire);
@@ -120,8 +122,8 @@ class CodeTable {
   struct Beside {
     Run plain;
     WordRegisters registers;
-    bool tells;             // the onlooker, or is known by heart
-    std::atomic<Run> wait;  // null: no wait is known to begin here
+    std::atomic<bool> tells;  // the onlooker, or is known by heart
+    std::atomic<Run> wait;    // null: no wait is known to begin here
   };
   struct Warmth {
     int times = 0, refusals = 0;
@@ -135,10 +137,13 @@ class CodeTable {
   using Zeroed = std::unique_ptr<T[], Free>;  // pages that nobody touches take no memory
   std::size_t index_of(const Decoded* d) const { return static_cast<std::size_t>(d - words_.get()); }
 
+  void forget_translations_of(std::size_t index);
+
   const CodeState state_;
-  const std::vector<std::uint32_t> told_;
   std::shared_ptr<const KnownCalls> known_;
   mutable std::mutex mutex_;  // of all that follows, but what was published
+  std::vector<std::uint32_t> told_;
+  std::uint64_t marks_ = 0;  // of waits and told ones: what is translated meanwhile may go past one
   const Zeroed<Decoded> words_;
   const Zeroed<Beside> beside_;
   std::vector<std::uint32_t> decoded_;
@@ -149,8 +154,11 @@ class CodeTable {
 /// The tables of one image: what flash holds is the same for all that run on them.
 class CodeStore {
  public:
-  /// From now on, the onlooker is told of these addresses, in order. False: it is told of others already.
+  /// From now on, the onlooker is told of these addresses, in order. False: it is told of others already, and not
+  /// of all these.
   bool tell(const std::vector<std::uint32_t>& addresses);
+  /// ... of one more.
+  void tell_also(std::uint32_t address);
   std::vector<std::uint32_t> told() const;
   /// The image's routines that are known by heart, from now on; null: none. False: others are known already.
   bool know(std::shared_ptr<const KnownCalls> calls);

@@ -55,6 +55,8 @@ class CodeWords : public CoreFields {
   bool is_code_stale() const { return code_is_stale || program.version() != code_version_; }
   /// The onlooker hears when the instructions at these program addresses begin, from now on.
   void tell_calls(std::vector<std::uint32_t> addresses);
+  /// ... of one more, an even address of flash. The words stay, and what is known of them.
+  void tell_also(std::uint32_t address) { store_->tell_also(address); }
   /// These routines are answered by heart from now on, as long as flash stays as it is. Nothing but the PC's
   /// time depends on it.
   void know(std::shared_ptr<const KnownCalls> calls);

@@ -19,6 +19,7 @@
 #include <memory>
 #include <vector>
 
+#include "dspic30/core/decoded.h"
 #include "dspic30/core/known_waits.h"
 
 namespace dspic {
@@ -46,6 +47,8 @@ class Count {
   bool reads_flags() const { return reads_flags_; }
   /// Does the round depend on no more than this holds?
   bool is_plain(const Cpu& cpu) const;
+  /// As KnownWaits::move(), from the words that began at `from`.
+  void move(const Decoded* from, const Decoded* to) { round_.first = to + (round_.first - from); }
 
  private:
   friend class KnownCounts;
@@ -95,13 +98,18 @@ class KnownCounts {
     for (const auto& count : counts_)
       if (count) count->round_.first = nullptr;
   }
+  /// As KnownWaits::move().
+  void move(const Decoded* code) {
+    for (const auto& count : counts_)
+      if (count && count->round_.first) count->move(code_, code);
+    code_ = code;
+  }
 
  private:
-  static std::size_t place_of(const Decoded* first) {
-    return reinterpret_cast<std::uintptr_t>(first) / 32 % kMost;
-  }
+  std::size_t place_of(const Decoded* first) const { return words_between(code_, first) % kMost; }
   static constexpr std::size_t kMost = 32, kTried = 4;  // places
   std::array<std::unique_ptr<Count>, kMost> counts_;
+  const Decoded* code_ = nullptr;
 };
 
 }  // namespace dspic

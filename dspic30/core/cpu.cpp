@@ -40,6 +40,7 @@ void Cpu::choose_code() {
     code_version_ = program.version();
     window_words = nullptr;
     forget_code(true);
+    forget_waits();
   }
   const auto [reads, writes] = special_registers(*this);
   const unsigned so_far = written & kAllWritten;
@@ -51,18 +52,30 @@ void Cpu::choose_code() {
 }
 
 void Cpu::run_on(std::shared_ptr<CodeTable> table) {
-  const Decoded* const words = table->words();
+  const Decoded *const words = table->words(), *const before = code_;
   const auto moved = [&](const Decoded* d) { return address_of_host_place(d) ? d : words + (d - code_); };
   if (at) at = moved(at);
   next = next ? moved(next) : words;
   code_ = words;
   table_ = std::move(table);
   if (!address_of_host_place(next) && !is_decoded(next)) decode(next);
-  known_waits.forget();
-  known_counts.forget();
-  heads.reset(words);
   find_loop_end();
   code_is_stale = false;
+  if (words == before) return;
+  known_waits.move(words);
+  known_counts.move(words);
+  heads.move(words, [this](const Decoded* head) {
+    if (!is_decoded(head)) decode(head);
+    table_->mark_wait(head, &meet_head);
+  });
+  if (waits && before) waits->move(before, words);
+}
+
+void Cpu::forget_waits() {
+  known_waits.forget();
+  known_counts.forget();
+  heads.forget();
+  if (waits) waits->forget(*this);
 }
 
 // an address in a register that was never written resets the chip
@@ -104,6 +117,7 @@ void Cpu::warm(const Decoded* target) {
 }
 
 void Cpu::reset() {
+  forget_waits();
   w.fill(0);
   w[15] = kRamStart;
   n = 0;

@@ -129,6 +129,8 @@ class Cpu final : public DataSpace {
   // --- waits (waits.h)
   /// A wait was proven that begins here: from now on the program stops there to look, if `heads` says so.
   void mark_head(const Decoded* first);
+  /// ... and all that is known of waits: of other code, or behind a reset.
+  void forget_waits();
   /// The program comes to a head: does it stop?
   bool stops_at(const Decoded* head);
   /// Where waits of this program begin.

@@ -2,6 +2,7 @@
 // A word of flash made ready to run.
 #pragma once
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 
 namespace dspic {
@@ -36,5 +37,10 @@ struct Decoded {
   Decoded& operator=(const Decoded& other);
 };
 static_assert(sizeof(Decoded) == 32);
+
+/// From the first of a program's words to one of them; of any other place a number that means nothing.
+inline std::size_t words_between(const Decoded* first, const Decoded* word) {
+  return (reinterpret_cast<std::uintptr_t>(word) - reinterpret_cast<std::uintptr_t>(first)) / sizeof(Decoded);
+}
 
 }  // namespace dspic

@@ -137,16 +137,20 @@ void RoundMemory::Words::put(std::uint8_t* ram) const {
 
 // --- waits
 
-std::size_t KnownWaits::place_of(const Decoded* first) {
-  return reinterpret_cast<std::uintptr_t>(first) / sizeof(Decoded) % kMost;
+std::size_t KnownWaits::place_of(const Decoded* first) const { return words_between(code_, first) % kMost; }
+
+void KnownWaits::move(const Decoded* code) {
+  for (const auto& wait : waits_)
+    if (wait) wait->first = code + (wait->first - code_);
+  code_ = code;
 }
 
 // no DO loop, whose place is not in the state; no modulo addressing
 bool KnownWaits::is_plain(const Cpu& cpu) { return !cpu.loop_end && cpu.modcon == 0; }
 
 const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
-  const Wait* const wait = waits_[place_of(cpu.next)].get();
-  return wait && wait->first == cpu.next && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
+  const Wait* const wait = at(cpu.next);
+  return wait && is_plain(cpu) && wait->memory.are_as_read(cpu.ram.data()) &&
                  wait->state.is_of_round(cpu, wait->registers, wait->sets_flags)
              ? wait
              : nullptr;
@@ -154,7 +158,12 @@ const KnownWaits::Wait* KnownWaits::find(const Cpu& cpu) const {
 
 void KnownWaits::add(const Cpu& cpu, const Wait& wait) {
   if (!is_plain(cpu)) return;
-  auto& known = waits_[place_of(wait.first)];
+  // at its own place, else at the first that is free, else instead of another
+  std::size_t place = place_of(wait.first);
+  for (std::size_t i = kTried; i-- > 0;)
+    if (const auto& known = waits_[(place_of(wait.first) + i) % kMost]; !known || known->first == wait.first)
+      place = place_of(wait.first) + i;
+  auto& known = waits_[place % kMost];
   if (known)
     *known = wait;
   else

@@ -12,12 +12,12 @@
 #include <memory>
 #include <vector>
 
+#include "dspic30/core/decoded.h"
 #include "dspic30/memory/cycle.h"
 
 namespace dspic {
 
 class Cpu;
-struct Decoded;
 
 /// All that a round may change or depend on and that is neither RAM nor a peripheral's, in words that compare
 /// quickly. Not of DO loops: their places.
@@ -124,23 +124,29 @@ class KnownWaits {
   const Wait* find(const Cpu& cpu) const;
   /// The one that begins at an instruction; null: none is known.
   const Wait* at(const Decoded* first) const {
-    const auto& wait = waits_[place_of(first)];
-    return wait && wait->first == first ? wait.get() : nullptr;
+    const std::size_t place = place_of(first);
+    for (std::size_t i = 0; i < kTried; ++i)
+      if (const auto& wait = waits_[(place + i) % kMost]; wait && wait->first == first) return wait.get();
+    return nullptr;
   }
   /// Proven, with cpu.next at its first instruction.
   void add(const Cpu& cpu, const Wait& wait);
   void forget() {
     for (auto& wait : waits_) wait.reset();
   }
+  /// The program goes on in other words, alike and in the same order; `code` is the first.
+  void move(const Decoded* code);
 
  private:
-  static constexpr std::size_t kMost = 16;
-  static std::size_t place_of(const Decoded* first);
+  static constexpr std::size_t kMost = 16, kTried = 4;
+  std::size_t place_of(const Decoded* first) const;
   /// Does a round depend on no more than Wait holds?
   static bool is_plain(const Cpu& cpu);
 
-  // by the instruction that a round is met at: an interrupt comes to any of them
+  // By the instruction that a round is met at: an interrupt comes to any of them. One is at its place, or at one
+  // of the next.
   std::array<std::unique_ptr<Wait>, kMost> waits_;
+  const Decoded* code_ = nullptr;
 };
 
 }  // namespace dspic

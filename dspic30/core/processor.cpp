@@ -41,12 +41,12 @@ Processor::~Processor() = default;
 
 void Processor::restart() {
   rest_until_ = 0;
-  waits_->forget(*cpu_);
   asleep_since_ = kNever;
   cpu_->reset();
   cpu_->now += kResetCycles;
   cpu_->still_since = kNever;
   cpu_->clocks.reset(cpu_->now);
+  waits_->begin_at(cpu_->now);
   by_heart_.fill({});
   held_ = 3;
   seen_ = kUnseen;
@@ -58,6 +58,7 @@ void Processor::power_up(Cycle at) {
   cpu_->ram.fill(0);
   cpu_->now = at;
   cpu_->clocks.reset(at);
+  waits_->begin_at(at);
 }
 
 Processor::Still Processor::still() const { return {cpu_->still_since, cpu_->still_reads}; }
@@ -136,10 +137,7 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     // The chip says what comes next: a reset, an interrupt, or nothing up to the horizon.
     Outlook outlook = cpu.parts.look(cpu.now);
     if (outlook.reset_due) return chip_.reset_due(cpu.now);
-    if (cpu.is_code_stale()) {
-      cpu.choose_code();
-      waits_->forget(cpu);
-    }
+    if (cpu.is_code_stale()) cpu.choose_code();
     // Of the handlers known by heart it may be that one is let in or held off from now on, or that one comes
     // before the chip's own interrupts.
     if (cpu.host && follow_host(outlook.vector)) continue;
@@ -172,17 +170,20 @@ std::optional<ResetKind> Processor::run(Cycle until) {
     }
     // The program runs on, up to the next instant at which anything else may happen.
     cpu.deadline = cpu.stop_at = std::min(until, outlook.horizon);
+    Cycle disi = kNever;
     if (cpu.host) {
       cpu.host_followed = false;
-      cpu.stop_at = std::min(cpu.deadline, disi_horizon());
+      disi = disi_horizon();
+      cpu.stop_at = std::min(cpu.deadline, disi);
       cpu.deadline = cpu.clocks.program_at(std::min(cpu.deadline, host_horizon()));
     }
     if (cpu.repeating && waits_->is_away()) cpu.next = cpu.run_repeated(cpu.next);
     cpu.soonest = outlook.horizon;
     execute();
-    // It waits at the end, and nothing was written: the next window may go on from there (rests()).
+    // It waits at the end, nothing was written, and DISI lets no handler known by heart in from now on: the next
+    // window may go on from there (rests()).
     if (waits_->is_waiting() && cpu.deadline > 0 && !cpu.host_stale && !cpu.returned &&
-        cpu.parts.interrupts.writes() == cpu.writes_seen)
+        cpu.parts.interrupts.writes() == cpu.writes_seen && cpu.now < disi)
       rest = std::min(cpu.soonest, host_horizon());
   }
 }
@@ -290,9 +291,10 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     cpu.parts.events.tell_change(cpu.now);
     cpu.host->hold_handler(number, is_held(h), pending, cpu.now);
     cpu.host_stale = true;
-    // what waits for this handler is asked again
-    if (!is_held(h) && stands_in_host(cpu) && cpu.stands_until == kNever) cpu.stands_until = cpu.now;
-    if (waits_->is_waiting()) waits_->stir(cpu);  // what it looks at stands, or moves again
+    // what waits for this handler is asked again, and what it looks at stands, or moves again
+    const bool is_asked = !is_held(h) && stands_in_host(cpu) && cpu.stands_until == kNever;
+    if (is_asked) cpu.stands_until = cpu.now;
+    if (is_asked || waits_->is_waiting()) waits_->stir(cpu);
   }
   // a flag of one that is let in is looked at each time
   constexpr unsigned kAll = (1u << HostCalls::kHandlers) - 1;
@@ -497,6 +499,7 @@ void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addre
   cpu_->onlooker = watch;
   cpu_->tell_calls(std::move(addresses));
 }
+void Processor::tell_also(std::uint32_t address) { cpu_->tell_also(address); }
 void Processor::tell_course(CourseWatch* watch) { cpu_->course = watch; }
 void Processor::know(std::shared_ptr<const KnownCalls> calls) { cpu_->know(std::move(calls)); }
 void Processor::check_memory(MemoryCheck* check) { cpu_->check_memory(check); }

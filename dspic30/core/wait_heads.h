@@ -18,10 +18,14 @@ class WaitHeads {
   bool has(const Decoded* d) const { return find(d) != nullptr; }
   /// From now on one is here.
   void add(const Decoded* d);
-  /// ... of words that begin there; none is known.
-  void reset(const Decoded* code) {
-    heads_.clear();
+  void forget() { heads_.clear(); }
+  /// The program goes on in other words, alike and in the same order; `code` is the first. `mark` is called for
+  /// each head there.
+  template <class Mark>
+  void move(const Decoded* code, Mark&& mark) {
     code_ = code;
+    for (const Head& head : heads_)
+      if (head.place >= 0) mark(code_ + head.place);
   }
   /// Does the program stop at this head, at that true time?
   bool would_stop(const Decoded* d, Cycle when) const {

@@ -191,6 +191,7 @@ void Waits::come_round(Cpu& cpu) {
     step(cpu);
     left_ -= cpu.now - before;
     if (cpu.deadline == end) continue;
+    if (cpu.is_code_stale()) return;
     comes_round_ = nullptr;
     return fail(cpu);
   }
@@ -226,9 +227,9 @@ void Waits::look(Cpu& cpu) {
       if (trace.empty()) trace.reserve(kUsualRound);
       trace.push_back({d, cpu.n, round.memory.touched()});
     }
-    // something else is due
+    // It goes on in other words, once they are chosen; else something else is due.
     if (cpu.deadline != end) {
-      fail(cpu);
+      if (!cpu.is_code_stale()) fail(cpu);
       break;
     }
     if (cpu.repeating) continue;  // the window cuts it
@@ -291,7 +292,7 @@ void Waits::end_round(Cpu& cpu) {
 
 void Waits::fail(Cpu& cpu) {
   constexpr unsigned kRarestHints = 64;
-  if (std::exchange(is_hinted_, false)) hint_gap_ = std::min(2 * hint_gap_, kRarestHints);
+  if (is_hinted_look(cpu)) hint_gap_ = std::min(2 * hint_gap_, kRarestHints);
   state_ = State::Away;
   forget_probe();
   cpu.still_since = kNever;
@@ -300,15 +301,24 @@ void Waits::fail(Cpu& cpu) {
   Schedule& next = schedule(cpu);
   if (next.at > now) return;
   next.at = now + next.between;
-  next.between = std::min(2 * next.between, kRarestInVain);
+  const Cycle rarest = std::min((now - began_) / kOftenAtFirst, kRarestInVain);
+  next.between = std::min(2 * next.between, std::max(next.between, rarest));
 }
 
 // --- waiting
 
+/// Is it the one that an interrupt came into? A loop may have two heads, where another one shares a function
+/// with it.
+bool Waits::goes_on(const Cpu& cpu, const KnownWaits::Wait& wait) const {
+  if (cut_ == wait.first) return true;
+  const KnownWaits::Wait* const before = cut_ ? cpu.known_waits.at(cut_) : nullptr;
+  return before && before->memory.are_as_read(cpu.ram.data());
+}
+
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
   forget_probe(wait);
-  if (std::exchange(is_hinted_, false)) hint_gap_ = 1;
+  if (is_hinted_look(cpu)) hint_gap_ = 1;
   is_by_head_ = at_head_ || cpu.heads.has(wait->first);
   wait_ = wait;
   until_ = cpu.watched_until;
@@ -316,7 +326,7 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   entered_at_ = round_began_at_;
   // ... and so was the rest of the one that an interrupt had come into
   delayed_ = round_delayed_;
-  if (cut_ == wait->first && entered_ - resumed_ <= wait->took) {
+  if (entered_ - resumed_ <= wait->took && goes_on(cpu, *wait)) {
     entered_ = resumed_;
     entered_at_ = resumed_at_;
     delayed_ = resumed_delayed_;
@@ -488,10 +498,18 @@ void Waits::go_through(Cpu& cpu, int vector, Cycle cut, Cycle cut_true) {
 
 void Waits::hint(Cpu& cpu) {
   if (!is_away()) return stir(cpu);
-  if (++hints_ < hint_gap_) return;
-  hints_ = 0;
-  is_hinted_ = true;
+  const bool is_of_handler = cpu.parts.interrupts.cpu().nesting() > 0;
+  if (!is_of_handler) {
+    if (++hints_ < hint_gap_) return;
+    hints_ = 0;
+    is_hinted_ = true;
+  }
   schedule(cpu).at = 0;
+}
+
+// A handler's looks have nothing to do with hints to the program: one that is known by heart has none.
+bool Waits::is_hinted_look(const Cpu& cpu) {
+  return cpu.parts.interrupts.cpu().nesting() == 0 && std::exchange(is_hinted_, false);
 }
 
 // where nothing has changed, it is found again within a round, and has waited all the time
@@ -505,19 +523,36 @@ void Waits::stir(Cpu& cpu) {
   schedule(cpu).at = 0;
 }
 
+void Waits::move(const Decoded* from, const Decoded* to) {
+  const auto move = [from, to](const Decoded*& d) {
+    if (d && !address_of_host_place(d)) d = to + (d - from);
+  };
+  for (const Decoded** d : {&cut_, &look_head_, &behind_.first, &behind_.last}) move(*d);
+  if (!probe_) return;
+  move(probe_->round.first);
+  for (CountStep& step : probe_->trace) move(step.at);
+  if (probe_->proven.round().first) probe_->proven.move(from, to);
+}
+
 void Waits::forget(Cpu& cpu) {
   if (is_waiting()) leave(cpu);
   state_ = State::Away;
   at_head_ = false;
   cut_ = nullptr;
   passed_ = {};
+  begin_at(cpu.true_now());
+}
+
+void Waits::begin_at(Cycle now) {
+  began_ = now;
   handler_looks_ = {};
   looks_beside_ = hints_ = 0;
   hint_gap_ = 1;
-  look_gap_ = kRarestLooks;
+  is_hinted_ = false;
+  look_gap_ = kFirstGap;
   put_off_ = 0;
-  look_by_ = cpu.now + look_gap_;
-  for (Schedule& s : schedules_) s = {cpu.now + kFirstLooks, kFirstLooks};
+  look_by_ = now + look_gap_;
+  for (Schedule& s : schedules_) s = {now + kFirstLooks, kFirstLooks};
 }
 
 }  // namespace dspic

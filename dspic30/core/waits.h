@@ -48,10 +48,16 @@ class Waits {
   }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
-  /// ... a flag that one may well wait for: it looks soon, each time more seldom where there was no wait.
+  /// ... a flag that one may well wait for: it looks soon, outside of handlers each time more seldom where there
+  /// was no wait.
   void hint(Cpu& cpu);
-  /// A reset.
+  /// A reset, or the flash holds other code.
   void forget(Cpu& cpu);
+  /// The program begins at that true time.
+  void begin_at(Cycle now);
+  /// The program, which does not wait, goes on in other words, alike and in the same order; the first ones of
+  /// both.
+  void move(const Decoded* from, const Decoded* to);
 
   /// A wait in a loop that counts, as it would be found at its own known head: when the program comes there,
   /// is cut by the handler of a vector, and goes on. Cycles of the program, and true ones.
@@ -105,6 +111,7 @@ class Waits {
     Cycle between = kFirstLooks;
   };
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;        // cycles between two looks
+  static constexpr Cycle kOftenAtFirst = 32;                             // looks while the time doubles
   static constexpr Cycle kRarestInVain = 1 << 18;                        // ... where none ever found a wait
   static constexpr Cycle kFirstInHandler = 4096;                         // ... since it began
   static constexpr std::uint16_t kLooksAsOften = 8, kMostLooks = 60000;  // then a handler less has one
@@ -116,8 +123,8 @@ class Waits {
   static constexpr Cycle kFirstBehind = 40, kStepBehind = 29;
   // of kFirstBehind: so up to the length of a tick of the agenda, and of seven
   static constexpr unsigned kHandlerDoublings = 5, kBesideDoublings = 8;
-  static constexpr Cycle kMostGap = 1 << 27;     // between two looks beside known heads
-  static constexpr int kMostPutOff = 4;          // times, of such a look
+  static constexpr Cycle kFirstGap = 2048, kMostGap = 1 << 27;  // between two looks beside known heads
+  static constexpr int kMostPutOff = 4;                         // times, of such a look
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
   const Schedule& schedule(const Cpu& cpu) const {
@@ -140,12 +147,14 @@ class Waits {
     resumed_at_ = cpu.true_now();
   }
   void note_look(const Cpu& cpu);
+  bool is_hinted_look(const Cpu& cpu);
   static Cycle soon(unsigned look, unsigned doublings);
   Cycle look_behind(Cpu& cpu, const Decoded* head, Cycle now);
   Cycle look_beside_heads(const Cpu& cpu, Cycle now) const;
   bool was_passed(const KnownWaits::Wait& wait, Cycle rounds) const;
   void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle look_in);
   void fail(Cpu& cpu);
+  bool goes_on(const Cpu& cpu, const KnownWaits::Wait& wait) const;
   void enter(Cpu& cpu, const KnownWaits::Wait* wait);
   void enter_count(Cpu& cpu, const Count* count, Cycle rounds);
   /// By the program's clock.
@@ -167,8 +176,9 @@ class Waits {
   State state_ = State::Away;
   bool is_by_head_ = false;                 // the wait's first instruction is one where the program stops
   bool at_head_ = false;                    // the look began at a known wait's first instruction
-  bool is_hinted_ = false;                  // the look that is due, or goes on, is one
+  bool is_hinted_ = false;                  // the program's look that is due, or goes on, is one
   std::array<Schedule, 2> schedules_;       // of the program, of its handlers
+  Cycle began_ = 0;                         // the program, true time
   const KnownWaits::Wait* wait_ = nullptr;  // the wait: the probe's round, or a known one
   const Count* counts_ = nullptr;           // it is a loop that counts
   Cycle until_ = kNever, entered_ = 0;      // true time; cycles of the program
@@ -203,11 +213,11 @@ class Waits {
     const KnownWaits::Wait* wait = nullptr;
     Cycle at = 0;  // cycles of the program
   };
-  std::array<Passed, 2> passed_;                            // met at their heads last, in another state
-  int passes_ = 0;                                          // in a row
-  Cycle look_by_ = kRarestLooks, look_gap_ = kRarestLooks;  // true time
-  int put_off_ = 0;                                         // times that the look which is due was
-  unsigned looks_beside_ = 0;                               // that were due
+  std::array<Passed, 2> passed_;                      // met at their heads last, in another state
+  int passes_ = 0;                                    // in a row
+  Cycle look_by_ = kFirstGap, look_gap_ = kFirstGap;  // true time
+  int put_off_ = 0;                                   // times that the look which is due was
+  unsigned looks_beside_ = 0;                         // that were due
   /// The round that is looked at.
   struct Probe {
     KnownWaits::Wait round;

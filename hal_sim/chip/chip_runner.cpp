@@ -114,7 +114,6 @@ void ChipRunner::tell_calls() {
   std::vector<std::uint32_t> addresses = image_->functions().addresses();
   if (memory_)
     for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
-  addresses.insert(addresses.end(), agendas_.begin(), agendas_.end());
   processor_->tell_calls(this, std::move(addresses));
 }
 
@@ -122,7 +121,8 @@ void ChipRunner::tell_calls() {
 /// activated, and the place to which they return once one has been called.
 void ChipRunner::follow_agendas(unsigned address) {
   const auto learn = [this](unsigned place) {
-    if (place != 0 && agendas_.insert(place).second) tell_calls();
+    const bool is_place = place != 0 && place % 2 == 0 && place < dspic::kFlashEnd;
+    if (is_place && agendas_.insert(place).second) processor_->tell_also(place);
   };
   if (image_->functions().activates_agenda(address)) return learn(processor_->w(0));
   if (address == agenda_returns_to_) {

@@ -279,6 +279,103 @@ TEST_P(RegisterTraces, looking_changes_nothing_of_what_is_sent_unnoticed) {
   }
 }
 
+/// Programs that wait, and are cut where it is hard to tell what was waited.
+struct Waiter {
+  const char* name;
+  const char* functions;
+  const char* body;
+  double most_load;
+};
+const Waiter kWaiters[] = {
+    {"agenda", "void tick(void) { SRbits.IPL = 7; for (i = 0; i < 20; i++) continue; SRbits.IPL = 0; }",
+     R"(
+  e_activate_agenda(tick, 7);
+  e_start_agendas_processing();
+  for (;;) { LED0 ^= 1; for (n = 0; n < 9000; n++) continue; })",
+     0.1},
+    {"disi", "",
+     R"(
+  e_init_motors();
+  e_start_agendas_processing();
+  e_set_speed(450, 0);
+  for (;;) {
+    INTERRUPT_OFF();
+    for (i = 0; i < 8; i++) c[i] = i * n;
+    INTERRUPT_ON();
+    for (n = 0; n < 3000; n++) continue;
+    __asm__ volatile("disi #8000");
+    for (n = 0; n < 1000; n++) c[3]++;
+  })",
+     0.15},
+    {"nested",
+     "void __attribute__((interrupt, no_auto_psv)) _T3Interrupt(void) {\n"
+     "  IFS0bits.T3IF = 0; i++; for (int k = 0; k < 900; k++) Nop();\n}",
+     R"(
+  e_init_motors();
+  e_init_ad_scan(ALL_ADC);
+  e_start_agendas_processing();
+  e_set_speed(350, 60);
+  T3CON = 0; PR3 = 20000; IPC1bits.T3IP = 6; IEC0bits.T3IE = 1; T3CONbits.TON = 1;
+  for (;;) {
+    while (i < 40) continue;
+    i = 0;
+    e_send_uart1_char("forty\r\n", 7);
+    while (e_uart1_sending()) continue;
+  })",
+     0.6},
+    {"computes", "",
+     R"(
+  e_init_motors();
+  e_start_agendas_processing();
+  for (;;) {
+    n += sinf(n * 0.01f) * 100;
+    sprintf(text, "%ld %d\r\n", n, n > 3);
+    e_send_uart1_char(text, strlen(text));
+    while (e_uart1_sending()) continue;
+  })",
+     0.6},
+    {"scan", "",
+     R"(
+  e_init_motors();
+  e_init_ad_scan(ALL_ADC);
+  e_start_agendas_processing();
+  for (;;) {
+    while (e_ad_is_acquisition_completed()) continue;
+    while (!e_ad_is_acquisition_completed()) continue;
+    LED1 ^= 1;
+  })",
+     0.25}};
+
+TEST_P(RegisterTraces, looking_changes_nothing_of_the_load) {
+  for (const Waiter& waiter : kWaiters) {
+    SCOPED_TRACE(waiter.name);
+    const std::string folder = std::string("waits_") + waiter.name;
+    write(folder + "/main.c", std::string("#include <math.h>\n#include <stdio.h>\n#include <string.h>\n"
+                                          "#include <a_d/advance_ad_scan/e_ad_conv.h>\n"
+                                          "#include <p30F6014A.h>\n#include <motor_led/e_epuck_ports.h>\n"
+                                          "#include <motor_led/e_init_port.h>\n"
+                                          "#include <motor_led/advance_one_timer/e_agenda.h>\n"
+                                          "#include <motor_led/advance_one_timer/e_motors.h>\n"
+                                          "#include <uart/e_uart_char.h>\n"
+                                          "volatile int i;\nlong n;\nint c[8];\nchar text[40];\n") +
+                                  waiter.functions +
+                                  "\nint main(void) {\n  e_init_port();\n  e_init_uart1();\n  " +
+                                  waiter.body + "\n}\n");
+    const auto outcome = [&](const std::string& options) {
+      const Said s = twinpuck("run empty --fw " + path(folder) + " --hal " + hal() +
+                              " --for 0.6 -q --summary " + path("s.json") + options);
+      EXPECT_EQ(s.exit_code, 0) << s.text;
+      const json summary = json::parse(read(path("s.json")));
+      return std::pair<json, json>(summary["digest"], summary["robots"][0]["cpu_load"]);
+    };
+    const auto without = outcome("");
+    EXPECT_LT(without.second.get<double>(), waiter.most_load);
+    for (const std::string& look : {" --vcd " + path("i.vcd"), " --trace " + path("i.json"),
+                                    " --profile-json " + path("p.json"), " --record " + path("r.csv")})
+      EXPECT_EQ(outcome(look), without) << look;
+  }
+}
+
 // an error that the library tells of comes at its instant, whoever looks
 TEST_P(RegisterTraces, looking_changes_nothing_of_when_an_error_is_told) {
   write("wrong/main.c",

@@ -202,13 +202,14 @@ end: bra end)";
   }
 }
 
+struct Told final : dspic::ProgramWatch {
+  void trapped(dspic::Trap, unsigned) override {}
+  void went_to_reset_vector(unsigned) override {}
+  void entered(unsigned address) override { all.push_back(address); }
+  std::vector<unsigned> all;
+};
+
 TEST(CodeStore, whoever_is_told_of_other_functions_has_its_own_code) {
-  struct Told final : dspic::ProgramWatch {
-    void trapped(dspic::Trap, unsigned) override {}
-    void went_to_reset_vector(unsigned) override {}
-    void entered(unsigned address) override { all.push_back(address); }
-    std::vector<unsigned> all;
-  };
   const std::string text =
       "__reset: mov #3, w1\n1: rcall f\n rcall g\n dec w1, w1\n bra nz, 1b\nend: bra end\n"
       "f: return\ng: return\n";
@@ -222,6 +223,32 @@ TEST(CodeStore, whoever_is_told_of_other_functions_has_its_own_code) {
   EXPECT_EQ(of_f.all, std::vector<unsigned>(3, a->symbol("f")));
   EXPECT_EQ(of_g.all, std::vector<unsigned>(3, a->symbol("g")));
   EXPECT_EQ(also_of_f.all, of_f.all);
+}
+
+// of code that is translated, too, and for all that run it
+TEST(CodeStore, one_more_function_is_told_from_then_on) {
+  constexpr Cycle kRound = 2 + 3 + 3 + 2;  // RCALL, RETURN, three of one cycle, BRA
+  const std::string text =
+      "__reset: clr w0\n mov #5, w2\n1: rcall f\n add w0, w2, w2\n mov w2, 0x900\n inc w0, w0\n bra 1b\n"
+      "f: return\ng: return\n";
+  const Store store = new_store();
+  Told told;
+  const auto a = robot(text, store), b = robot(text, store), later = robot(text, store);
+  a->cpu->tell_calls(&told, {a->symbol("g")});
+  for (const auto* one : {&a, &b}) (*one)->run(400000);
+  const int translated = a->cpu->cpu().table().translated();
+  EXPECT_GT(translated, 0);
+  EXPECT_TRUE(told.all.empty());
+  const Cycle from = a->cpu->now();
+  for (int times = 0; times < 2; ++times) a->cpu->tell_also(a->symbol("f"));
+  EXPECT_LT(a->cpu->cpu().table().translated(), translated);
+  for (const auto* one : {&a, &b}) (*one)->run(from + 400000);
+  EXPECT_NEAR(static_cast<double>(told.all.size()), 400000.0 / kRound, 1);
+  EXPECT_EQ(told.all.back(), a->symbol("f"));
+  // it runs as one that nobody is told of, and so does one that begins now
+  EXPECT_EQ(course_of(*a), course_of(*b));
+  later->run(from + 400000);
+  EXPECT_EQ(course_of(*a), course_of(*later));
 }
 
 // decoding, translating and running at once; `make tsan T=CodeStore`

@@ -288,7 +288,8 @@ TEST(WaitHeads, of_equal_places_are_all_kept_until_there_is_no_more_room) {
   dspic::WaitHeads heads;
   EXPECT_FALSE(heads.has_any());
   EXPECT_FALSE(heads.has(&code[0]));
-  heads.reset(code.data());
+  const auto nobody = [](const dspic::Decoded*) {};
+  heads.move(code.data(), nobody);
   // eight apart, so that they collide as long as there is room for eight, then for 16
   for (int n = 0; n < 2 * kTried; ++n) {
     heads.add(&code[static_cast<std::size_t>(n * kApart)]);
@@ -297,17 +298,25 @@ TEST(WaitHeads, of_equal_places_are_all_kept_until_there_is_no_more_room) {
     EXPECT_FALSE(heads.has(&code[static_cast<std::size_t>((n + 1) * kApart)]));
   }
   // what was known of one goes along: it pauses 50 cycles, and twice as long each time
-  heads.reset(code.data());
+  heads.forget();
   heads.add(&code[0]);
   heads.pause(&code[0], false, 1000);
   for (int n = 1; n <= kTried; ++n) heads.add(&code[static_cast<std::size_t>(n * kApart)]);
   EXPECT_FALSE(heads.is_due(&code[0], 1049));
   EXPECT_TRUE(heads.is_due(&code[0], 1050));
-  // 32 words apart only four have room: the fifth takes the place of one
-  heads.reset(code.data());
-  EXPECT_FALSE(heads.has_any());
+  // ... and to other words: each is told of
   std::vector<dspic::Decoded> far(kMost * (kTried + 1));
-  heads.reset(far.data());
+  int told = 0;
+  heads.move(far.data(), [&](const dspic::Decoded* head) {
+    EXPECT_EQ((head - far.data()) % kApart, 0);
+    ++told;
+  });
+  EXPECT_EQ(told, kTried + 1);
+  EXPECT_FALSE(heads.is_due(&far[0], 1049));
+  EXPECT_TRUE(heads.is_due(&far[0], 1050));
+  // 32 words apart only four have room: the fifth takes the place of one
+  heads.forget();
+  EXPECT_FALSE(heads.has_any());
   for (int n = 0; n <= kTried; ++n) heads.add(&far[static_cast<std::size_t>(n * kMost)]);
   int kept = 0;
   for (int n = 0; n <= kTried; ++n) kept += heads.has(&far[static_cast<std::size_t>(n * kMost)]);
