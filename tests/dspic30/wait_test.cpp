@@ -324,4 +324,36 @@ TEST(WaitHeads, of_equal_places_are_all_kept_until_there_is_no_more_room) {
   EXPECT_TRUE(heads.has(&far[kTried * kMost]));
 }
 
+// --- what is known of them: four of one place, whichever words they lie in
+
+TEST(KnownWaits, of_equal_places_are_all_found_until_there_is_no_more_room) {
+  constexpr std::ptrdiff_t kApart = 16, kTried = 4;
+  CoreBench b("__reset: bra __reset");
+  const dspic::Decoded* const code = b.cpu->cpu().code();
+  dspic::KnownWaits known;
+  known.move(code);
+  const auto add = [&](std::ptrdiff_t n, Cycle took) {
+    dspic::KnownWaits::Wait wait;
+    wait.first = code + n * kApart;
+    wait.took = took;
+    known.add(b.cpu->cpu(), wait);
+  };
+  for (std::ptrdiff_t n = 0; n < kTried; ++n) add(n, n + 1);
+  add(2, 30);  // once more: it is another one now
+  for (std::ptrdiff_t n = 0; n < kTried; ++n) {
+    ASSERT_TRUE(known.at(code + n * kApart)) << n;
+    EXPECT_EQ(known.at(code + n * kApart)->took, n == 2 ? 30 : n + 1);
+  }
+  EXPECT_FALSE(known.at(code + kTried * kApart));
+  EXPECT_FALSE(known.at(code + 1));
+  // all go along to other words
+  const std::vector<dspic::Decoded> other(kApart * (kTried + 1));
+  known.move(other.data());
+  EXPECT_FALSE(known.at(code));
+  for (std::ptrdiff_t n = 0; n < kTried; ++n)
+    EXPECT_TRUE(known.at(&other[static_cast<std::size_t>(n * kApart)]));
+  known.forget();
+  EXPECT_FALSE(known.at(other.data()));
+}
+
 }  // namespace
