@@ -496,10 +496,9 @@ Cycle Processor::waiting_since() const {
 }
 void Processor::set_translator(Translator* translator) { cpu_->translator = translator; }
 void Processor::tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses) {
-  cpu_->onlooker = watch;
-  cpu_->tell_calls(std::move(addresses));
+  if (std::exchange(cpu_->onlooker, watch) != watch) return cpu_->tell_calls(std::move(addresses));
+  for (const std::uint32_t address : addresses) cpu_->tell_also(address);
 }
-void Processor::tell_also(std::uint32_t address) { cpu_->tell_also(address); }
 void Processor::tell_course(CourseWatch* watch) { cpu_->course = watch; }
 void Processor::know(std::shared_ptr<const KnownCalls> calls) { cpu_->know(std::move(calls)); }
 void Processor::check_memory(MemoryCheck* check) { cpu_->check_memory(check); }

@@ -67,10 +67,8 @@ class Processor {
   /// time depends on it.
   void set_translator(Translator* translator);
   /// Whoever hears of traps, null pointers, and of the beginning of the functions at `addresses`; it outlives
-  /// this. Nothing but the PC's time depends on it.
+  /// this. Asked again, of these as well. Nothing but the PC's time depends on it.
   void tell_calls(ProgramWatch* watch, std::vector<std::uint32_t> addresses);
-  /// ... and at one more.
-  void tell_also(std::uint32_t address);
   /// Whoever hears of handlers and waits from now on; null: nobody. Outlives this, or is taken away. Nothing
   /// but the PC's time depends on it.
   void tell_course(CourseWatch* watch);

@@ -122,7 +122,7 @@ void ChipRunner::tell_calls() {
 void ChipRunner::follow_agendas(unsigned address) {
   const auto learn = [this](unsigned place) {
     const bool is_place = place != 0 && place % 2 == 0 && place < dspic::kFlashEnd;
-    if (is_place && agendas_.insert(place).second) processor_->tell_also(place);
+    if (is_place && agendas_.insert(place).second) processor_->tell_calls(this, {place});
   };
   if (image_->functions().activates_agenda(address)) return learn(processor_->w(0));
   if (address == agenda_returns_to_) {

@@ -144,6 +144,7 @@ def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path,
             "--unshare-all", "--die-with-parent", "--new-session", "--", *words]
 
 
+_LOOKS_S = 0.1  # how long a signal may wait at most
 _running: set[int] = set()  # groups of processes, one a submission that is being graded
 _is_ending = threading.Event()  # no more of them
 
@@ -469,7 +470,9 @@ def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: p
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         graded = [pool.submit(grade, student, options, base) for student in students]
         try:
-            concurrent.futures.wait(graded)
+            # in pieces: a signal that another thread has taken does not wake this one
+            while concurrent.futures.wait(graded, _LOOKS_S).not_done:
+                pass
         except KeyboardInterrupt:  # nobody stays behind
             _is_ending.set()
             for group in list(_running):

@@ -240,7 +240,7 @@ TEST(CodeStore, one_more_function_is_told_from_then_on) {
   EXPECT_GT(translated, 0);
   EXPECT_TRUE(told.all.empty());
   const Cycle from = a->cpu->now();
-  for (int times = 0; times < 2; ++times) a->cpu->tell_also(a->symbol("f"));
+  for (int times = 0; times < 2; ++times) a->cpu->tell_calls(&told, {a->symbol("f")});
   EXPECT_LT(a->cpu->cpu().table().translated(), translated);
   for (const auto* one : {&a, &b}) (*one)->run(from + 400000);
   EXPECT_NEAR(static_cast<double>(told.all.size()), 400000.0 / kRound, 1);
