@@ -32,6 +32,14 @@ const Decoded* write_first(Cpu& cpu, const Decoded* d) {
   return function_of(cpu.program.read(cpu.address_of(d)))(cpu, d);
 }
 
+// False: it is there already.
+bool add_in_order(std::vector<std::uint32_t>& addresses, std::uint32_t address) {
+  const auto place = std::lower_bound(addresses.begin(), addresses.end(), address);
+  if (place != addresses.end() && *place == address) return false;
+  addresses.insert(place, address);
+  return true;
+}
+
 template <class T>
 T* zeroed() {
   void* const memory = std::calloc(kFlashWords + 1, sizeof(T));
@@ -192,9 +200,7 @@ void CodeTable::mark_wait(const Decoded* d, Run stop) {
 
 void CodeTable::tell_also(std::uint32_t address) {
   const std::lock_guard lock(mutex_);
-  const auto place = std::lower_bound(told_.begin(), told_.end(), address);
-  if (place != told_.end() && *place == address) return;
-  told_.insert(place, address);
+  if (!add_in_order(told_, address)) return;
   const std::size_t index = address / 2;
   const Decoded& word = words_[index];
   Beside& beside = beside_[index];
@@ -240,9 +246,7 @@ bool CodeStore::tell(const std::vector<std::uint32_t>& addresses) {
 
 void CodeStore::tell_also(std::uint32_t address) {
   const std::lock_guard lock(mutex_);
-  const auto place = std::lower_bound(told_.begin(), told_.end(), address);
-  if (place != told_.end() && *place == address) return;
-  told_.insert(place, address);
+  if (!add_in_order(told_, address)) return;
   for (const auto& table : tables_) table->tell_also(address);
 }
 

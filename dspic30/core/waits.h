@@ -55,8 +55,7 @@ class Waits {
   void forget(Cpu& cpu);
   /// The program begins at that true time.
   void begin_at(Cycle now);
-  /// The program, which does not wait, goes on in other words, alike and in the same order; the first ones of
-  /// both.
+  /// The program goes on in other words, alike and in the same order; the first ones of both.
   void move(const Decoded* from, const Decoded* to);
 
   /// A wait in a loop that counts, as it would be found at its own known head: when the program comes there,

@@ -47,6 +47,11 @@ class RegisterTraces : public CommandTest, public ::testing::WithParamInterface<
     return twinpuck("run " + path("world.toml") + " -q --hal " + hal() + " --fw 'puck=" + path(program) +
                     "' " + options);
   }
+  /// Outputs that a run may have, each of which looks at it in its own way.
+  std::vector<std::string> looks() const {
+    return {" --vcd " + path("i.vcd"), " --trace " + path("i.json"), " --profile-json " + path("p.json"),
+            " --record " + path("r.csv")};
+  }
   Dump dump(const std::string& signals, const std::string& more = "--for 0.02", int exit_code = 0) const {
     std::string chosen;
     for (std::size_t from = 0; from < signals.size();) {
@@ -273,9 +278,7 @@ TEST_P(RegisterTraces, looking_changes_nothing_of_what_is_sent_unnoticed) {
       return json::parse(read(path("s.json")))["digest"];
     };
     const json without = digest("");
-    for (const std::string& look : {" --vcd " + path("i.vcd"), " --trace " + path("i.json"),
-                                    " --profile-json " + path("p.json"), " --record " + path("r.csv")})
-      EXPECT_EQ(digest(look), without) << sender.name << look;
+    for (const std::string& look : looks()) EXPECT_EQ(digest(look), without) << sender.name << look;
   }
 }
 
@@ -370,9 +373,7 @@ TEST_P(RegisterTraces, looking_changes_nothing_of_the_load) {
     };
     const auto without = outcome("");
     EXPECT_LT(without.second.get<double>(), waiter.most_load);
-    for (const std::string& look : {" --vcd " + path("i.vcd"), " --trace " + path("i.json"),
-                                    " --profile-json " + path("p.json"), " --record " + path("r.csv")})
-      EXPECT_EQ(outcome(look), without) << look;
+    for (const std::string& look : looks()) EXPECT_EQ(outcome(look), without) << look;
   }
 }
 
