@@ -15,7 +15,7 @@ constexpr int kMostRefusals = 4;  // then a place is not asked for again: thread
 
 // no flash at that address
 const Decoded* fetch_nothing(Cpu& cpu, const Decoded* d) {
-  cpu.trap(Trap::AddressError);
+  cpu.trap_at(cpu.address_of(d), TrapRecord::Access::Fetch);
   return d;
 }
 

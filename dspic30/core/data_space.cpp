@@ -98,7 +98,7 @@ void DataSpace::pop_frame(unsigned registers, int words) {
 
 // --- traps
 
-void DataSpace::trap(Trap which) {
+void DataSpace::trap(Trap which, std::optional<TrapRecord::Touch> touch) {
   settle();
   const int level = parts.interrupts.cpu().level(), own_level = trap_level(static_cast<int>(which));
   if (level < own_level && parts.interrupts.control().has_trap(which))
@@ -111,12 +111,15 @@ void DataSpace::trap(Trap which) {
   // beyond the limit and beyond RAM at once: the limit is what the program was to keep
   const bool follows = which == Trap::AddressError && parts.interrupts.control().has_trap(Trap::StackError) &&
                        latest_trap && latest_trap->pc == address_of(at);
-  if (!follows) latest_trap = {which, address_of(at), now};
+  const TrapRecord record{which, address_of(at), now, touch};
+  if (!follows) latest_trap = record;
   const char* name = vector_name(static_cast<int>(which));
-  const std::string place = std::string(name) + " at " + hex(address_of(at), 6);
-  parts.diagnostics.report(Cause::CpuTrap, place, place + ": the program goes on at the trap's vector", now);
+  const std::string place = std::string(name) + " at " + hex(address_of(at), 6),
+                    why = touch ? ": " + text_of(*touch) : "";
+  parts.diagnostics.report(Cause::CpuTrap, place, place + why + ": the program goes on at the trap's vector",
+                           now);
   parts.events.run_to(now);
-  if (onlooker) onlooker->trapped(which, address_of(at));
+  if (onlooker) onlooker->trapped(record);
   parts.interrupts.raise_trap(which, now);
   deadline = 0;
 }
@@ -161,7 +164,7 @@ unsigned DataSpace::read_served(unsigned ea, unsigned bits, Cycle t) {
 // all but results of the converter
 unsigned DataSpace::read_other(unsigned ea, unsigned bits, Cycle t) {
   if (bits == 16 && (ea & 1)) {
-    trap(Trap::AddressError);
+    trap_at(ea, TrapRecord::Access::Read);
     return 0;
   }
   if (is_served(ea)) {
@@ -190,7 +193,7 @@ unsigned DataSpace::read_other(unsigned ea, unsigned bits, Cycle t) {
     return value;
   }
   if (ea >= kPsvStart && (corcon & kPsvOn)) return read_psv(ea, bits);
-  trap(Trap::AddressError);
+  trap_at(ea, TrapRecord::Access::Read);
   return 0;
 }
 
@@ -241,7 +244,7 @@ void DataSpace::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
 
 // all but registers of a converter that is off
 void DataSpace::write_other(unsigned ea, unsigned value, unsigned bits) {
-  if (bits == 16 && (ea & 1)) return trap(Trap::AddressError);
+  if (bits == 16 && (ea & 1)) return trap_at(ea, TrapRecord::Access::Write);
   if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();
     const unsigned shift = bits == 8 && (ea & 1) ? 8 : 0;
@@ -266,7 +269,7 @@ void DataSpace::write_other(unsigned ea, unsigned value, unsigned bits) {
     }
   if (memory_check) memory_check->writes(whole(), ea, bits);
   const Cycle t = true_now() + at->lead;
-  if (ea >= kSfrBytes) return trap(Trap::AddressError);
+  if (ea >= kSfrBytes) return trap_at(ea, TrapRecord::Access::Write);
   hurry_to(parts.write(ea, static_cast<std::uint16_t>(value), bits, t));
   if (parts.nvm.stalled_until() > t) {  // flash is being programmed
     now += parts.nvm.stalled_until() - t;

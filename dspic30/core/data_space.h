@@ -145,8 +145,11 @@ class DataSpace : public CodeWords, public HostSide, public RoundNotes {
   }
 
   /// The instruction at `at` does what the chip does not allow: the flag is set, and the trap's handler comes
-  /// before the next instruction.
-  void trap(Trap which);
+  /// before the next instruction. An address error is about what it touched.
+  void trap(Trap which, std::optional<TrapRecord::Touch> touch = {});
+  void trap_at(unsigned address, TrapRecord::Access access) {
+    trap(Trap::AddressError, TrapRecord::Touch{address, access});
+  }
 
   // --- time
   /// The true time.

@@ -66,7 +66,7 @@ const Decoded* at_function(Cpu& cpu, const Decoded* d) {
     return cpu.jump(high << 16 | (low & 0xFFFE), d);
   }
   if (result.wait_until <= at) {
-    cpu.trap(Trap::AddressError);  // there is none
+    cpu.trap_at(cpu.address_of(d), TrapRecord::Access::Fetch);  // there is none
     return d;
   }
   if (cpu.host_stale) cpu.deadline = 0;
@@ -84,7 +84,7 @@ const Decoded* at_handler_return(Cpu& cpu, const Decoded* d) {
     cpu.now -= d->cycles;
     return following;
   }
-  cpu.trap(Trap::AddressError);
+  cpu.trap_at(cpu.address_of(d), TrapRecord::Access::Fetch);
   return d;
 }
 

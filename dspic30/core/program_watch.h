@@ -2,15 +2,15 @@
 // What a program does that is hardly ever meant, and functions of it that somebody wants to know of: told to
 // whoever looks after it, at the instruction itself. Nobody pays for it where it does not happen.
 #pragma once
-#include "dspic30/periph/vectors.h"
+#include "dspic30/core/trap_record.h"
 
 namespace dspic {
 
 class ProgramWatch {
  public:
   virtual ~ProgramWatch() = default;
-  /// The instruction at `from` led to a trap.
-  virtual void trapped(Trap trap, unsigned from) = 0;
+  /// An instruction led to a trap.
+  virtual void trapped(const TrapRecord& trap) = 0;
   /// A call, jump or return at `from` took address 0 from a register or the stack: the program begins anew,
   /// and nothing is reset.
   virtual void went_to_reset_vector(unsigned from) = 0;

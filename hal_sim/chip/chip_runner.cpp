@@ -300,10 +300,13 @@ void ChipRunner::report(const Ending& ending, const std::vector<unsigned>& calle
   for (const unsigned call : callers) report.backtrace.push_back(data_->place_of(call));
   report.cycle = processor_->now();
   report.time_s = to_world_s ? to_world_s(report.cycle) : 0;
-  // it may come ten thousand times a second, from here and from there
+  // it may come ten thousand times a second, from here and from there; a pointer that is wrong may be another
+  // one each time
   const auto same = std::find_if(traps_.begin(), traps_.end(), [&](const host::TrapReport& known) {
-    return known.message == report.message && known.place.function == report.place.function &&
-           known.place.file == report.place.file && known.place.line == report.place.line;
+    return known.kind == report.kind &&
+           (known.message == report.message || report.kind == host::kTrapAddress) &&
+           known.place.function == report.place.function && known.place.file == report.place.file &&
+           known.place.line == report.place.line;
   });
   if (same != traps_.end())
     ++same->count;

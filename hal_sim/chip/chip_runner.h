@@ -108,10 +108,10 @@ class ChipRunner final : public host::Runner,
   void tell_reset(Cycle at);
   void tell_calls();
   void follow_agendas(unsigned address);
-  void trapped(dspic::Trap trap, unsigned from) override {
-    chip_.digest().note(EventDigest::Kind::Trap, static_cast<std::uint64_t>(trap) << 32 | from,
+  void trapped(const dspic::TrapRecord& trap) override {
+    chip_.digest().note(EventDigest::Kind::Trap, static_cast<std::uint64_t>(trap.trap) << 32 | trap.pc,
                         processor_->now());
-    endings_->note_trap(trap, from);
+    endings_->note_trap(trap);
   }
   void went_to_reset_vector(unsigned from) override;
   void entered(unsigned address) override {

@@ -43,14 +43,16 @@ bool is_vector(const std::string& function) {
 
 }  // namespace
 
-void Endings::note_trap(Trap trap, unsigned from) {
+void Endings::note_trap(const dspic::TrapRecord& record) {
+  const Trap trap = record.trap;
+  const unsigned from = record.pc;
   if ((chip_.device().peek(kIntcon1, chip_.latest()) & kTrapFlags) != 0) return;
   // what a stack does that has outgrown its limit, or RAM, fails in more ways than one
   const unsigned stack = processor_.w(kStackPointer),
                  limit = chip_.device().peek(kStackLimit, chip_.latest());
   const bool overflows =
       trap == Trap::StackError || (trap == Trap::AddressError && limit != 0 && stack > limit);
-  noted_ = {trap, from, places_.own(from), overflows, dspic::kNoVector};
+  noted_ = {record, places_.own(from), overflows, dspic::kNoVector};
   // a vector that holds no address leads nowhere
   const int vector = places_.open_vector();
   if (vector == dspic::kNoVector || places_.handler(vector) != from || file_.words.count(from)) return;
@@ -72,7 +74,7 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
       return of_instruction(here);
     case dspic::ResetKind::TrapConflict:
       if (noted_.missing != dspic::kNoVector) return of_interrupt(noted_.missing, noted_.place);
-      return of_trap(noted_.trap,
+      return of_trap(noted_.record.trap,
                      "a second trap came before the first one's handler, so the processor resets");
     case dspic::ResetKind::IllegalOpcode: {
       // the chip takes all for an illegal opcode; what stands there tells them apart
@@ -180,7 +182,9 @@ unsigned Endings::called_main(unsigned reset_at) const {
 
 Ending Endings::of_trap(Trap trap, const std::string& then) const {
   Ending ending{kind_of(trap), dspic::vector_name(static_cast<int>(trap)), "", processor_.pc()};
-  if (noted_.trap == trap) {
+  // a stack that has gone beyond RAM is an address error as well, whose handler comes first
+  const bool is_noted = noted_.record.trap == trap || (noted_.overflows && trap == Trap::AddressError);
+  if (is_noted) {
     ending.place = noted_.place;
     if (noted_.overflows) trap = Trap::StackError;
     ending.kind = kind_of(trap);
@@ -195,7 +199,9 @@ Ending Endings::of_trap(Trap trap, const std::string& then) const {
       ending.message = "division by zero, or an overflow of an accumulator";
       break;
     case Trap::AddressError:
-      ending.message = "an access to an address that is not there, or to a word at an odd one";
+      ending.message = is_noted && noted_.record.touch
+                           ? text_of(*noted_.record.touch)
+                           : "an access to an address that is not there, or to a word at an odd one";
       break;
     default:
       ending.message = "the oscillator failed";

@@ -32,8 +32,8 @@ class Endings final {
           const dspic::Processor& processor, SolderedChip& chip, const ProgramPlaces& places)
       : file_(file), program_(program), processor_(processor), chip_(chip), places_(places) {}
 
-  /// The instruction at `from` leads to a trap, which has not been raised yet.
-  void note_trap(dspic::Trap trap, unsigned from);
+  /// An instruction leads to a trap, which has not been raised yet.
+  void note_trap(const dspic::TrapRecord& trap);
   /// The chip resets, with the processor still as it was. None: the program asked for it.
   std::optional<Ending> of_reset(dspic::ResetKind kind) const;
   /// exit() with a failure, where a function of the host does that.
@@ -60,8 +60,8 @@ class Endings final {
   mutable std::map<int, std::string> meant_;  // by vector: what may be its handler
   // the trap whose handler runs, or comes next: traps while it does not count
   struct Noted {
-    dspic::Trap trap = dspic::Trap::AddressError;
-    unsigned from = 0, place = 0;
+    dspic::TrapRecord record;
+    unsigned place = 0;
     bool overflows = false;  // it is the stack that went too far
     int missing = -1;        // the vector that led nowhere
   } noted_;

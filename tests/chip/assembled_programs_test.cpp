@@ -160,10 +160,12 @@ TEST_F(AssembledPrograms, resets_that_nobody_asked_for_are_told) {
   ASSERT_EQ(robot.traps().size(), 1u);
   EXPECT_TRUE(wording::reads(robot.traps()[0].message,
                              "an illegal opcode resets the processor: the program ran into what is no code"));
-  EXPECT_TRUE(wording::reads(robot.diagnoses_text(),
-                             "AddressError at 0x000106: trap: AddressError at 0x000106: the program goes on "
-                             "at the trap's vector; at sub_000104() (0x000106); twinpuck dis shows the "
-                             "instruction there; without a handler of its own a program resets"));
+  EXPECT_TRUE(
+      wording::reads(robot.diagnoses_text(),
+                     "AddressError at 0x000106: trap: AddressError at 0x000106: a word at the odd address "
+                     "0x1235 is read: the program goes on at the trap's vector; at sub_000104() "
+                     "(0x000106); twinpuck dis shows the instruction there; without a handler of "
+                     "its own a program resets"));
 }
 
 TEST_F(AssembledPrograms, broken_files_are_named) {

@@ -203,7 +203,7 @@ end: bra end)";
 }
 
 struct Told final : dspic::ProgramWatch {
-  void trapped(dspic::Trap, unsigned) override {}
+  void trapped(const dspic::TrapRecord&) override {}
   void went_to_reset_vector(unsigned) override {}
   void entered(unsigned address) override { all.push_back(address); }
   std::vector<unsigned> all;
