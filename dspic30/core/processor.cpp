@@ -353,8 +353,12 @@ bool Processor::raise_held(std::size_t h) {
     raises = true;
     const bool was_set = interrupts.sources().flag(irq);
     interrupts.raise(irq, handler.source);
-    if (was_set) handler.missed_at = handler.source;
-    handler.source = was_set ? kNever : cpu.host->source_event(static_cast<int>(h), handler.source);
+    const Cycle next = cpu.host->source_event(static_cast<int>(h), handler.source);
+    if (was_set) {
+      handler.missed_at = handler.source;
+      interrupts.tally().missing.begin(irq, handler.source, std::max<Cycle>(1, next - handler.source));
+    }
+    handler.source = was_set ? kNever : next;
   }
   if (raises) waits_->hint(cpu);  // perhaps it waits for this
   return raises;
@@ -364,11 +368,11 @@ void Processor::count_missed(std::size_t h) {
   Cpu& cpu = *cpu_;
   ByHeart& handler = by_heart_[h];
   const Cycle next = cpu.host->source_event(static_cast<int>(h), cpu.now);
-  if (handler.missed_at > 0 && next < kNever) {
-    const Cycle period = std::max<Cycle>(
-        1, cpu.host->source_event(static_cast<int>(h), handler.missed_at) - handler.missed_at);
-    cpu.parts.interrupts.note_missed(irqs_[h], (cpu.now - handler.missed_at) / period, cpu.now);
-  }
+  // one that stands by now came no more, as far as anybody knows
+  Interrupts& interrupts = cpu.parts.interrupts;
+  interrupts.note_missed(
+      irqs_[h], interrupts.tally().missing.end(irqs_[h], next < kNever ? cpu.now : handler.missed_at),
+      cpu.now);
   handler.missed_at = 0;
   handler.source = next;
 }

@@ -42,9 +42,12 @@ bool ChipInterrupts::wakes(Cycle now) {
   return parts_.interrupts.sources().waking() != 0;
 }
 
-std::int64_t ChipInterrupts::missed(int vector) const {
+std::int64_t ChipInterrupts::missed(int vector, Cycle now) const {
   if (vector < kFirstIrqVector) return 0;
-  return parts_.interrupts.tally().missed.of(vector - kFirstIrqVector);
+  const int irq = vector - kFirstIrqVector;
+  const InterruptTally& tally = parts_.interrupts.tally();
+  const std::int64_t uncounted = is_enabled(vector) ? tally.missing.of(irq, now) : 0;
+  return tally.missed.of(irq) + uncounted + parts_.timers.missed_of(irq, now);
 }
 
 std::int64_t ChipInterrupts::served(int vector) const { return parts_.interrupts.tally().served.of(vector); }

@@ -39,8 +39,8 @@ class ChipInterrupts {
   Cycle flag_since(int vector) const;
   /// An enabled interrupt's flag is set, whatever its priority: the processor wakes.
   bool wakes(Cycle now);
-  /// Events that found their enabled flag still set, since power-up; handlers that began.
-  std::int64_t missed(int vector) const;
+  /// Events that found their enabled flag still set, from power-up to `now`; handlers that began.
+  std::int64_t missed(int vector, Cycle now) const;
   std::int64_t served(int vector) const;
 
  private:

@@ -85,9 +85,9 @@ void Dspic30f6014a::reset(ResetKind kind, Cycle now) {
   p.events.run_to(now);
   if (kind == ResetKind::PowerOn) p.bus.forget_writes();
   p.switch_modules(0, 0, now);
+  p.timers.reset(now);  // which counts what was missed while its interrupts are still enabled
   p.interrupts.reset(now);
   p.ports.reset(now);
-  p.timers.reset(now);
   p.adc.reset(now);
   for (Uart& u : p.uarts) u.reset(now);
   p.i2c.reset(now);

@@ -137,10 +137,45 @@ class Tally {
   std::vector<Row> rows_;
 };
 
+/// Sources that come in a rhythm while their flag stays set: how many of their events are missed is known
+/// without telling each.
+class Rhythms {
+ public:
+  /// One was missed at `since`, another is each `period`.
+  void begin(int irq, Cycle since, Cycle period) {
+    for (Row& row : rows_)
+      if (row.irq < 0) {
+        row = {irq, since, period};
+        return;
+      }
+  }
+  /// Those behind the first, by `now`.
+  std::int64_t of(int irq, Cycle now) const {
+    for (const Row& row : rows_)
+      if (row.irq == irq) return (now - row.since) / row.period;
+    return 0;
+  }
+  /// The same, and no more are missed.
+  std::int64_t end(int irq, Cycle now) {
+    const std::int64_t all = of(irq, now);
+    for (Row& row : rows_)
+      if (row.irq == irq) row = {};
+    return all;
+  }
+
+ private:
+  struct Row {
+    int irq = -1;  // none
+    Cycle since = 0, period = 1;
+  };
+  std::array<Row, 2> rows_;  // as many as there are handlers known by heart
+};
+
 /// Events that found their enabled flag still set, by source, and handlers that began, by vector, since
 /// power-up.
 struct InterruptTally {
   Tally missed, served;
+  Rhythms missing;  ///< not among `missed` yet
 };
 
 }  // namespace dspic

@@ -27,6 +27,7 @@ const char* vector_name(int vector) {
 void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }
 
 void Interrupts::reset(Cycle now) {
+  for (int irq = 0; irq < kIrqs; ++irq) note_missed(irq, tally_.missing.end(irq, now), now);
   sources_.reset(kDefaultPriority, now);
   control_ = InterruptControl{};
   cpu_.reset();

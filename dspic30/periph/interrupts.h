@@ -30,7 +30,7 @@ class Interrupts final : public SfrOwner {
   const InterruptSources& sources() const { return sources_; }
   const InterruptControl& control() const { return control_; }
   const CpuLevel& cpu() const { return cpu_; }
-  const InterruptTally& tally() const { return tally_; }
+  InterruptTally& tally() { return tally_; }
   FlagListeners& listeners() { return listeners_; }
 
   // --- for peripherals

@@ -73,6 +73,7 @@ void Timers::attach() {
 
 void Timers::reset(Cycle now) {
   for (int t = 1; t <= kTimers; ++t) {
+    count_missed(t, now);
     const int slot = unit(t).slot;
     const bool wanted = unit(t).wanted;
     unit(t) = Unit{};
@@ -246,14 +247,21 @@ void Timers::schedule(int timer, Cycle now) {
 void Timers::count_missed(int timer, Cycle now) {
   Unit& u = unit(timer);
   if (!u.lazy) return;
-  if (u.lazy_since >= u.next_from && now < u.next) {
-    u.lazy_since = now;
-    return;
-  }
-  std::int64_t missed = matches_by(timer, now) - matches_by(timer, u.lazy_since);
-  if (u.pending_flag > u.lazy_since && u.pending_flag <= now) ++missed;
-  f_.interrupts.note_missed(flag_of(timer), missed, now);
+  f_.interrupts.note_missed(flag_of(timer), uncounted(timer, now), now);
   u.lazy_since = now;
+}
+
+std::int64_t Timers::uncounted(int timer, Cycle now) const {
+  const Unit& u = unit(timer);
+  if (u.lazy_since >= u.next_from && now < u.next) return 0;
+  const bool had_pending = u.pending_flag > u.lazy_since && u.pending_flag <= now;
+  return matches_by(timer, now) - matches_by(timer, u.lazy_since) + had_pending;
+}
+
+std::int64_t Timers::missed_of(int irq, Cycle now) const {
+  for (int t = 1; t <= kTimers; ++t)
+    if (unit(t).lazy && flag_of(t) == irq && f_.interrupts.sources().enabled(irq)) return uncounted(t, now);
+  return 0;
 }
 
 void Timers::tell_changed(int timer, Cycle at) {

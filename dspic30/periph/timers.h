@@ -42,6 +42,8 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   void want_matches(int timer, bool wanted, Cycle now);
   std::uint32_t count(int timer, Cycle at) const;
   bool is_running(int timer) const;
+  /// Matches that have found their enabled flag set since it was, up to `now`, and are counted once it falls.
+  std::int64_t missed_of(int irq, Cycle now) const;
   std::uint32_t period(int timer) const { return unit(timer).pr; }
   /// First tick after `after` at which the count becomes `value`; kNever when it does not.
   Cycle next_reach(int timer, std::uint32_t value, Cycle after) const;
@@ -102,6 +104,7 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   void configure(int timer, Cycle at);
   void schedule(int timer, Cycle now);
   void count_missed(int timer, Cycle now);
+  std::int64_t uncounted(int timer, Cycle now) const;  // of matches that found the flag set, if it is lazy
   // apart from the usual course of a timer on the chip's clock, which then keeps little on the stack
   __attribute__((noinline)) void irregular_event(int id, Cycle at);
   __attribute__((noinline)) void catch_up(int timer, Cycle now);

@@ -461,11 +461,12 @@ ProfileReport Profile::report() const {
   // Interrupts: those that a handler known by heart serves within steps, too, where some were merged.
   std::map<int, InterruptTally> interrupts = interrupts_;
   for (int vector = dspic::kFirstIrqVector; vector < dspic::kVectors; ++vector)
-    if (device_.interrupts().missed(vector) > 0) interrupts.try_emplace(vector);
+    if (device_.interrupts().missed(vector, report.to) > 0) interrupts.try_emplace(vector);
   for (const auto& [vector, tally] : interrupts)
     report.interrupts.push_back(
         {vector, dspic::vector_name(vector), tally.cycles, tally.latency, tally.period,
-         vector >= dspic::kFirstIrqVector ? device_.interrupts().missed(vector) : 0, tally.missed});
+         vector >= dspic::kFirstIrqVector ? device_.interrupts().missed(vector, report.to) : 0,
+         tally.missed});
   // Waits, and among the loops the main one.
   const Loop* main_loop = nullptr;
   for (const auto& [target, loop] : loops_) {

@@ -113,7 +113,7 @@ std::vector<board::Diagnosis> SolderedChip::diagnoses() const {
 std::int64_t SolderedChip::count_of(const dspic::Diagnosis& d) const {
   if (d.cause == dspic::Cause::MissedInterrupt)
     for (int v = dspic::kFirstIrqVector; v < dspic::kVectors; ++v)
-      if (d.place == dspic::vector_name(v)) return device_->interrupts().missed(v);
+      if (d.place == dspic::vector_name(v)) return device_->interrupts().missed(v, latest_);
   if (d.cause == dspic::Cause::UartOverrun) return device_->uart_overruns(d.place[1] - '0');
   return device_->diagnostics().count(d.cause, d.place);
 }

@@ -232,6 +232,9 @@ const Injected kInjected[] = {
     {"endless_in_callback",
      "void bad(void){ seen[0]++; while(1) seen[1]=1; } int main(void){ start(); e_set_speed_left(900); "
      "e_activate_agenda(bad,5); while(1); }"},
+    {"masked_for_good",
+     "int main(void){ start(); e_init_ad_scan(0); e_set_speed_left(900); spend(20000); SRbits.IPL = 7; "
+     "while(1) seen[8]++; }"},
     // --- callbacks that change the list
     {"destroy_self",
      "void bad(void){ seen[0]++; if (seen[0]==5) seen[1]=e_destroy_agenda(bad); } void other(void){ "
@@ -394,7 +397,7 @@ TEST(Injected, lost_ticks_are_counted_and_told_as_on_the_chip) {
   for (const Injected& c : kInjected) {
     const std::string name = c.name;
     if (name != "long_3" && name != "long_20" && name != "long_scan" && name != "endless_in_callback" &&
-        name != "ipl_7")
+        name != "ipl_7" && name != "masked_for_good")
       continue;
     SCOPED_TRACE(name);
     const sim::WorldDesc world = world_with("injected-" + name, kInjectedHead + c.program);
@@ -418,6 +421,10 @@ TEST(Injected, lost_ticks_are_counted_and_told_as_on_the_chip) {
       return lines;
     };
     EXPECT_EQ(sorted(told(sim, true)), sorted(told(dspic, true)));
+    // what is held off for good is counted up to now: 10,000 ticks a second
+    if (name == "masked_for_good" || name == "endless_in_callback") {
+      EXPECT_GT(count(sim, "T2"), 9000 * (kSecondsRun - 0.25));
+    }
   }
 }
 

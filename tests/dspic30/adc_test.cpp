@@ -238,7 +238,7 @@ TEST(Adc, slow_handler_misses_scans) {
   b.enable(irq::Adc, 0);
   set_up(b, 0x001C, 39, 3, 9);
   b.chip.run_to(10 + 5 * 900 + 1);
-  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::Adc), 4);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::Adc, 10 + 5 * 900 + 1), 4);
   EXPECT_EQ(b.notes.count(dspic::Cause::MissedInterrupt), 1);
 }
 

@@ -224,10 +224,16 @@ TEST(Timer, matches_that_find_their_flag_set_are_counted_as_missed) {
   b.enable(irq::T1, 0);
   b.write("PR1", 100, 0);
   b.write("T1CON", 0x8000, 0);
+  b.chip.run_to(1049);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::T1, 1049), 9) << "the flag is still set";
   b.clear_flag(irq::T1, 1050);
-  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::T1), 9);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::T1, 1050), 9);
   ASSERT_EQ(b.notes.count(dspic::Cause::MissedInterrupt), 1);
   EXPECT_EQ(b.flag_rises(irq::T1, 1051), 102 + 10 * 101);
+  // a reset counts as well: 1112 sets it, 1213 to 1920 find it set
+  b.chip.run_to(2000);
+  b.chip.reset(dspic::ResetKind::Pin, 2000);
+  EXPECT_EQ(b.chip.interrupts().missed(dspic::kFirstIrqVector + irq::T1, 2000), 9 + 8);
 }
 
 TEST(Timer, horizon_of_the_count_is_its_next_tick) {
