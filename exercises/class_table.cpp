@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <map>
 
+#include "sim_core/base/utf8.h"
+
 namespace lab {
 
 namespace {
@@ -23,31 +25,12 @@ std::string padded(const std::string& text, std::size_t width) {
 
 std::size_t column_width(const Exercise& e) { return std::max<std::size_t>(4, e.id.size()); }
 
-/// The length of a well-formed UTF-8 sequence at `at`; 0: it is none.
-std::size_t utf8_length(const std::string& text, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
-  const unsigned first = byte(at);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xC2 && first < 0xE0 ? 2
-                             : (first & 0xF0) == 0xE0        ? 3
-                             : first >= 0xF0 && first < 0xF5 ? 4
-                                                             : 0;
-  for (std::size_t i = 1; i < length; ++i)
-    if ((byte(at + i) & 0xC0) != 0x80) return 0;
-  // longer than need be, halves of pairs, beyond the last one
-  if (length == 3 && ((first == 0xE0 && byte(at + 1) < 0xA0) || (first == 0xED && byte(at + 1) > 0x9F)))
-    return 0;
-  if (length == 4 && ((first == 0xF0 && byte(at + 1) < 0x90) || (first == 0xF4 && byte(at + 1) > 0x8F)))
-    return 0;
-  return length;
-}
-
 /// As text of XML and HTML, in attributes, too: bytes that neither has become '?'.
 std::string marked_up(const std::string& text) {
   std::string out;
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
-    const std::size_t length = utf8_length(text, at);
+    const std::size_t length = sim::utf8_length(text, at);
     if (length > 1) {
       out += text.substr(at, length);
       at += length;

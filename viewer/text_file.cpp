@@ -14,6 +14,7 @@
 
 #include "compiler/cache/object_cache.h"
 #include "sim_core/base/input_file.h"
+#include "sim_core/base/utf8.h"
 
 namespace viewer {
 
@@ -42,23 +43,8 @@ std::vector<Line> lines_of(std::string_view text) {
 }
 
 bool is_utf8(std::string_view text) {
-  for (std::size_t i = 0; i < text.size();) {
-    const auto byte = [&](std::size_t k) { return static_cast<unsigned char>(text[k]); };
-    const unsigned char first = byte(i);
-    const std::size_t more = first < 0x80                    ? 0
-                             : first >= 0xC2 && first < 0xE0 ? 1
-                             : (first & 0xF0) == 0xE0        ? 2
-                             : first >= 0xF0 && first < 0xF5 ? 3
-                                                             : 4;
-    if (more == 4 || i + more >= text.size() + (more == 0)) return false;
-    for (std::size_t k = 1; k <= more; ++k)
-      if ((byte(i + k) & 0xC0) != 0x80) return false;
-    // longer than need be, halves of pairs, beyond the last character
-    if ((first == 0xE0 && byte(i + 1) < 0xA0) || (first == 0xED && byte(i + 1) >= 0xA0) ||
-        (first == 0xF0 && byte(i + 1) < 0x90) || (first == 0xF4 && byte(i + 1) >= 0x90))
-      return false;
-    i += more + 1;
-  }
+  for (std::size_t at = 0, length = 0; at < text.size(); at += length)
+    if ((length = sim::utf8_length(text, at)) == 0) return false;
   return true;
 }
 

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "sim_core/base/utf8.h"
+
 namespace sim {
 namespace {
 
@@ -17,23 +19,6 @@ void font(cairo_t* cr, double size_px, bool bold) {
 
 void ink(cairo_t* cr, std::uint32_t rgb, double alpha) {
   cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
-}
-
-/// Bytes of the character that begins at `at`, 0 when there is none. Overlong forms and surrogates are none.
-std::size_t character_bytes(const std::string& s, std::size_t at) {
-  const auto byte = [&](std::size_t i) { return i < s.size() ? static_cast<unsigned char>(s[i]) : 0u; };
-  const unsigned first = byte(at);
-  const std::size_t n = first < 0x80                     ? 1
-                        : first >= 0xC2 && first <= 0xDF ? 2
-                        : first >= 0xE0 && first <= 0xEF ? 3
-                        : first >= 0xF0 && first <= 0xF4 ? 4
-                                                         : 0;
-  for (std::size_t i = 1; i < n; ++i)
-    if (byte(at + i) >> 6 != 2) return 0;
-  const unsigned second = byte(at + 1);
-  const bool bad = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                   (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-  return bad ? 0 : n;
 }
 
 }  // namespace
@@ -94,7 +79,7 @@ std::string write_drawing(const std::string& path, double width_px, double heigh
 std::string valid_utf8(const std::string& text) {
   std::string out;
   for (std::size_t i = 0; i < text.size();) {
-    const std::size_t n = character_bytes(text, i);
+    const std::size_t n = utf8_length(text, i);
     if (n) {
       out.append(text, i, n);
     } else {

@@ -305,6 +305,16 @@ TEST(build_inputs, a_file_that_changes_in_the_same_instant_is_told_by_its_conten
   EXPECT_TRUE(record.recall());
 }
 
+TEST(build_inputs, what_is_refused_is_told_once) {
+  cc::BuildInputs inputs;
+  inputs.refuse("/a/b.h", "header");
+  inputs.refuse("/a/b.h", "header");
+  EXPECT_EQ(inputs.refusals().size(), 1u);
+  inputs.refuse("/a/c.h", "header");
+  ASSERT_EQ(inputs.refusals().size(), 2u);
+  EXPECT_EQ(inputs.refusals()[1].rfind("/a/c.h: ", 0), 0u);
+}
+
 TEST(build_inputs, a_file_that_changed_while_its_reader_ran_is_never_the_same) {
   Folder folder;
   const std::int64_t began = cc::now_ns();

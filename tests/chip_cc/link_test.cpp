@@ -211,8 +211,11 @@ TEST_F(Built, sections_with_attributes_and_alignment_place_variables) {
   file("main.c",
        "int samples[64] __attribute__((section(\".ydata, data, ymemory\"), aligned(128))) = {1};\n"
        "int zeros[8] __attribute__((section(\".mine, bss, xmemory, address(0x1000)\")));\n"
+       "void aside(void) __attribute__((section(\".aside, code\")));\nvoid aside(void) { zeros[0] = 1; }\n"
+       "extern int elsewhere __attribute__((section(\".there, bss\")));\n"
+       "void never(void) { elsewhere = 1; }\n"
        "const int odd = 5;\nconst int table[128] __attribute__((space(auto_psv), aligned(256))) = {1, 2};\n"
-       "int main(void) { return samples[0] + zeros[1] + table[zeros[2]] + (int)&odd; }\n");
+       "int main(void) { aside(); return samples[0] + zeros[1] + table[zeros[2]] + (int)&odd; }\n");
   build();
   EXPECT_GE(place_of("_samples"), 0x1800u);
   EXPECT_EQ(place_of("_samples") % 128, 0u);

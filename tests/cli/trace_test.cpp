@@ -136,6 +136,12 @@ TEST_P(TracesOfBoth, time_line_of_the_chips_code_has_waits_handlers_and_agendas)
   for (const json& e : json::parse(read(path("t.json")))) {
     if (e["ph"] != "X") continue;
     const std::string name = e["name"];
+    // each on its track, and only a handler interrupts anything
+    const bool is_handler = std::isupper(static_cast<unsigned char>(name[0])) != 0;
+    if (name != "waiting") {
+      EXPECT_EQ(e["tid"], name == "busy" ? 1 : is_handler ? 2 : 3) << e;
+    }
+    EXPECT_EQ(e["args"].contains("first_instruction_us"), is_handler) << e;
     if (name == "busy") busy += e["dur"].get<double>();
     if (name == "waiting") waiting += e["dur"].get<double>();
     if (name == "T1") ++handlers;

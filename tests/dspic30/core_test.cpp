@@ -528,6 +528,34 @@ routine: mov #1, w5
   EXPECT_EQ(b.program.read(0x1004), 0xFFFFFFu);  // the rest of the row is blank
 }
 
+// the fourth one, through a latch; what is no configuration word is left alone
+TEST(Flash, configuration_words_are_written) {
+  CoreBench b(kFlashMacro + R"(__reset: mov #0xF8, w0
+    mov w0, TBLPAG
+    mov #6, w1
+    mov #0x1234, w2
+    tblwtl w2, [w1]
+    go 0x4008
+    clr TBLPAG
+    mov #0x1000, w1
+    tblwtl w2, [w1]
+    go 0x4008
+end: bra end)");
+  ASSERT_TRUE(b.run_to("end"));
+  EXPECT_EQ(b.program.read(0xF80006) & 0xFFFF, 0x1234u);
+  EXPECT_EQ(b.program.read(0x1000), 0xFFFFFFu);
+  // and the first one
+  CoreBench first(kFlashMacro + R"(__reset: mov #0xF8, w0
+    mov w0, TBLPAG
+    clr w1
+    mov #0x0142, w2
+    tblwtl w2, [w1]
+    go 0x4008
+end: bra end)");
+  ASSERT_TRUE(first.run_to("end"));
+  EXPECT_EQ(first.program.read(0xF80000) & 0xFFFF, 0x0142u);
+}
+
 TEST(Flash, eeprom_words_are_written_while_the_processor_runs) {
   CoreBench b(R"(
 __reset: mov #0x7F, w0

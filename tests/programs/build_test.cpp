@@ -225,7 +225,7 @@ TEST_F(BuildTest, projects_compile_and_run) {
         {"unfinished.c", "this does not compile\n"},
         {"Makefile",
          "C_SOURCES = makefile.c \\\n sub/half.c\nINCLUDE = -I\"inc\"\nLIBRARIES = -L\"lib\" -lm\n"
-         "CFLAGS = -DBIAS=1 -Werror\n" +
+         "CFLAGS = -DBIAS=1 -Werror -o unused -MMD -MF unused.d\n" +
              std::string(kMakeEnd)}},
        2,
        "2.5"},
@@ -257,6 +257,15 @@ TEST_F(BuildTest, projects_compile_and_run) {
         {"part.c", "static int part(void) { return 5; }\nint shared;\n"}},
        1,
        "5"},
+      {"as_text_in_a_circle",
+       {{"as_text_in_a_circle.c",
+         robot + "#include \"part.c\"\nint main() { printf(\"%d\", part()); return 0; }\n"},
+        {"part.c",
+         "#ifndef PART\n#define PART\n#include \"other.c\"\nstatic int part(void) { return other(); "
+         "}\n#endif\n"},
+        {"other.c", "#include \"part.c\"\nstatic int other(void) { return 8; }\n"}},
+       1,
+       "8"},
       {"old_c",
        {{"old_c.c", robot +
                         "#include \"common.h\"\ninline int twice(int n) { return 2 * n; }\n"

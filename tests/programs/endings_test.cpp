@@ -214,6 +214,22 @@ INSTANTIATE_TEST_SUITE_P(
                "hello()\nstep()\nif os.fork() == 0:\n    time.sleep(100)\nos._exit(0)\n", 0, ""}),
     [](const auto& info) { return std::string(info.param.name); });
 
+// a file is a compilation unit of its own, and the first one is not where it dies
+TEST_F(WatchedRuns, a_fault_in_another_file_of_a_program_is_found_there) {
+  const std::string bad =
+      program("bad", "c",
+              "#include <webots/robot.h>\nvoid dies(void);\nint main(void) { wb_robot_init(); "
+              "wb_robot_step(320); dies(); return 0; }\n");
+  write("bad/another.c", "int spare;\nvolatile int *nowhere;\nvoid dies(void) {\n  *nowhere = 1;\n}\n");
+  write("bad/further.c", "int further(void) { return 1; }\n");
+  world({{"bad", bad}});
+  const Said said = run("--for 1 -q", "timeout -s KILL 60");
+  EXPECT_EQ(said.exit_code, kTrap);
+  EXPECT_TRUE(reads(said.text,
+                    "bad: its program: ended by signal 11 (Segmentation fault)\n  at dies "
+                    "(@/bad/another.c:4), cycle …, 0.320312 s"));
+}
+
 // 10 MB of text in 10 steps: as fast as the pipe takes it. Nothing is lost, nothing waits for ever
 TEST_F(WatchedRuns, a_program_may_write_much_to_its_error_output) {
   world({{"bad", program("bad", "py",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Nodes of worlds of ours, which no file of Webots stands behind.
+#include "programs/world/catalogue.h"
 #include "tests/programs/nodes_fixture.h"
 #include "tests/support/wording.h"
 
@@ -308,6 +309,24 @@ TEST_F(NodesTest, noise_that_was_set_stays_when_something_comes) {
                     "Solid { translation 0 0.3 0.05 boundingObject Box { size 0.1 0.1 0.1 } }"});
   EXPECT_EQ(get(def("A"), "wheelNoise").numbers.at(0), 0.25);
   EXPECT_EQ(get(def("A"), "proximityNoise").numbers.at(0), 3);
+}
+
+TEST(FieldTypes, have_the_names_of_vrml) {
+  const struct {
+    int type;
+    const char* name;
+  } cases[] = {{programs::kNoField, ""},
+               {programs::kBool, "SFBool"},
+               {programs::kInt, "SFInt32"},
+               {programs::kTurn, "SFRotation"},
+               {programs::kNode, "SFNode"},
+               {programs::kNode + 1, ""},
+               {-1, ""},
+               {programs::kList, ""},
+               {programs::kList + programs::kVec3, "MFVec3f"},
+               {programs::kList + programs::kNode, "MFNode"},
+               {programs::kList + programs::kNode + 1, ""}};
+  for (const auto& c : cases) EXPECT_EQ(programs::field_type_name(c.type), c.name) << c.type;
 }
 
 }  // namespace

@@ -95,9 +95,10 @@ void RoutineProgram::call(unsigned address, const Words& w, unsigned flags) {
 }
 
 bool RoutineProgram::recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w,
-                            unsigned flags) {
+                            unsigned flags, dspic::Cycle deadline) {
   dspic::Cpu& cpu = *cpu_;
   begin(w, flags);
+  cpu.deadline = deadline;
   const dspic::Decoded* const d = cpu.jump(address, cpu.code());
   if (!dspic::recall(cpu, d, routine)) return false;
   cpu.now += d->cycles;

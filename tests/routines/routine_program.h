@@ -48,8 +48,10 @@ class RoutineProgram {
   void fill_ram(std::uint32_t seed);
   /// The routine itself runs, as if it was called with these registers and flags.
   void call(unsigned address, const Words& w, unsigned flags);
-  /// The same by heart; false: it is not known, and nothing has changed but what the call does.
-  bool recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w, unsigned flags);
+  /// The same by heart; false: it is not known, and nothing has changed but what the call does. Something else
+  /// may happen at `deadline`, counted from the routine's first instruction.
+  bool recall(const dspic::KnownRoutine& routine, unsigned address, const Words& w, unsigned flags,
+              dspic::Cycle deadline = dspic::kNever);
   /// Behind a call.
   void look(State& state) const;
   /// RAM as it was.

@@ -119,6 +119,23 @@ TEST_F(PacketMediumTest, strength_and_direction_are_those_of_the_geometry) {
   EXPECT_DOUBLE_EQ(tower.got[0].strength, 1);  // it has no place
 }
 
+// a supervisor is nowhere, whoever of the two it is
+TEST_F(PacketMediumTest, an_end_without_a_place_has_no_direction) {
+  world.robots[0].pose = {3, 4, 1};
+  a.say("up", 1, 0.01);
+  tower.say("down", 1, 0.01);
+  exchange();
+  ASSERT_EQ(tower.got.size(), 1u);
+  ASSERT_EQ(a.got.size(), 1u);
+  for (const End* end : {&tower, &a}) {
+    EXPECT_EQ(end->got[0].strength, 1);
+    EXPECT_EQ(end->got[0].direction.x, Vec3().x);
+    EXPECT_EQ(end->got[0].direction.y, Vec3().y);
+    EXPECT_EQ(end->got[0].direction.z, Vec3().z);
+  }
+  EXPECT_TRUE(b.got.size() == 1 && b.text(0) == "down") << "a metre away it does not hear the robot";
+}
+
 TEST_F(PacketMediumTest, the_range_ends_at_its_distance_and_binds_places_only) {
   c.channel = 1;
   a.say("near", 1, 1.0);

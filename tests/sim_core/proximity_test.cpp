@@ -387,4 +387,32 @@ TEST(Proximity, a_box_is_the_prism_of_its_corners) {
   EXPECT_GT(inside, 50);
 }
 
+// --- the floor's picture
+
+// two by two pixels over an arena of 2 m by 1 m around (1, 0): each holds its left and upper edge, and what is
+// outside is plain
+TEST(Floor, each_pixel_holds_its_left_and_upper_edge) {
+  sim::WorldDesc world;
+  world.arena.emplace();
+  world.arena->centre_m = {1, 0};
+  world.arena->size_m = {2, 1};
+  world.floor.colour = {0.5, 0.5, 0.5};
+  world.floor.image_width = world.floor.image_height = 2;
+  world.floor.image_rgb = {255, 0, 0, 0, 255, 0, 0, 0, 255, 51, 102, 153};
+  const struct {
+    sim::Vec2 at_m;
+    double r, g, b;
+  } cases[] = {{{0, 0.5}, 1, 0, 0},       {{0.999, 0.001}, 1, 0, 0},
+               {{1, 0.5}, 0, 1, 0},       {{1.999, 0.25}, 0, 1, 0},
+               {{0, 0}, 0, 0, 1},         {{0.5, -0.499}, 0, 0, 1},
+               {{1, 0}, 0.2, 0.4, 0.6},   {{-0.001, 0}, 0.5, 0.5, 0.5},
+               {{2, 0}, 0.5, 0.5, 0.5},   {{1, 0.501}, 0.5, 0.5, 0.5},
+               {{1, -0.5}, 0.5, 0.5, 0.5}};
+  for (const auto& c : cases) {
+    const sim::Colour got = sim::floor_at(world, c.at_m).colour;
+    EXPECT_TRUE(got.r == c.r && got.g == c.g && got.b == c.b)
+        << c.at_m.x << ", " << c.at_m.y << ": " << got.r << " " << got.g << " " << got.b;
+  }
+}
+
 }  // namespace

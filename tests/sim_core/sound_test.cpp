@@ -323,6 +323,8 @@ TEST(SoundInWorlds, mistakes_are_named) {
       "w.toml:3:8: sound.kind: got \"tune\", expected one of tone, noise, wav, clap; did you mean 'tone'?");
   EXPECT_EQ(report_of("[[sound]]\nkind = \"noise\"\nposition = [0, 0, 0]\nband = [400, 200]\n"),
             "w.toml:5:8: sound.band: got 400 to 200 Hz, expected the lower frequency first");
+  EXPECT_EQ(report_of("[[sound]]\nkind = \"noise\"\nposition = [0, 0, 0]\nband = [300, 300]\n"),
+            "w.toml:5:8: sound.band: got 300 to 300 Hz, expected the lower frequency first");
   EXPECT_EQ(report_of("[[sound]]\nkind = \"tone\"\nposition = [0, 0, 0]\nstart = 3\nstop = 2\n"),
             "w.toml:6:8: sound.stop: got 2 s, expected more than the start at 3 s");
   EXPECT_EQ(report_of("[[sound]]\nkind = \"wav\"\nposition = [0, 0, 0]\n"),

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sim_core/base/did_you_mean.h"
+#include "sim_core/base/utf8.h"
 #include "sim_core/geometry/neighbours.h"
 #include "sim_core/world/layout.h"
 #include "tests/sim_core/fixture.h"
@@ -64,6 +65,39 @@ TEST(Neighbours, what_is_near_a_point_is_gathered_once_and_in_order) {
     EXPECT_TRUE(std::is_sorted(indices.begin(), indices.end())) << row.at.x;
     EXPECT_EQ(std::adjacent_find(indices.begin(), indices.end()), indices.end()) << row.at.x;
   }
+}
+
+// every beginning: what RFC 3629 has of each length, and nothing else
+TEST(Utf8, each_character_has_its_length) {
+  int of_length[5] = {};
+  const auto count = [&](std::initializer_list<int> bytes) {
+    std::string text;
+    for (const int b : bytes) text += static_cast<char>(b);
+    const std::size_t length = sim::utf8_length(text, 0);
+    ++of_length[length];
+    // cut short it is none
+    if (length > 1) {
+      EXPECT_EQ(sim::utf8_length(text.substr(0, length - 1), 0), 0u);
+    }
+  };
+  for (int first = 0; first < 0x80; ++first) count({first});
+  EXPECT_EQ(of_length[1], 0x80);
+  for (int first = 0x80; first < 0xE0; ++first)
+    for (int second = 0; second < 256; ++second) count({first, second});
+  EXPECT_EQ(of_length[2], 0x800 - 0x80);
+  for (int first = 0xE0; first < 0xF0; ++first)
+    for (int second = 0; second < 256; ++second)
+      for (int third = 0; third < 256; ++third) count({first, second, third});
+  EXPECT_EQ(of_length[3], 0x10000 - 0x800 - 0x800);  // but for surrogates
+  // the last two at the ends of what they may be
+  for (int first = 0xF0; first < 0x100; ++first)
+    for (int second = 0; second < 256; ++second)
+      for (const int third : {0x7F, 0x80, 0xBF, 0xC0})
+        for (const int fourth : {0x7F, 0x80, 0xBF, 0xC0}) count({first, second, third, fourth});
+  EXPECT_EQ(of_length[4], (0x100000 >> 12) * 2 * 2);
+  EXPECT_EQ(sim::utf8_length("", 0), 0u);
+  EXPECT_EQ(sim::utf8_length("a\xC3\xA9", 1), 2u);
+  EXPECT_EQ(sim::utf8_length("a\xC3\xA9", 2), 0u);
 }
 
 }  // namespace
