@@ -313,6 +313,38 @@ int main(void) {
   expect_no_traps();
 }
 
+// the demo of 2007: one line of 120 grey pixels, by the names that the fast driver had then
+TEST_F(CameraApi, older_names_of_the_fast_driver_take_its_pictures) {
+  Robot& r = add_robot_with_source(R"(
+#include <camera/fast_2_timer/e_po3030k.h>
+#include <motor_led/e_init_port.h>
+#include <motor_led/e_epuck_ports.h>
+unsigned char before[8], line[120], behind[8];
+int pictures, toggled;
+int main(void) {
+  e_init_port();
+  e_po3030k_init_cam();
+  e_po3030k_config_cam(ARRAY_WIDTH / 2 - 2, 0, 4, ARRAY_HEIGHT, 4, 4, GREY_SCALE_MODE);
+  e_po3030k_set_mirror(1, 1);
+  e_po3030k_write_cam_registers();
+  for (;;) {
+    e_po3030k_launch_capture((char *)line);
+    while (!e_po3030k_is_img_ready()) if (LED0) toggled++;
+    pictures++;
+  }
+}
+)");
+  r.settings().own["camera"] = "po3030k";
+  run_for(3);
+  EXPECT_GT(r.variable("pictures"), 8);  // 4.3 a second
+  EXPECT_EQ(r.variable("toggled"), 0) << "the slow driver's LED";
+  const auto line = r.variables<std::uint8_t>("line", 120);
+  EXPECT_LT(std::count(line.begin(), line.end(), 0), 5);
+  for (const char* beside : {"before", "behind"})
+    for (const std::uint8_t byte : r.variables<std::uint8_t>(beside, 8)) EXPECT_EQ(byte, 0) << beside;
+  expect_no_traps();
+}
+
 TEST_F(CameraApi, a_reset_robot_starts_over_and_a_robot_without_camera_gets_nothing) {
   Robot& r = add_robot_with_source(R"(
 #include <p30F6014A.h>

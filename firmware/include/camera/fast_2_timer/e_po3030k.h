@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT
  * The PO3030K camera sensor (robots up to number 1499). Pictures are taken with e_poxxxx.h; this file has its
- * settings.
+ * settings, and the names that older versions of the library have for pictures.
  *
  * All setters edit a table in memory; nothing reaches the sensor before e_po3030k_write_cam_registers(),
  * e_po3030k_write_gamma_coef() or e_po3030k_sync_register_array().
@@ -38,6 +38,12 @@ int e_po3030k_get_bytes_per_pixel(int color_mode);
 
 /** Resets and configures the camera. Declared by the original, defined in its older versions only. */
 void e_po3030k_init_cam(void);
+
+/** e_poxxxx_launch_capture(), e_poxxxx_is_img_ready() and e_poxxxx_apply_timer_config(), as older versions of the
+ * library call them. */
+void e_po3030k_launch_capture(char *buf);
+int e_po3030k_is_img_ready(void);
+int e_po3030k_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl);
 
 /** Sends the whole table: blocks for about 45 ms. */
 void e_po3030k_write_cam_registers(void);

@@ -52,13 +52,14 @@ void e_po3030k_init_cam(void);
 void e_po3030k_write_cam_registers(void);
 
 /** Starts a capture into `buf` with the next frame; returns at once. LED 0 toggles with every byte. */
-void e_po3030k_launch_capture(char *buf);
+void e_po3030k_launch_capture(char *buf) TP_VARIANT(tpslow_, e_po3030k_launch_capture);
 
 /** Which bytes of a line are kept: part of e_po3030k_config_cam(). */
-void e_po3030k_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl);
+void e_po3030k_apply_timer_config(int pixel_row, int pixel_col, int bpp, int pbp, int bbl)
+    TP_VARIANT(tpslow_, e_po3030k_apply_timer_config);
 
 /** 1 when the picture is complete, until the next launch. */
-int e_po3030k_is_img_ready(void);
+int e_po3030k_is_img_ready(void) TP_VARIANT(tpslow_, e_po3030k_is_img_ready);
 
 /** Colour mode, sampling mode, pixel clock (not SPEED_128). 0, or -1 for a wrong argument. */
 int e_po3030k_set_color_mode(int mode);
