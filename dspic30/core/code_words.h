@@ -80,8 +80,8 @@ class CodeWords : public CoreFields {
   const Decoded* code_ = nullptr;   // the table's words
   std::uint64_t code_version_ = 0;  // of the flash that they were made of
   bool looks_at_each_ = false;
-  int looked_at_ = 0;         // instructions, since a register was written first
-  unsigned bad_address_ = 0;  // where no flash is
+  int looked_at_ = 0;                 // instructions, since a register was written first
+  unsigned bad_address_ = kFlashEnd;  // where no flash is, and who runs straight on comes to
 
  private:
   static constexpr std::uint8_t kFewJumps = 16;  // until a translation of an earlier run is looked for

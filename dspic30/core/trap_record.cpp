@@ -9,7 +9,7 @@ namespace dspic {
 std::string text_of(const TrapRecord::Touch& touch) {
   using Access = TrapRecord::Access;
   if (touch.access == Access::Fetch)
-    return "a jump to " + hex(touch.address, 6) + ", where there is no flash";
+    return "the program is led to " + hex(touch.address, 6) + ", where there is no flash";
   const std::string address = hex(touch.address, 4),
                     verb = touch.access == Access::Read ? " is read" : " is written";
   // what is reached at all may still be half of two words

@@ -91,7 +91,7 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
        "AddressError", "a word at the odd address 0x8001 is read" + kNoAddressError, "sub_"},
       {"a jump to where no flash is",
        kStart + "_main: mov #0xfffe, w1\n clr w2\n mov #1, w2\n push w1\n push w2\n return\n" + kDefault,
-       "AddressError", "a jump to 0x01fffe, where there is no flash" + kNoAddressError},
+       "AddressError", "the program is led to 0x01fffe, where there is no flash" + kNoAddressError},
       {"a pointer that is another one each time",
        kStart + "_main: mov 0x900, w1\n inc2 0x900\n bset w1, #13\n bset w1, #14\n mov [w1], w2\n" + kDefault,
        "AddressError", "", "sub_"},

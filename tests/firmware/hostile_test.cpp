@@ -120,21 +120,21 @@ const Hostile kPrograms[] = {
      "int main(void) {\n *(volatile char *)(0x1234 + zero) = 1; /* HERE */\n while (1); }"},
     {"null_call", "a call through a null pointer leads to address 0",
      "int main(void) {\n ((void (*)(void))nowhere)(); /* HERE */\n while (1); }"},
-    {"wild_call", "an access to an address that is not there",
+    {"wild_call", "0x018000, where there is no flash",
      "int main(void) {\n ((void (*)(void))(0x4321 + zero))(); /* HERE */\n while (1); }"},
-    {"call_of_data", "an access to an address that is not there",
+    {"call_of_data", "where there is no flash",
      "char code[16] = {(char)0xC3};\n"
      "int main(void) {\n ((void (*)(void))code)(); /* HERE */\n while (1); }"},
-    {"call_of_a_constant", "an access to an address that is not there",
+    {"call_of_a_constant", "where there is no flash",
      "const char code[16] = {(char)0xC3};\n"
      "int main(void) { nowhere = (void *)code;\n ((void (*)(void))nowhere)(); /* HERE */\n while (1); }"},
-    {"call_of_the_stack", "an access to an address that is not there",
+    {"call_of_the_stack", "where there is no flash",
      "int main(void) { volatile char code[16]; code[0] = (char)0xC3; nowhere = (void *)code;\n"
      " ((void (*)(void))nowhere)(); /* HERE */\n while (1); }"},
-    {"write_to_a_constant", "an access to an address that is not there",
+    {"write_to_a_constant", "is written, where nothing is; constants of the flash are read there",
      "const int table[4] = {1, 2, 3, 4};\n"
      "int main(void) { nowhere = (void *)table;\n *(int *)nowhere = 5; /* HERE */\n while (1); }"},
-    {"write_to_a_string", "an access to an address that is not there",
+    {"write_to_a_string", "is written, where nothing is; constants of the flash are read there",
      "char *volatile text = \"hello\";\n"
      "int main(void) {\n text[0] = 'H'; /* HERE */\n while (1); }"},
     {"return_address_overwritten", "write out of bounds of the local variable a: got byte",
@@ -199,7 +199,7 @@ const Hostile kPrograms[] = {
      "void __attribute__((interrupt, auto_psv)) _T1Interrupt(void) { IFS0bits.T1IF = 0; }\n"
      "int main(void) { PR1 = 1000; T1CON = 0x8000; IEC0bits.T1IE = 1; SRbits.IPL = 7;\n while (1) sink++; /* "
      "HERE */\n }"},
-    {"picture_to_nowhere", "an access to an address that is not there",
+    {"picture_to_nowhere", ", where nothing is",
      "int main(void) { e_init_port(); e_poxxxx_init_cam(); e_poxxxx_config_cam(0, 0, 640, 480, 8, 8, "
      "RGB_565_MODE);\n"
      " e_poxxxx_write_cam_registers(); e_poxxxx_launch_capture((char *)nowhere);\n"
@@ -212,7 +212,7 @@ const Hostile kPrograms[] = {
     {"squares_of_too_much", "in SquareMagnitudeCplx(): read out of bounds of few",
      "fractcomplex few[4]; fractional out[4];\n"
      "int main(void) {\n SquareMagnitudeCplx(30000, few, out); /* HERE */\n while (1); }"},
-    {"transform_of_nothing", "an access to an address that is not there",
+    {"transform_of_nothing", "a word at the odd address 0x010d is read",
      "int main(void) {\n FFTComplexIP(8, nowhere, (fractcomplex *)nowhere, 0); /* HERE */\n while (1); }"},
     {"jump_out_of_nowhere", "stack overflow",
      "jmp_buf never_set;\n"
