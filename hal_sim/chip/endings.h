@@ -13,7 +13,7 @@
 #include <optional>
 #include <string>
 
-#include "dspic30/periph/vectors.h"
+#include "dspic30/core/trap_record.h"
 #include "hal_sim/chip/program_places.h"
 
 namespace chip {
