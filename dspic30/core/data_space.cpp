@@ -164,7 +164,7 @@ unsigned DataSpace::read_served(unsigned ea, unsigned bits, Cycle t) {
 // all but results of the converter
 unsigned DataSpace::read_other(unsigned ea, unsigned bits, Cycle t) {
   if (bits == 16 && (ea & 1)) {
-    trap_at(ea, TrapRecord::Access::Read);
+    trap_at(ea, TrapRecord::Access::Read, true);
     return 0;
   }
   if (is_served(ea)) {
@@ -244,7 +244,7 @@ void DataSpace::write_elsewhere(unsigned ea, unsigned value, unsigned bits) {
 
 // all but registers of a converter that is off
 void DataSpace::write_other(unsigned ea, unsigned value, unsigned bits) {
-  if (bits == 16 && (ea & 1)) return trap_at(ea, TrapRecord::Access::Write);
+  if (bits == 16 && (ea & 1)) return trap_at(ea, TrapRecord::Access::Write, true);
   if (const unsigned i = ea - kRamStart; is_served(ea)) {
     note_effect();
     const unsigned shift = bits == 8 && (ea & 1) ? 8 : 0;

@@ -147,8 +147,8 @@ class DataSpace : public CodeWords, public HostSide, public RoundNotes {
   /// The instruction at `at` does what the chip does not allow: the flag is set, and the trap's handler comes
   /// before the next instruction. An address error is about what it touched.
   void trap(Trap which, std::optional<TrapRecord::Touch> touch = {});
-  void trap_at(unsigned address, TrapRecord::Access access) {
-    trap(Trap::AddressError, TrapRecord::Touch{address, access});
+  void trap_at(unsigned address, TrapRecord::Access access, bool is_odd_word = false) {
+    trap(Trap::AddressError, TrapRecord::Touch{address, access, is_odd_word});
   }
 
   // --- time

@@ -12,10 +12,8 @@ std::string text_of(const TrapRecord::Touch& touch) {
     return "the program is led to " + hex(touch.address, 6) + ", where there is no flash";
   const std::string address = hex(touch.address, 4),
                     verb = touch.access == Access::Read ? " is read" : " is written";
-  // what is reached at all may still be half of two words
+  if (touch.is_odd_word) return "a word at the odd address " + address + verb;
   const bool is_window = touch.address >= DataSpace::kPsvStart;
-  if (touch.address < DataSpace::kRamEnd || (is_window && touch.address % 2 != 0))
-    return "a word at the odd address " + address + verb;
   return address + verb + ", where nothing is; " +
          (!is_window                      ? "RAM ends at " + hex(DataSpace::kRamEnd - 1, 4)
           : touch.access == Access::Write ? "constants of the flash are read there, and none is written"

@@ -16,6 +16,7 @@ struct TrapRecord {
   struct Touch {
     unsigned address = 0;  ///< of data; that of an instruction is one of program memory
     Access access = Access::Fetch;
+    bool is_odd_word = false;  ///< which is the error, whatever lies there
   };
   Trap trap = Trap::AddressError;
   unsigned pc = 0;  ///< of the instruction; where an interrupt was entered, of the one that it cut

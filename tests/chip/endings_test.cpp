@@ -86,6 +86,12 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
        "0x8000 is read, where nothing is; constants of the flash are read there while CORCON.PSV is 1" +
            kNoAddressError,
        "sub_"},
+      {"a byte of a constant while their window is closed",
+       kStart + "_main: bclr CORCON, #PSV\n mov #0x8001, w1\n mov.b [w1], w2\n1: bra 1b\n" + kDefault,
+       "AddressError",
+       "0x8001 is read, where nothing is; constants of the flash are read there while CORCON.PSV is 1" +
+           kNoAddressError,
+       "sub_"},
       {"half of two constants",
        kStart + "_main: bset CORCON, #PSV\n mov #0x8001, w1\n mov [w1], w2\n1: bra 1b\n" + kDefault,
        "AddressError", "a word at the odd address 0x8001 is read" + kNoAddressError, "sub_"},
