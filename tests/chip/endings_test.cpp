@@ -98,9 +98,6 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
       {"a jump to where no flash is",
        kStart + "_main: mov #0xfffe, w1\n clr w2\n mov #1, w2\n push w1\n push w2\n return\n" + kDefault,
        "AddressError", "the program is led to 0x01fffe, where there is no flash" + kNoAddressError},
-      {"a pointer that is another one each time",
-       kStart + "_main: mov 0x900, w1\n inc2 0x900\n bset w1, #13\n bset w1, #14\n mov [w1], w2\n" + kDefault,
-       "AddressError", "", "sub_"},
       {"a frame that ends beyond RAM, and a call",
        kStart + "_main: lnk #9000\n rcall f\n1: bra 1b\nf: return\n" + kDefault, "AddressError",
        "stack overflow in sub_000114(); the program has no _AddressError()" + kResets, "sub_"},
@@ -163,15 +160,28 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
     ASSERT_EQ(traps.size(), c.vector ? 1u : 0u) << (traps.empty() ? "" : traps[0].message);
     if (!c.vector) continue;
     EXPECT_EQ(traps[0].vector, c.vector) << traps[0].message;
-    if (!c.message.empty()) {
-      EXPECT_EQ(traps[0].message, c.message);
-    }
+    EXPECT_EQ(traps[0].message, c.message);
     if (c.function) {
       EXPECT_NE(traps[0].place.function.find(c.function), std::string::npos) << traps[0].place.function;
     }
     EXPECT_GT(traps[0].cycle, 0);
     EXPECT_GE(traps[0].count, 2) << "the program begins anew again and again";
   }
+}
+
+// a pointer that is wrong may be another one each time: what was touched first is told, and all are counted
+TEST_F(Endings, a_pointer_that_is_another_one_each_time_is_one_report) {
+  const auto traps = traps_of(kStart + R"(
+_main: mov 0x900, w1
+    inc2 0x900
+    bset w1, #13
+    bset w1, #14
+    mov [w1], w2
+)" + kDefault);
+  ASSERT_EQ(traps.size(), 1u);
+  EXPECT_EQ(traps[0].vector, "AddressError");
+  EXPECT_NE(traps[0].place.function.find("sub_"), std::string::npos) << traps[0].place.function;
+  EXPECT_GE(traps[0].count, 2);
 }
 
 // ten thousand resets a second are one line with a count, also where two alternate
