@@ -2,11 +2,16 @@
 """How `twinpuck test` and `twinpuck grade` end where somebody does not want the rest, without a traceback: exit code 130
 by a signal, whenever it comes, and 7 where nobody reads what they say.
 
-The command has all of SIGNALS held back while it becomes Python, and Python reads its modules: run() lets them come.
+The command has all of SIGNALS held back while it becomes Python; run() lets them come. Until something can be lost they
+end the process at once: while Python imports modules an exception may come in a callback that swallows it, or in exec(),
+after which Python ends by SIGINT. From heed_work() on they are a KeyboardInterrupt, again and again until somebody has
+ended by it.
 """
 from __future__ import annotations
 
+import atexit
 import collections.abc
+import contextlib
 import os
 import signal
 import sys
@@ -17,12 +22,28 @@ SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 INTERRUPTED, INVALID = 130, 7
 
 
+_AGAIN_S = 2.0  # much longer than pytest takes from the exception to its end of a test
+
 _came: list[int] = []
 
 
 def _interrupt(number: int, _frame: types.FrameType | None) -> typing.NoReturn:
     _came.append(number)
+    signal.setitimer(signal.ITIMER_REAL, _AGAIN_S)  # who swallows it has another one
     raise KeyboardInterrupt
+
+
+def has_ended() -> None:
+    """Somebody ends by the interruption: it is not repeated."""
+    signal.setitimer(signal.ITIMER_REAL, 0)
+
+
+def heed_work() -> None:
+    """From here something can be lost: signals become exceptions."""
+    for number in heeded():
+        if signal.getsignal(number) is _end:  # not somebody's own
+            signal.signal(number, _interrupt)
+    signal.signal(signal.SIGALRM, _interrupt)
 
 
 def was_interrupted() -> bool:
@@ -34,12 +55,17 @@ def _end(_number: int, _frame: types.FrameType | None) -> typing.NoReturn:
     os._exit(INTERRUPTED)
 
 
+def heeded() -> list[signal.Signals]:
+    """Those of SIGNALS that end anything: nohup has some ignored."""
+    return [number for number in SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
+
+
 def run(main: collections.abc.Callable[[list[str]], int]) -> typing.NoReturn:
     """Ends the process with what `main` returns, or as above."""
-    code, ours = INTERRUPTED, [number for number in SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]  # of nohup
+    code, ours = INTERRUPTED, heeded()
+    for number in ours:
+        signal.signal(number, _end)
     try:
-        for number in ours:
-            signal.signal(number, _interrupt)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
         code = main(sys.argv[1:])
     except KeyboardInterrupt:
@@ -48,6 +74,13 @@ def run(main: collections.abc.Callable[[list[str]], int]) -> typing.NoReturn:
         print("standard output: cannot be written any more; it ended there", file=sys.stderr)
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left of it is not tried again
         code = INVALID
+    has_ended()
     for number in ours:  # what is left is Python's own
         signal.signal(number, _end)
+    if code == INTERRUPTED:  # sys.exit() would be the death by SIGINT where the exception has passed exec() of a text
+        atexit._run_exitfuncs()
+        for stream in filter(None, (sys.stdout, sys.stderr)):
+            with contextlib.suppress(OSError):
+                stream.flush()
+        os._exit(code)
     sys.exit(code)

@@ -144,7 +144,7 @@ def contained(words: list[str], options: argparse.Namespace, mine: pathlib.Path,
             "--unshare-all", "--die-with-parent", "--new-session", "--", *words]
 
 
-_LOOKS_S = 0.1  # how long a signal may wait at most
+_LOOKS_S = 0.05  # how long the end of what heeds signals may go unseen
 _running: set[int] = set()  # groups of processes, one a submission that is being graded
 _is_ending = threading.Event()  # no more of them
 
@@ -194,6 +194,8 @@ def unreadable(options: argparse.Namespace, mine: pathlib.Path, base: pathlib.Pa
     if not options.trusted:  # tests may make a world as they are read
         environment["TWINPUCK_SUBMISSION"] = str(mine.resolve())
     code = wait_for([*words_of(options, result, mine), "--collect-only"], environment, log, options.limit_s)
+    if _is_ending.is_set():
+        return ""
     tests = ", ".join(map(str, options.tests))
     if failed := [case for case in cases_of(result) if case.outcome == "failed"]:
         return "\n".join(f"{case.name}: {case.text}" for case in failed)
@@ -422,16 +424,21 @@ def main(arguments: list[str]) -> int:
               "program there", file=sys.stderr)
         return 2
     # beside /tmp, of which those who are contained have their own
+    signal.pthread_sigmask(signal.SIG_BLOCK, _ending.SIGNALS)  # they are taken where nothing is half done
     base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
-        if wrong := unreadable(options, programs[0], base):
+        if wrong := heeding_signals(lambda: unreadable(options, programs[0], base)):
             print(wrong, file=sys.stderr)
             return 2
-        code = write_all(grade_all(students, options, base), options, base)
+        grades = [] if _is_ending.is_set() else heeding_signals(lambda: grade_all(students, options, base))
+        _ending.heed_work()
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, _ending.SIGNALS)  # nobody may read what is written
+        code = write_all(grades, options, base) if grades else 0
         return _ending.INTERRUPTED if _is_ending.is_set() else code
     except KeyboardInterrupt:
-        return 130
+        return _ending.INTERRUPTED
     finally:
+        _ending.has_ended()
         signal.pthread_sigmask(signal.SIG_BLOCK, _ending.SIGNALS)  # who asks again waits for this
         shutil.rmtree(base, ignore_errors=True)
 
@@ -468,17 +475,24 @@ def write_all(grades: list[Grade], options: argparse.Namespace, base: pathlib.Pa
 def grade_all(students: list[pathlib.Path], options: argparse.Namespace, base: pathlib.Path) -> list[Grade]:
     """All of them, so many at a time, in their order. Who interrupts has those that were graded by then."""
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        graded = [pool.submit(grade, student, options, base) for student in students]
-        try:
-            # in pieces: a signal that another thread has taken does not wake this one
-            while concurrent.futures.wait(graded, _LOOKS_S).not_done:
-                pass
-        except KeyboardInterrupt:  # nobody stays behind
-            _is_ending.set()
-            for group in list(_running):
-                with contextlib.suppress(ProcessLookupError):  # it has just ended
-                    os.killpg(group, signal.SIGKILL)
-        return [each.result() for each in graded]
+        return list(pool.map(lambda student: grade(student, options, base), students))
+
+
+_Made = typing.TypeVar("_Made")
+
+
+def heeding_signals(work: collections.abc.Callable[[], _Made]) -> _Made:
+    """What `work` returns, which runs in a thread of its own. This one waits for the signals, which are held back: an
+    exception could come between a process's begin and the place that knows of it. By one, nobody stays behind."""
+    with concurrent.futures.ThreadPoolExecutor(1) as beside:
+        made = beside.submit(work)
+        while not made.done():
+            if signal.sigtimedwait(_ending.heeded(), _LOOKS_S):
+                _is_ending.set()
+                for group in list(_running):
+                    with contextlib.suppress(ProcessLookupError):  # it has just ended
+                        os.killpg(group, signal.SIGKILL)
+        return made.result()
 
 
 if __name__ == "__main__":

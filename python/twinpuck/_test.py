@@ -24,7 +24,12 @@ def main(arguments: list[str]) -> int:
 
         by_user = False
 
+        @pytest.hookimpl(tryfirst=True)
+        def pytest_runtestloop(self) -> None:
+            _ending.heed_work()
+
         def pytest_keyboard_interrupt(self, excinfo: pytest.ExceptionInfo[BaseException]) -> None:
+            _ending.has_ended()
             self.by_user = excinfo.type is KeyboardInterrupt
 
     class Invalid:

@@ -421,6 +421,18 @@ def test_a_signal_at_any_time_is_130_without_a_traceback(mine, name):
         assert code == 130 and "Traceback" not in text, f"{after_s} s: {code}: {text}"
 
 
+# Python ended by SIGINT, and went on for ever
+@pytest.mark.parametrize("where", ["module", "test"])
+@pytest.mark.parametrize("place", ["exec('os.kill(os.getpid(), 2)\\nfor _ in range(9): pass')", "Swallowing(); time.sleep(120)"],
+                         ids=["exec", "del"])
+def test_a_signal_where_python_does_not_pass_it_on_is_130(mine, command, place, where):
+    body = f"def test_a():\n    {place}\n" if where == "test" else f"{place}\ndef test_a(): pass\n"
+    done = command("test", "-q", timeout=60, cwd=mine(
+        "import os, time\nclass Swallowing:\n    def __del__(self):\n        os.kill(os.getpid(), 15)\n"
+        "        for _ in range(9): pass\n" + body))
+    assert done.returncode == 130, done.stdout + done.stderr
+
+
 def test_who_reads_no_further_ends_the_tests(mine):
     folder = mine("import pytest\n@pytest.mark.parametrize('i', range(500))\ndef test_short(i): pass\n")
     done = subprocess.run(f"{{ {TWINPUCK} test -v; echo $? >code; }} | head -1", shell=True, cwd=folder, timeout=60,
