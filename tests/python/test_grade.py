@@ -424,13 +424,14 @@ def test_tests_that_nobody_can_pass_are_bad_input(small, command, tests, says):
 
 
 # each process takes a second to begin
-SLOWLY = """import subprocess, time
+SLOWLY = """import signal, subprocess, time
 from twinpuck import _ending, _grade
 class Slow(subprocess.Popen):
     def __init__(self, *words, **more):
         super().__init__(*words, **more)
         time.sleep(1)
 subprocess.Popen = Slow
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # which a shell's background ignores, and the command does not
 _ending.run(_grade.main)
 """
 
