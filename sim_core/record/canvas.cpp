@@ -21,6 +21,21 @@ void ink(cairo_t* cr, std::uint32_t rgb, double alpha) {
   cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
 }
 
+/// cairo takes nothing but UTF-8.
+std::string valid_utf8(const std::string& text) {
+  std::string out;
+  for (std::size_t i = 0; i < text.size();) {
+    const std::size_t n = utf8_length(text, i);
+    if (n) {
+      out.append(text, i, n);
+    } else {
+      out += "\xEF\xBF\xBD";
+    }
+    i += n ? n : 1;
+  }
+  return out;
+}
+
 }  // namespace
 
 Canvas::Canvas(int width_px, int height_px)
@@ -74,20 +89,6 @@ std::string write_drawing(const std::string& path, double width_px, double heigh
   return status == CAIRO_STATUS_SUCCESS
              ? std::string()
              : fmt::format("{}: cannot be written: {}", path, cairo_status_to_string(status));
-}
-
-std::string valid_utf8(const std::string& text) {
-  std::string out;
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t n = utf8_length(text, i);
-    if (n) {
-      out.append(text, i, n);
-    } else {
-      out += "\xEF\xBF\xBD";
-    }
-    i += n ? n : 1;
-  }
-  return out;
 }
 
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size_px, bool bold) {

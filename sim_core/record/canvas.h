@@ -47,7 +47,5 @@ double text_width_px(cairo_t* cr, const std::string& text, double size_px, bool 
 /// The same with an outline in another colour, readable on any ground. Colours 0xRRGGBB.
 void draw_outlined_text(cairo_t* cr, const std::string& text, double x, double y, double size_px,
                         std::uint32_t rgb, std::uint32_t outline_rgb, double alpha);
-/// cairo takes nothing but UTF-8.
-std::string valid_utf8(const std::string& text);
 
 }  // namespace sim

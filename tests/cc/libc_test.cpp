@@ -390,8 +390,8 @@ TEST(libc, mathematics_is_single_precision_under_both_names) {
 }
 
 namespace {
-/// The function's value for each argument, as the robot has it.
-std::vector<float> values_of(const char* function, const std::vector<float>& arguments) {
+/// The value for each argument, as the robot has it, of a function or of an expression of x[i].
+std::vector<float> values_of(const std::string& function, const std::vector<float>& arguments) {
   std::string program = "volatile float x[] = {";
   for (const float x : arguments) {
     char text[48];
@@ -401,7 +401,7 @@ std::vector<float> values_of(const char* function, const std::vector<float>& arg
   program +=
       "}; unsigned i; for (i = 0; i < sizeof x / sizeof *x; i++) { union { float f; unsigned long u; } v; "
       "v.f = " +
-      std::string(function) + "(x[i]); printf(\"%lx \", v.u); }";
+      (function.find('[') < function.size() ? function : function + "(x[i])") + "; printf(\"%lx \", v.u); }";
   std::istringstream printed_bits(printed(program));
   std::vector<float> values;
   for (std::uint32_t bits; printed_bits >> std::hex >> bits;) {
@@ -410,6 +410,19 @@ std::vector<float> values_of(const char* function, const std::vector<float>& arg
     values.push_back(value);
   }
   return values;
+}
+
+/// Each value is as near to that of the PC's double precision as so many units of its last place.
+void expect_near(const std::string& function, double (*yardstick)(double),
+                 const std::vector<float>& arguments, double most) {
+  const std::vector<float> values = values_of(function, arguments);
+  ASSERT_EQ(values.size(), arguments.size());
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double right = yardstick(static_cast<double>(arguments[i]));
+    const double unit = std::ldexp(1.0, std::ilogb(right) - 23);
+    EXPECT_LE(std::fabs(static_cast<double>(values[i]) - right) / unit, most)
+        << function << " of " << arguments[i] << ": got " << values[i] << ", expected " << right;
+  }
 }
 }  // namespace
 
@@ -431,14 +444,46 @@ TEST(libc, angles_of_any_size_have_their_sine) {
   const std::tuple<const char*, double (*)(double), double> kFunctions[] = {
       {"sin", &std::sin, 2}, {"cosf", &std::cos, 2}, {"tan", &std::tan, 4}};
   for (const auto& [name, yardstick, most] : kFunctions) {
-    const std::vector<float> values = values_of(name, arguments);
-    ASSERT_EQ(values.size(), arguments.size());
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const double right = yardstick(static_cast<double>(arguments[i]));
-      const double unit = std::ldexp(1.0, std::ilogb(right) - 23);
-      EXPECT_LE(std::fabs(static_cast<double>(values[i]) - right) / unit, most)
-          << name << " of " << arguments[i] << ": got " << values[i] << ", expected " << right;
+    expect_near(name, yardstick, arguments, most);
+  }
+}
+
+// the PC's double precision is the yardstick; units of a float's last place
+TEST(libc, functions_are_right_to_their_last_places) {
+  struct Function {
+    const char* name;
+    double (*yardstick)(double);
+    double least, most, units;
+  };
+  static const Function kFunctions[] = {
+      {"expf", &std::exp, -87, 88.7, 2},
+      {"logf", &std::log, 0.5, 2, 2},
+      {"logf", &std::log, 1e-38, 3e38, 2},
+      {"log10f", &std::log10, 1e-38, 3e38, 3},
+      {"sinhf", &std::sinh, -0.5, 0.5, 3},
+      {"sinhf", &std::sinh, -89, 89, 3},
+      {"coshf", &std::cosh, -89, 89, 3},
+      {"tanhf", &std::tanh, -10, 10, 5},
+      {"asinf", &std::asin, -1, 1, 3},
+      {"acosf", &std::acos, -1, 1, 3},
+      {"atanf", &std::atan, -9, 9, 2},
+      {"atanf", &std::atan, -1e6, 1e6, 2},
+      {"sqrtf", &std::sqrt, 0, 3e38, 0.5},
+      {"atan2f(0.25f, x[i])", [](double x) { return std::atan2(0.25, x); }, -9, 9, 3},
+      {"hypotf(0.25f, x[i])", [](double x) { return std::hypot(0.25, x); }, -9, 9, 3},
+      {"fmodf(x[i], 0.3125f)", [](double x) { return std::fmod(x, 0.3125); }, -1e6, 1e6, 0},
+      {"powf(1.75f, x[i])", [](double x) { return std::pow(1.75, x); }, -60, 60, 40},  // by e^(y ln x)
+      {"powf(x[i], 7)", [](double x) { return std::pow(x, 7); }, -9, 9, 5}};
+  std::uint32_t state = 7;
+  for (const Function& f : kFunctions) {
+    std::vector<float> arguments;
+    for (int i = 0; i < 80; ++i) {
+      state = state * 1664525 + 1013904223;
+      const double share = (state >> 8) / 0x1p24;
+      arguments.push_back(static_cast<float>(f.least > 0 ? f.least * std::pow(f.most / f.least, share)
+                                                         : f.least + (f.most - f.least) * share));
     }
+    expect_near(f.name, f.yardstick, arguments, f.units);
   }
 }
 
