@@ -119,6 +119,41 @@ int main(void) {
   expect_no_traps();
 }
 
+// two of a wheel's four coils carry current while it steps, none at rest
+TEST_P(BothHals, timer_motors_at_rest_carry_no_current) {
+  const std::string program = R"(
+#include <p30F6014A.h>
+#include <motor_led/e_motors.h>
+int turning, left_rests, both_rest;
+static void pause(void) { long i; for (i = 0; i < 100000; i++) Nop(); }
+int main(void) {
+  e_init_motors();
+  e_set_speed_left(500);
+  e_set_speed_right(-500);
+  pause();
+  turning = LATD & 0xFF;
+  e_set_speed_left(0);
+  pause();
+  left_rests = LATD & 0xFF;
+  e_set_speed_right(0);
+  pause();
+  both_rest = LATD & 0xFF;
+  while (1);
+}
+)";
+  Robot& two_timers = add_robot_with_source(program);
+  Robot& one_timer = add_robot_with_source("#define E_MOTORS_TIMER3\n" + program);
+  run_for(1);
+  for (Robot* robot : {&two_timers, &one_timer}) {
+    EXPECT_EQ(__builtin_popcount(robot->variable("turning") & 0x0F), 2);
+    EXPECT_EQ(__builtin_popcount(robot->variable("turning") & 0xF0), 2);
+    EXPECT_EQ(robot->variable("left_rests") & 0x0F, 0);
+    EXPECT_EQ(__builtin_popcount(robot->variable("left_rests") & 0xF0), 2);
+    EXPECT_EQ(robot->variable("both_rest"), 0);
+  }
+  expect_no_traps();
+}
+
 // --- LEDs, selector
 
 TEST_P(BothHals, leds_and_selector) {
