@@ -52,9 +52,11 @@ def test_a_client_steps_looks_and_touches(view):
         frame = page.frame(lambda f: f.time_s > 3.19)
         assert frame.time_s == pytest.approx(3.2, abs=0.002)
         assert frame.poses[0][0] == pytest.approx(frame.values[0], abs=1e-6) and frame.values[0] > 0.15
-        assert len(frame.leds) == len(frame.states) == 1
+        assert len(frame.leds) == len(frame.states) == 1 and not frame.plays and not frame.ended
         page.ask("rays", robots=["puck"])
         assert len(page.frame(lambda f: f.rays).rays) == 8
+        page.ask("play")
+        assert page.frame(lambda f: f.plays).time_s >= frame.time_s
 
 
 def test_who_is_refused_gets_what_stands_there(view):
