@@ -20,8 +20,6 @@ import typing
 
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGQUIT)
 INTERRUPTED, INVALID = 130, 7
-
-
 _AGAIN_S = 2.0  # much longer than pytest takes from the exception to its end of a test
 
 _came: list[int] = []

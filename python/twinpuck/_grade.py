@@ -423,8 +423,8 @@ def main(arguments: list[str]) -> int:
         print(f"{options.submissions}: --program: got no folder {options.program!r} in any submission, expected the "
               "program there", file=sys.stderr)
         return 2
-    # beside /tmp, of which those who are contained have their own
     signal.pthread_sigmask(signal.SIG_BLOCK, _ending.SIGNALS)  # they are taken where nothing is half done
+    # beside /tmp, of which those who are contained have their own
     base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
         if wrong := heeding_signals(lambda: unreadable(options, programs[0], base)):
