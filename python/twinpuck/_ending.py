@@ -27,6 +27,7 @@ _came: list[int] = []
 
 def _interrupt(number: int, _frame: types.FrameType | None) -> typing.NoReturn:
     _came.append(number)
+    signal.signal(signal.SIGALRM, _interrupt)  # limits of tests have had their own
     signal.setitimer(signal.ITIMER_REAL, _AGAIN_S)  # who swallows it has another one
     raise KeyboardInterrupt
 
@@ -41,7 +42,6 @@ def heed_work() -> None:
     for number in heeded():
         if signal.getsignal(number) is _end:  # not somebody's own
             signal.signal(number, _interrupt)
-    signal.signal(signal.SIGALRM, _interrupt)
 
 
 def was_interrupted() -> bool:

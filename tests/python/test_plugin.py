@@ -428,7 +428,8 @@ def test_a_signal_at_any_time_is_130_without_a_traceback(mine, name):
 def test_a_signal_where_python_does_not_pass_it_on_is_130(mine, command, place, where):
     body = f"def test_a():\n    {place}\n" if where == "test" else f"{place}\ndef test_a(): pass\n"
     done = command("test", "-q", timeout=60, cwd=mine(
-        "import os, time\nclass Swallowing:\n    def __del__(self):\n        os.kill(os.getpid(), 15)\n"
+        "import os, signal, time\nclass Swallowing:\n    def __del__(self):\n        signal.signal(signal.SIGALRM, signal.SIG_DFL)\n"
+        "        os.kill(os.getpid(), 15)\n"
         "        for _ in range(9): pass\n" + body))
     assert done.returncode == 130, done.stdout + done.stderr
 
