@@ -45,7 +45,7 @@ def heed_work() -> None:
 
 
 def was_interrupted() -> bool:
-    """Also where somebody took the exception for another one: pytest does while it imports a file of tests."""
+    """Also where somebody took the exception for another one, as a test that catches all does."""
     return bool(_came)
 
 

@@ -194,8 +194,6 @@ def unreadable(options: argparse.Namespace, mine: pathlib.Path, base: pathlib.Pa
     if not options.trusted:  # tests may make a world as they are read
         environment["TWINPUCK_SUBMISSION"] = str(mine.resolve())
     code = wait_for([*words_of(options, result, mine), "--collect-only"], environment, log, options.limit_s)
-    if _is_ending.is_set():
-        return ""
     tests = ", ".join(map(str, options.tests))
     if failed := [case for case in cases_of(result) if case.outcome == "failed"]:
         return "\n".join(f"{case.name}: {case.text}" for case in failed)
@@ -427,13 +425,16 @@ def main(arguments: list[str]) -> int:
     # beside /tmp, of which those who are contained have their own
     base = pathlib.Path(tempfile.mkdtemp(prefix="twinpuck-grade-", dir="/var/tmp"))
     try:
-        if wrong := heeding_signals(lambda: unreadable(options, programs[0], base)):
+        wrong = heeding_signals(lambda: unreadable(options, programs[0], base))
+        if _is_ending.is_set():
+            return _ending.INTERRUPTED
+        if wrong:
             print(wrong, file=sys.stderr)
             return 2
-        grades = [] if _is_ending.is_set() else heeding_signals(lambda: grade_all(students, options, base))
+        grades = heeding_signals(lambda: grade_all(students, options, base))
         _ending.heed_work()
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _ending.SIGNALS)  # nobody may read what is written
-        code = write_all(grades, options, base) if grades else 0
+        code = write_all(grades, options, base)
         return _ending.INTERRUPTED if _is_ending.is_set() else code
     except KeyboardInterrupt:
         return _ending.INTERRUPTED

@@ -20,7 +20,7 @@ def main(arguments: list[str]) -> int:
     import pytest
 
     class Interrupted:
-        """Notes whether it was Ctrl-C: pytest says the same of files that cannot be read."""
+        """Says when tests begin; notes whether Ctrl-C ended them: pytest says the same of files that cannot be read."""
 
         by_user = False
 

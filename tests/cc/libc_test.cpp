@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <random>
 #include <sstream>
 #include <tuple>
 #include <vector>
@@ -390,8 +391,8 @@ TEST(libc, mathematics_is_single_precision_under_both_names) {
 }
 
 namespace {
-/// The value for each argument, as the robot has it, of a function or of an expression of x[i].
-std::vector<float> values_of(const std::string& function, const std::vector<float>& arguments) {
+/// The value of an expression of x[i] for each argument x[i], as the robot has it.
+std::vector<float> values_of(const std::string& expression, const std::vector<float>& arguments) {
   std::string program = "volatile float x[] = {";
   for (const float x : arguments) {
     char text[48];
@@ -401,7 +402,7 @@ std::vector<float> values_of(const std::string& function, const std::vector<floa
   program +=
       "}; unsigned i; for (i = 0; i < sizeof x / sizeof *x; i++) { union { float f; unsigned long u; } v; "
       "v.f = " +
-      (function.find('[') < function.size() ? function : function + "(x[i])") + "; printf(\"%lx \", v.u); }";
+      expression + "; printf(\"%lx \", v.u); }";
   std::istringstream printed_bits(printed(program));
   std::vector<float> values;
   for (std::uint32_t bits; printed_bits >> std::hex >> bits;) {
@@ -413,15 +414,15 @@ std::vector<float> values_of(const std::string& function, const std::vector<floa
 }
 
 /// Each value is as near to that of the PC's double precision as so many units of its last place.
-void expect_near(const std::string& function, double (*yardstick)(double),
+void expect_near(const std::string& expression, double (*yardstick)(double),
                  const std::vector<float>& arguments, double most) {
-  const std::vector<float> values = values_of(function, arguments);
+  const std::vector<float> values = values_of(expression, arguments);
   ASSERT_EQ(values.size(), arguments.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     const double right = yardstick(static_cast<double>(arguments[i]));
     const double unit = std::ldexp(1.0, std::ilogb(right) - 23);
     EXPECT_LE(std::fabs(static_cast<double>(values[i]) - right) / unit, most)
-        << function << " of " << arguments[i] << ": got " << values[i] << ", expected " << right;
+        << expression << " of " << arguments[i] << ": got " << values[i] << ", expected " << right;
   }
 }
 }  // namespace
@@ -442,48 +443,45 @@ TEST(libc, angles_of_any_size_have_their_sine) {
     arguments.push_back(x);
   }
   const std::tuple<const char*, double (*)(double), double> kFunctions[] = {
-      {"sin", &std::sin, 2}, {"cosf", &std::cos, 2}, {"tan", &std::tan, 4}};
-  for (const auto& [name, yardstick, most] : kFunctions) {
-    expect_near(name, yardstick, arguments, most);
-  }
+      {"sin(x[i])", &std::sin, 2}, {"cosf(x[i])", &std::cos, 2}, {"tan(x[i])", &std::tan, 4}};
+  for (const auto& [value, yardstick, most] : kFunctions) expect_near(value, yardstick, arguments, most);
 }
 
 // the PC's double precision is the yardstick; units of a float's last place
 TEST(libc, functions_are_right_to_their_last_places) {
   struct Function {
-    const char* name;
+    const char* value;
     double (*yardstick)(double);
     double least, most, units;
   };
   static const Function kFunctions[] = {
-      {"expf", &std::exp, -87, 88.7, 2},
-      {"logf", &std::log, 0.5, 2, 2},
-      {"logf", &std::log, 1e-38, 3e38, 2},
-      {"log10f", &std::log10, 1e-38, 3e38, 3},
-      {"sinhf", &std::sinh, -0.5, 0.5, 3},
-      {"sinhf", &std::sinh, -89, 89, 3},
-      {"coshf", &std::cosh, -89, 89, 3},
-      {"tanhf", &std::tanh, -10, 10, 5},
-      {"asinf", &std::asin, -1, 1, 3},
-      {"acosf", &std::acos, -1, 1, 3},
-      {"atanf", &std::atan, -9, 9, 2},
-      {"atanf", &std::atan, -1e6, 1e6, 2},
-      {"sqrtf", &std::sqrt, 0, 3e38, 0.5},
+      {"expf(x[i])", &std::exp, -87, 88.7, 2},
+      {"logf(x[i])", &std::log, 0.5, 2, 2},
+      {"logf(x[i])", &std::log, 1e-38, 3e38, 2},
+      {"log10f(x[i])", &std::log10, 1e-38, 3e38, 3},
+      {"sinhf(x[i])", &std::sinh, -0.5, 0.5, 3},
+      {"sinhf(x[i])", &std::sinh, -89, 89, 3},
+      {"coshf(x[i])", &std::cosh, -89, 89, 3},
+      {"tanhf(x[i])", &std::tanh, -10, 10, 5},
+      {"asinf(x[i])", &std::asin, -1, 1, 3},
+      {"acosf(x[i])", &std::acos, -1, 1, 3},
+      {"atanf(x[i])", &std::atan, -9, 9, 2},
+      {"atanf(x[i])", &std::atan, -1e6, 1e6, 2},
+      {"sqrtf(x[i])", &std::sqrt, 0, 3e38, 0.5},
       {"atan2f(0.25f, x[i])", [](double x) { return std::atan2(0.25, x); }, -9, 9, 3},
       {"hypotf(0.25f, x[i])", [](double x) { return std::hypot(0.25, x); }, -9, 9, 3},
       {"fmodf(x[i], 0.3125f)", [](double x) { return std::fmod(x, 0.3125); }, -1e6, 1e6, 0},
       {"powf(1.75f, x[i])", [](double x) { return std::pow(1.75, x); }, -60, 60, 40},  // by e^(y ln x)
       {"powf(x[i], 7)", [](double x) { return std::pow(x, 7); }, -9, 9, 5}};
-  std::uint32_t state = 7;
+  std::mt19937 random(7);
   for (const Function& f : kFunctions) {
     std::vector<float> arguments;
     for (int i = 0; i < 80; ++i) {
-      state = state * 1664525 + 1013904223;
-      const double share = (state >> 8) / 0x1p24;
+      const double share = static_cast<double>(random()) / 0x1p32;
       arguments.push_back(static_cast<float>(f.least > 0 ? f.least * std::pow(f.most / f.least, share)
                                                          : f.least + (f.most - f.least) * share));
     }
-    expect_near(f.name, f.yardstick, arguments, f.units);
+    expect_near(f.value, f.yardstick, arguments, f.units);
   }
 }
 

@@ -323,9 +323,9 @@ def is_named_by_a_process(text):
     return False
 
 
-def wait_until_graded(submission):
-    """Returns when a process has begun to grade the folder."""
-    wait_until(lambda: is_named_by_a_process(str(submission)), submission)
+def wait_until_named(path):
+    """Returns when a process has begun that works on it."""
+    wait_until(lambda: is_named_by_a_process(str(path)), path)
 
 
 def test_who_was_graded_before_ctrl_c_stands_in_the_tables(tmp_path):
@@ -336,7 +336,7 @@ def test_who_was_graded_before_ctrl_c_stands_in_the_tables(tmp_path):
         (tmp_path / "class" / name).mkdir(parents=True)
     with subprocess.Popen([TWINPUCK, "grade", "tests", "--submissions", "class", "--jobs", "1", "--csv", "g.csv"], cwd=tmp_path,
                           text=True, stdout=subprocess.PIPE) as child:
-        wait_until_graded(tmp_path / "class" / "b_slow")
+        wait_until_named(tmp_path / "class" / "b_slow")
         child.send_signal(signal.SIGINT)
         said = child.communicate(timeout=20)[0]
     assert child.returncode == 130
@@ -445,7 +445,7 @@ def test_a_signal_leaves_nothing_behind(small, tests, number, after_s, begin):
     (small / "tests" / "test_a.py").write_text(f"import time\n{tests}\n")
     before = set(os.listdir("/var/tmp"))
     child = subprocess.Popen([*begin, "tests", "--submissions", "class", "--jobs", "2"], cwd=small)
-    wait_until_graded(small / "tests")
+    wait_until_named(small / "tests")
     time.sleep(after_s)
     child.send_signal(number)
     assert child.wait(20) == 130
