@@ -56,6 +56,7 @@ struct Nodes::Inside {
     std::string name;
     int type;
     enum class Of { Tree, Robot, Colour } of;
+    NamedRobotField asked;  // Of::Robot
   };
 
   /// What comes with the steps of a program.
@@ -203,7 +204,9 @@ struct Nodes::Inside {
   bool stands_until_commanded(const Handle& h) {
     if (is_list(h.type) || member_of(h.type) == kText || member_of(h.type) == kNode) return false;
     if (h.of != Handle::Of::Robot || !host.twin().launch(tree().node(h.node).number)) return true;
-    return h.name == "collisions" || h.name == "longestWallTouch" || h.name == "distance";
+    const RobotField::What what = h.asked.field->what;
+    return what == RobotField::What::Collisions || what == RobotField::What::LongestWallTouch ||
+           what == RobotField::What::Distance;
   }
 
   void follow(const link_record& r, int program) {
@@ -314,12 +317,13 @@ struct Nodes::Inside {
       return &handles[static_cast<std::size_t>(number - 1)];
     }
     const TreeNode& n = tree().node(id);
-    Handle made{id, name, kNoField, Handle::Of::Tree};
+    Handle made{id, name, kNoField, Handle::Of::Tree,
+                n.is == Is::Robot ? robot_field(name) : NamedRobotField{}};
     sim::Colour colour;
     if (const Value* v = n.find(name)) {
       made.type = v->type;
-    } else if (const RobotField* f = robot_field(name); f && n.is == Is::Robot) {
-      made.type = f->type;
+    } else if (made.asked.field) {
+      made.type = made.asked.field->type;
       made.of = Handle::Of::Robot;
     } else if ((name == "baseColor" || name == "diffuseColor") && bodies().colour(id, colour)) {
       made.type = kColour;
@@ -353,15 +357,17 @@ struct Nodes::Inside {
     value.type = h.type;
     const TreeNode& n = tree().node(h.node);
     if (h.of == Handle::Of::Robot)
-      return get_robot_field(host.twin(), n.number, h.name, value.numbers, value.texts);
+      return get_robot_field(host.twin(), n.number, h.asked, value.numbers, value.texts);
     if (h.of == Handle::Of::Colour) {
       sim::Colour c;
       bodies().colour(h.node, c);
       value.numbers = {c.r, c.g, c.b};
       return {};
     }
-    if (const Value* v = n.find(h.name)) value = *v;
-    if (is_place(h.name)) value.numbers = bodies().place(h.node, h.name);
+    if (is_place(h.name))
+      value.numbers = bodies().place(h.node, h.name);
+    else if (const Value* v = n.find(h.name))
+      value = *v;
     return {};
   }
 
@@ -444,7 +450,7 @@ struct Nodes::Inside {
     TreeNode& n = tree().node(h->node);
     std::string wrong;
     if (h->of == Handle::Of::Robot) {
-      wrong = set_robot_field(host.twin(), n.number, h->name, given.empty() ? 0 : given[0]);
+      wrong = set_robot_field(host.twin(), n.number, h->asked, given.empty() ? 0 : given[0]);
     } else if (h->of == Handle::Of::Colour) {
       const auto part = [&](std::size_t i) { return std::min(1.0, std::max(0.0, given[i])); };
       bodies().set_colour(h->node, {part(0), part(1), part(2)});
