@@ -2,7 +2,7 @@
 // The console: bytes to the robot and from it (issue 38, 5).
 import assert from "node:assert/strict";
 import { ask, blind, picture, until } from "./harness.mjs";
-import { kWorld, start } from "./worlds.mjs";
+import { kWorld, program, start } from "./worlds.mjs";
 
 // says what it gets, as two hexadecimal digits a byte
 const echo = `#include <motor_led/e_init_port.h>
@@ -65,6 +65,32 @@ export const tests = {
     assert.equal(await page.inputValue("#characters"), "latin-1");
     assert.equal(await page.inputValue("#line-end"), "none");
     assert.equal(await ask(page, "(app) => app.frames > -1"), true);
+    assert.deepEqual(page.errors, []);
+  },
+
+  async the_end_is_followed_until_one_reads_what_is_above(browser, live) {
+    const ticks = program(400).replace("rounds++;", 'rounds++; e_send_uart1_char("tick\\r\\n", 6);');
+    const [, page] = await start(browser, live, kWorld, { drive: ticks });
+    await blind(page);
+    const lines = () => page.locator("#console-lines > div").count();
+    const more = async () => {
+      const before = await lines();
+      await page.click("#play");
+      for (const end = Date.now() + 20000; (await lines()) < before + 60 && Date.now() < end; ) await page.waitForTimeout(20);
+      await page.click("#play");
+      await until(page, "(app) => !app.state.playing");
+      assert.ok((await lines()) >= before + 60);
+    };
+    const below = () => page.evaluate(() => { const l = document.getElementById("console-lines"); return l.scrollHeight - l.scrollTop - l.clientHeight; });
+    await more();
+    assert.ok((await page.evaluate(() => document.getElementById("console-lines").scrollTop)) > 200);
+    assert.ok(Math.abs(await below()) < 2, "the end is in sight");
+    await page.evaluate(() => { document.getElementById("console-lines").scrollTop = 10; });
+    await more();
+    assert.equal(await page.evaluate(() => document.getElementById("console-lines").scrollTop), 10, "what is read stays where it is");
+    await page.evaluate(() => { const l = document.getElementById("console-lines"); l.scrollTop = l.scrollHeight; });
+    await more();
+    assert.ok(Math.abs(await below()) < 2, "the end is followed again");
     assert.deepEqual(page.errors, []);
   },
 };

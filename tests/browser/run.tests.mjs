@@ -121,6 +121,12 @@ export const tests = {
     await page.click("#play");
     await until(page, "(app) => app.frame.time > 0.2");
     await page.click("#play");
+    // at the end it begins anew
+    await scrub(3000);
+    assert.equal(await time(page), 60);
+    await page.click("#play");
+    await until(page, "(app) => app.frame.time > 0 && app.frame.time < 30");
+    await page.click("#play");
     assert.equal(await ask(page, "(app) => app.connection.ask('play').catch((e) => e.message)"), "a report shows what was; it cannot be changed");
     assert.deepEqual(errors, []);
   },
@@ -170,6 +176,14 @@ export const tests = {
     await page.click("#play");
     await until(page, "(app) => app.plots.samples > 30");
     assert.ok((await page.locator("#plot canvas").count()) === 1);
+    await page.click("#play");
+    await until(page, "(app) => !app.state.playing");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.click("text=CSV")]);
+    assert.equal(download.suggestedFilename(), "plot.csv");
+    const [head, ...rows] = fs.readFileSync(await download.path(), "utf8").trimEnd().split("\n").map((l) => l.split(","));
+    assert.match(head.join(), /^time_s,puck\.speed \(m\/s\),puck\.var:rounds$/);
+    assert.equal(rows.length, await ask(page, "(app) => app.plots.samples"));
+    assert.deepEqual(rows.at(-1).map(Number), await ask(page, "(app) => [app.frame.time, ...app.plots.names.map((n) => app.values.get(n))]"));
     await page.fill("#plot-name", "puck.nonsense");
     await page.press("#plot-name", "Enter");
     await page.waitForFunction(() => /expected a name/.test(document.querySelector("#notice").textContent));

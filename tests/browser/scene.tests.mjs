@@ -114,6 +114,7 @@ export const tests = {
     await until(page, "(app) => !app.state.playing");
     const [film, webm] = await saved("#film");
     assert.match(film, /^world-[\d.]+s\.webm$/);
+    assert.doesNotMatch(await page.textContent("#film"), /Stop/);
     assert.equal(webm.readUInt32BE(0), 0x1a45dfa3, "EBML");
     assert.ok(webm.length > 2000);
     assert.deepEqual(page.errors, []);

@@ -116,7 +116,7 @@ test("what Problems lists, each from where it is known", () => {
       ["run error: There is no run."],
     ],
     [
-      "a file and no line, and a line without a column",
+      "no line, a line without a column, and a file that is not the program's: one alone can be gone to",
       (s) =>
         s.takePrograms([
           {
@@ -124,20 +124,28 @@ test("what Problems lists, each from where it is known", () => {
             findings: [
               { kind: "error", file: "a.c", line: 0, column: 0, text: "gone" },
               { kind: "warning", file: "main.c", line: 4, column: 0, text: "odd" },
+              { kind: "note", file: "e_led.h", line: 5, column: 2, text: "here" },
+              { kind: "note", file: "main.c", line: 0, column: 0, text: "in all" },
             ],
           },
         ]),
-      ["compiler error: drive: a.c: gone", "compiler warning: drive: main.c:4: odd"],
+      [
+        "compiler error: drive: a.c: gone",
+        "compiler warning: drive: main.c:4: odd > main.c:4:0",
+        "compiler note: drive: e_led.h:5:2: here",
+        "compiler note: drive: main.c: in all",
+      ],
     ],
     [
       "a trap, and what was found out",
       (s) => {
+        s.takePrograms([built]);
         s.traps = [{ ...at, kind: "math error", text: "divided", file: "", line: 0 }];
         s.diagnoses = [{ ...at, cause: "stack", text: "deep", hint: "less" } as never];
       },
       [
-        "trap error: puck: math error: divided, at main() (main.c:7), 1.500 s",
-        "diagnosis warning: puck: stack at main() (main.c:7), 1.500 s: deep; less",
+        "trap error: puck: math error: divided, at main() (main.c:7), 1.500 s > main.c:7:",
+        "diagnosis warning: puck: stack at main() (main.c:7), 1.500 s: deep; less > main.c:7:",
       ],
     ],
   ];
@@ -147,8 +155,11 @@ test("what Problems lists, each from where it is known", () => {
     make(store);
     assert.deepEqual(
       wrongsOf(store)
-        .filter((w) => expected.length !== 2 || w.of !== "run")
-        .map((w) => `${w.of} ${w.weight}: ${w.text}`),
+        .filter((w) => expected.length < 2 || w.of !== "run")
+        .map(
+          ({ of, weight, text, source: to }) =>
+            `${of} ${weight}: ${text}${to ? ` > ${to.file}:${to.line}:${to.column ?? ""}` : ""}`,
+        ),
       expected,
       what,
     );

@@ -120,6 +120,23 @@ const kRows: [string, number, number[], (p: Pieces) => unknown, { edits?: unknow
     { moves: [move(0, 1, 0.5, kTurned + Math.PI), move(1, 0.25, 0.75, kTurned + Math.PI)] },
   ],
   [
+    "several in the file turn about the middle of their points, and a box in itself",
+    0,
+    [kBox, kWall],
+    (p) => p.turn(90),
+    {
+      edits: [
+        set(kBox, { position: [-0.03333, 0.06667, 0.3], heading: 90 }),
+        set(kWall, {
+          points: [
+            [0.16667, -0.03333],
+            [0.16667, 0.16667],
+          ],
+        }),
+      ],
+    },
+  ],
+  [
     "a copy lies beside it, at its height, and has the next free name",
     0,
     [kBox],
