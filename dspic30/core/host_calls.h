@@ -59,6 +59,8 @@ class HostCalls {
   virtual Cycle due() const = 0;
   /// What handlers that call nothing take of each cycle, as a fraction of 2^32. Read as due() is.
   virtual std::uint64_t share_q32() const = 0;
+  /// What the shares have taken too little by now, once, in cycles of 2^-32; negative: too much.
+  virtual std::int64_t take_owed_q32() const = 0;
   /// The handler that is due, or pending, begins: its entry as an interrupt is the core's. Its vector is
   /// vector(0). One that has not ended is begun anew.
   virtual void begin_handler(Cycle at) = 0;

@@ -4,7 +4,8 @@
 //
 //   true = settled + x + floor((x * stolen + rest) / 2^32),   x: cycles of the program since settled
 //
-// The rest is carried on, so settling now and later is the same as settling later: nothing depends on when.
+// The rest is carried on, so settling now and later is the same as settling later: nothing depends on when. Where
+// more was taken than handlers took, it is negative, and nothing is taken until that is even.
 #pragma once
 #include <cstdint>
 
@@ -26,9 +27,18 @@ class TwoClocks {
       settled_ = now;
       return;
     }
-    const Wide sum = Wide{static_cast<std::uint64_t>(now - settled_)} * stolen_q32_ + rest_;
-    const auto taken = static_cast<Cycle>(sum >> 32);
-    rest_ = static_cast<std::uint32_t>(sum);
+    const Wide sum = Wide{now - settled_} * stolen_q32_ + rest_;
+    const Cycle taken = whole(sum);
+    rest_ = static_cast<std::int64_t>(sum - (Wide{taken} << 32));
+    taken_ += taken;
+    now += taken;
+    settled_ = now;
+  }
+  /// So many cycles of 2^-32 were taken too little by now, behind settle(); negative: too much.
+  void correct(Cycle& now, std::int64_t cycles_q32) {
+    rest_ += cycles_q32;
+    const Cycle taken = whole(rest_);
+    rest_ -= taken << 32;
     taken_ += taken;
     now += taken;
     settled_ = now;
@@ -41,40 +51,52 @@ class TwoClocks {
     if (share_q32 != 0 && share_q32 != share_q32_) {  // it comes and goes, mostly the same one
       share_q32_ = share_q32;
       kept_q32_ = kOne - share_q32;
-      stolen_of_share_q32_ = static_cast<std::uint64_t>((Wide{share_q32} << 32) / kept_q32_);
+      stolen_of_share_q32_ =
+          static_cast<std::uint64_t>((static_cast<unsigned __int128>(share_q32) << 32) / kept_q32_);
     }
     stolen_q32_ = share_q32 == 0 ? 0 : stolen_of_share_q32_;
   }
   void reset(Cycle now) {
     settled_ = now;
-    stolen_q32_ = rest_ = 0;
+    stolen_q32_ = 0;
+    rest_ = 0;
   }
   /// Cycles of the program so far when its clock shows `now`: true ones without what was taken.
   Cycle own_cycles(Cycle now) const { return now - taken_; }
 
  private:
-  using Wide = unsigned __int128;
+  using Wide = __int128;
   static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
-  Cycle stolen(Cycle own) const {
-    return static_cast<Cycle>((Wide{static_cast<std::uint64_t>(own)} * stolen_q32_ + rest_) >> 32);
-  }
+  static Cycle whole(Wide sum) { return sum < 0 ? 0 : static_cast<Cycle>(sum >> 32); }
+  Cycle stolen(Cycle own) const { return whole(Wide{own} * stolen_q32_ + rest_); }
+  /// The program's time from settled_ on.
   Cycle first_at(Cycle wanted) const {
+    if (rest_ >= 0) return settled_ + own_at(wanted, static_cast<std::uint64_t>(rest_));
+    const auto owed = static_cast<std::uint64_t>(-rest_);
+    const auto even =
+        static_cast<Cycle>((owed + stolen_q32_ - 1) / stolen_q32_);  // nothing is taken until then
+    if (wanted <= even) return settled_ + wanted;
+    return settled_ + even + own_at(wanted - even, static_cast<std::uint64_t>(even) * stolen_q32_ - owed);
+  }
+  Cycle own_at(Cycle wanted, std::uint64_t rest) const {
     // as is nearly always, all fits into 64 bits: own * 2^32 + own * stolen + rest >= wanted * 2^32
     if (constexpr Cycle kSoon = 1 << 30; wanted < kSoon && stolen_q32_ < kOne) {
       const std::uint64_t each = kOne + stolen_q32_, limit = static_cast<std::uint64_t>(wanted) << 32;
-      std::uint64_t x = static_cast<std::uint64_t>(wanted) * kept_q32_ >> 32, sum = x * each + rest_;
+      std::uint64_t x = static_cast<std::uint64_t>(wanted) * kept_q32_ >> 32, sum = x * each + rest;
       for (; sum < limit; sum += each) ++x;
       for (; x > 0 && sum - each >= limit; sum -= each) --x;
-      return settled_ + static_cast<Cycle>(x);
+      return static_cast<Cycle>(x);
     }
-    auto own = static_cast<Cycle>(Wide{static_cast<std::uint64_t>(wanted)} * kept_q32_ >> 32);
-    while (own + stolen(own) < wanted) ++own;
-    while (own > 0 && own - 1 + stolen(own - 1) >= wanted) --own;
-    return settled_ + own;
+    const auto true_after = [&](Cycle own) { return own + whole(Wide{own} * stolen_q32_ + rest); };
+    auto own = static_cast<Cycle>(Wide{wanted} * kept_q32_ >> 32);
+    while (true_after(own) < wanted) ++own;
+    while (own > 0 && true_after(own - 1) >= wanted) --own;
+    return own;
   }
 
   Cycle settled_ = 0, taken_ = 0;
-  std::uint64_t stolen_q32_ = 0, rest_ = 0;
+  std::uint64_t stolen_q32_ = 0;
+  std::int64_t rest_ = 0;
   // the last share that was not 0, what it leaves of a true cycle, and what it takes beside one that is left
   std::uint64_t share_q32_ = 0, kept_q32_ = kOne, stolen_of_share_q32_ = 0;
 };

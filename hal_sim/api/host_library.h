@@ -63,6 +63,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint16_t peek(unsigned address, Cycle at) const override;
   Cycle due() const override;
   std::uint64_t share_q32() const override;
+  std::int64_t take_owed_q32() const override { return agendas().shares().take_owed_q32(); }
   void begin_handler(Cycle at) override;
   HandlerStep next_in_handler(Cycle at) override;
   void end_handler(Cycle at) override;

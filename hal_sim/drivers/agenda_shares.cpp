@@ -64,6 +64,28 @@ std::uint64_t AgendaShares::calling_ticks_q32() const {
       std::clamp<std::int64_t>(calling, 0, static_cast<std::int64_t>(kAllTicks)));
 }
 
+void AgendaShares::count_firings(board::Wheel wheel, Cycle at) {
+  const auto i = static_cast<std::size_t>(wheel);
+  const AgendaMotor& m = motors_.of(wheel);
+  counted_from_[i] = ticks_.is_running() && !ticks_.is_held() ? at : kNever;
+  stepped_[i] = m.stepped;
+  switched_off_[i] = m.switched_off;
+}
+
+void AgendaShares::settle_firings(board::Wheel wheel, Cycle at) {
+  const auto i = static_cast<std::size_t>(wheel);
+  constexpr Cycle kLongest = 1 << 24;  // a second; what was not even at its begin is nothing by then
+  const Cycle from = counted_from_[i], took = at - from;
+  if (from == kNever || took > kLongest || !ticks_.is_running() || ticks_.is_held()) return;
+  if (known_ != kAll) find();
+  const AgendaMotor& m = motors_.of(wheel);
+  const std::int64_t steps = m.stepped - stepped_[i], offs = m.switched_off - switched_off_[i];
+  const Cycle due =
+      m.saves_power() ? steps * costs_->motor_half + offs * costs_->motor_off : steps * costs_->motor_step;
+  owed_q32_ += static_cast<std::int64_t>(due) * static_cast<std::int64_t>(kAllTicks) -
+               took * static_cast<std::int64_t>(motor_share_q32_[i]);
+}
+
 void AgendaShares::find() const {
   const auto share = [](Cycle cycles, std::int64_t ticks) {
     return (static_cast<std::uint64_t>(cycles) << 32) / static_cast<std::uint64_t>(ticks * kAgendaTickCycles);

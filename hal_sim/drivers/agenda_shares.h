@@ -3,6 +3,7 @@
 // cycle or a speed has changed.
 #pragma once
 #include <cstdint>
+#include <utility>
 
 #include "hal_sim/drivers/agenda_list.h"
 #include "hal_sim/drivers/agenda_motors.h"
@@ -58,11 +59,26 @@ class AgendaShares {
     return !count.active ? costs_->paused : count.cycle == 0 ? costs_->resting : costs_->counts;
   }
   /// The list, or a cycle has changed.
-  void change() { known_ = 0; }
+  void change() {
+    known_ = 0;
+    forget_firings();
+  }
   /// This motor's speed has; and its node counts, or no longer does.
   void change_motor(board::Wheel wheel, bool counts_otherwise) {
     known_ &= ~((counts_otherwise ? kTicks : 0) | 1u << static_cast<unsigned>(wheel));
   }
+
+  // --- what a share does not tell
+  // A motor's firings are charged as if they came evenly from its command on. The first one comes earlier or later;
+  // with speeds that are set in each turn of a loop that is 0.5 % of all time.
+  /// From `at` on the motor's firings are counted, as far as the share is what is taken.
+  void count_firings(board::Wheel wheel, Cycle at);
+  /// Another command comes: what was taken too little until `at`.
+  void settle_firings(board::Wheel wheel, Cycle at);
+  /// Ticks are lost, or the handler is held: nobody knows.
+  void forget_firings() { counted_from_[0] = counted_from_[1] = kNever; }
+  /// What was taken too little by now, in cycles of 2^-32; negative: too much.
+  std::int64_t take_owed_q32() const { return std::exchange(owed_q32_, 0); }
 
  private:
   static constexpr unsigned kTicks = 4, kAll = 7;  // bits 0 and 1: the motors
@@ -76,6 +92,9 @@ class AgendaShares {
   mutable unsigned known_ = 0;
   mutable std::uint64_t tick_share_q32_ = 0, calling_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
   mutable Cycle tick_cycles_ = 0;
+  Cycle counted_from_[2] = {kNever, kNever};
+  std::int64_t stepped_[2] = {0, 0}, switched_off_[2] = {0, 0};  // then
+  mutable std::int64_t owed_q32_ = 0;
 };
 
 }  // namespace drivers

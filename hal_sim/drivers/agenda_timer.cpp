@@ -176,9 +176,11 @@ bool AgendaTimer::set_speed(Wheel wheel, int speed, Cycle at, std::optional<Cycl
   note(static_cast<std::uint64_t>(speed) << 1 | static_cast<std::uint64_t>(wheel), at);
   if (keeps_rhythm(m)) return false;
   motors_.note_command();
+  shares_.settle_firings(wheel, at);
   m.set_speed(clamped);
   if (motors_.has_node(wheel)) m.set_cycle(m.step_ticks());
   shares_.change_motor(wheel, m.count.counts() != counted);
+  shares_.count_firings(wheel, at);
   // a motor that runs, or stands without a cycle, needs no interrupt
   if (was_handled && !ticks_.is_walking()) find_next_fire();
   return true;
@@ -325,6 +327,7 @@ void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
 
 void AgendaTimer::release(Cycle at, bool pending) {
   if (!ticks_.is_held()) return;
+  shares_.forget_firings();
   pays_firings_ = pending;
   const std::int64_t done = ticks_.let_go();
   if (!ticks_.is_walking()) resume(done, at, pending);
@@ -332,6 +335,7 @@ void AgendaTimer::release(Cycle at, bool pending) {
 
 void AgendaTimer::release(Cycle at) {
   if (!ticks_.is_held()) return;
+  shares_.forget_firings();
   const std::int64_t done = ticks_.let_go();
   if (!ticks_.is_running() || ticks_.is_walking() || at < ticks_.line().cycle_of(done + 1)) return;
   resume(done, at);
@@ -339,6 +343,7 @@ void AgendaTimer::release(Cycle at) {
 
 void AgendaTimer::lose(std::int64_t ticks) {
   motors_.note_command();
+  shares_.forget_firings();
   ticks_.lose(ticks);
   motors_.disturb();
 }

@@ -184,6 +184,7 @@ struct Host final : dspic::HostCalls {
   std::uint16_t peek(unsigned, Cycle) const override { return 0; }
   Cycle due() const override { return dspic::kNever; }
   std::uint64_t share_q32() const override { return calls.size() % 3 << 28; }
+  std::int64_t take_owed_q32() const override { return 0; }
   void begin_handler(Cycle) override {}
   dspic::HandlerStep next_in_handler(Cycle) override { return {}; }
   void end_handler(Cycle) override {}

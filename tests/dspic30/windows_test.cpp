@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How run() is called changes nothing: neither the course, nor what is counted as waited, nor what whoever
 // plays the library sees and when.
+#include <utility>
+
 #include "dspic30/core/cpu.h"
 #include "tests/dspic30/core_bench.h"
 
@@ -15,7 +17,7 @@ using dspic::HandlerStep;
 using dspic::HostResult;
 
 /// Plays a library: function 0 works, 1 and 2 wait, 3 tells the time and how long that stays, 4 changes the
-/// handlers' share, 5 stops and starts the handler that calls the program; 0x800 counts time.
+/// handlers' share, of which they have taken too much or too little, 5 stops and starts the handler that calls the program; 0x800 counts time.
 class Library final : public dspic::HostCalls {
  public:
   explicit Library(unsigned callback, int share_percent) : callback_(callback), percent_(share_percent) {}
@@ -37,6 +39,7 @@ class Library final : public dspic::HostCalls {
       case 4:
         cpu.note_effect();
         percent_ = percent_ == 30 ? 7 : 30;
+        owed_q32_ += std::int64_t{percent_ == 30 ? -420 : 250} << 32;
         cpu.host_changed();
         return HostResult::done(21);
       default:
@@ -53,6 +56,7 @@ class Library final : public dspic::HostCalls {
   Cycle horizon(unsigned, Cycle at) override { return (at / 4099 + 1) * 4099; }
   std::uint16_t peek(unsigned, Cycle at) const override { return static_cast<std::uint16_t>(at / 4099); }
   Cycle due() const override { return due_; }
+  std::int64_t take_owed_q32() const override { return std::exchange(owed_q32_, 0); }
   std::uint64_t share_q32() const override {
     return held_ ? 0 : static_cast<std::uint64_t>(percent_) * (std::uint64_t{1} << 32) / 100;
   }
@@ -93,6 +97,7 @@ class Library final : public dspic::HostCalls {
     return HostResult::done(6);
   }
   unsigned callback_;
+  mutable std::int64_t owed_q32_ = 0;
   int percent_, steps_ = 0;
   bool held_ = true;
   Cycle due_ = 2000, until_ = 0;
@@ -422,6 +427,39 @@ TEST(Windows, idle_is_known_ahead) {
   for (const char* text : kWithLibrary)
     for (const int share : {0, 30}) check(text, share);
   EXPECT_GT(ahead, 100);
+}
+
+// half of the time is taken
+TEST(TwoClocks, make_good_what_was_taken_too_much_or_too_little) {
+  constexpr std::uint64_t kHalf = std::uint64_t{1} << 31;
+  constexpr std::int64_t kCycle = std::int64_t{1} << 32;
+  struct Row {
+    std::int64_t owed;                      // cycles
+    Cycle now, at_3, at_12, at_30, at_300;  // true times: at once, and behind so many cycles of the program
+  };
+  for (const Row& row : {Row{0, 1000, 1006, 1024, 1060, 1600}, Row{8, 1008, 1014, 1032, 1068, 1608},
+                         // too much: the program has it all until that is even
+                         Row{-4, 1000, 1003, 1020, 1056, 1596}, Row{-50, 1000, 1003, 1012, 1030, 1550}}) {
+    dspic::TwoClocks clocks;
+    Cycle now = 1000;
+    clocks.settle(now);
+    clocks.correct(now, row.owed * kCycle);
+    clocks.set_share(kHalf);
+    EXPECT_EQ(now, row.now) << row.owed;
+    const Cycle own = clocks.own_cycles(now);
+    for (const auto& [after, at] :
+         {std::pair{3, row.at_3}, {12, row.at_12}, {30, row.at_30}, {300, row.at_300}}) {
+      EXPECT_EQ(clocks.true_at(now + after), at) << row.owed << ", " << after;
+      EXPECT_EQ(clocks.program_at(at), now + after) << row.owed << ", " << after;
+    }
+    // settled on the way it is the same
+    Cycle settled = now + 30;
+    clocks.settle(settled);
+    EXPECT_EQ(settled, row.at_30) << row.owed;
+    EXPECT_EQ(clocks.own_cycles(settled) - own, 30) << row.owed;
+    EXPECT_EQ(clocks.true_at(settled + 270), row.at_300) << row.owed;
+    EXPECT_EQ(clocks.program_at(row.at_300), settled + 270) << row.owed;
+  }
 }
 
 }  // namespace

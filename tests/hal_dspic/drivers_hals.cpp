@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The drivers at work: the same firmware, world and expectations with both HALs. Expectations are worked out
 // from the library's numbers, not taken from either.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "tests/support/firmware_test.h"
@@ -97,6 +99,50 @@ int main(void) {
   EXPECT_NEAR(double(robot.right_steps() - r), -1999.3, 2);
   EXPECT_NEAR(robot.variable("left_steps"), double(robot.left_steps()), 2);
   EXPECT_NEAR(robot.variable("right_steps"), double(robot.right_steps()), 2);
+  expect_no_traps();
+}
+
+struct Turns {
+  int left, right, nops;
+  int turns;  // of two seconds, as the chip's own code leaves them
+};
+class SpeedsInEachTurn : public firmware_test::FirmwareTest,
+                         public ::testing::WithParamInterface<std::tuple<const char*, Turns>> {
+ protected:
+  SpeedsInEachTurn() { options.hal = std::get<0>(GetParam()); }
+};
+constexpr Turns kTurns[] = {{300, 300, 5600, 1229},
+                            {300, -150, 2000, 3401},
+                            {700, 610, 3000, 2273},
+                            {90, 40, 9000, 770},
+                            {400, 0, 50, 16194}};
+INSTANTIATE_TEST_SUITE_P(Drivers, SpeedsInEachTurn,
+                         ::testing::Combine(::testing::Values("sim", "dspic"), ::testing::ValuesIn(kTurns)));
+
+// the motors' agendas fire at other instants than with a speed that stays, and take time then
+TEST_P(SpeedsInEachTurn, leave_the_program_its_time) {
+  const Turns& row = std::get<1>(GetParam());
+  Robot& robot = add_robot_with_source(fmt::format(R"(
+#include <motor_led/e_init_port.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+volatile long turns;
+int main(void) {{
+  unsigned i;
+  e_init_port();
+  e_init_motors();
+  e_start_agendas_processing();
+  while (1) {{
+    e_set_speed_left({});
+    e_set_speed_right({});
+    ++turns;
+    for (i = 0; i < {}; i++) asm volatile("nop");
+  }}
+}}
+)",
+                                                   row.left, row.right, row.nops));
+  run_for(2);
+  EXPECT_NEAR(robot.variable("turns"), row.turns, 1 + row.turns / 2000);
   expect_no_traps();
 }
 
