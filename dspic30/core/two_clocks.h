@@ -36,6 +36,7 @@ class TwoClocks {
   }
   /// So many cycles of 2^-32 were taken too little by now, behind settle(); negative: too much.
   void correct(Cycle& now, std::int64_t cycles_q32) {
+    if (cycles_q32 == 0) return;
     rest_ += cycles_q32;
     const Cycle taken = whole(rest_);
     rest_ -= taken << 32;

@@ -34,6 +34,7 @@ void Waits::begin(Cpu& cpu) {
   look_head_ = cpu.next;
   cpu.heads.is_met = false;
   look_began_ = cpu.true_now();
+  look_began_own_ = cpu.clocks.own_cycles(cpu.now);
   note_look(cpu);
   // a function of the host that waits is none of these
   if (stands_in_host(cpu)) {
@@ -177,6 +178,7 @@ void Waits::begin_round(Cpu& cpu) {
   round.memory.clear();
   note_round(cpu);
   cpu.dc |= kNotSet;
+  outermost_ = cpu.w[15];
   steps_ = 0;
   probe_->trace.clear();
   behind_ = {};
@@ -233,7 +235,10 @@ void Waits::look(Cpu& cpu) {
       break;
     }
     if (cpu.repeating) continue;  // the window cuts it
-    if (behind_.first) {
+    if (cpu.w[15] < outermost_) {
+      begin_round(
+          cpu);  // a round begins where it is in no function that it calls: those may be answered by heart
+    } else if (behind_.first) {
       if (goes_elsewhere(cpu)) begin_round(cpu);
     } else if (cpu.watched_until <= cpu.true_now()) {
       fail(cpu);
@@ -324,15 +329,17 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   until_ = cpu.watched_until;
   entered_ = round_began_;  // the round that proved it was one of it
   entered_at_ = round_began_at_;
-  // ... and so was the rest of the one that an interrupt had come into
+  // ... and so were, behind an interrupt, the rest of the one that it came into and those that this look has seen
   delayed_ = round_delayed_;
-  if (entered_ - resumed_ <= wait->took && goes_on(cpu, *wait)) {
+  if (look_began_own_ - resumed_ <= wait->took && goes_on(cpu, *wait)) {
+    waited_ += between_;
     entered_ = resumed_;
     entered_at_ = resumed_at_;
     delayed_ = resumed_delayed_;
   }
   cpu.delayed = delayed_;
   cut_ = nullptr;
+  between_ = 0;
   cpu.heads.pause(wait->first, true, cpu.true_now());
   schedule(cpu).between = kFirstLooks;
   cpu.still_since = until_ == kNever && !cpu.looks_outside ? std::min(cpu.still_since, look_began_) : kNever;
@@ -374,7 +381,9 @@ void Waits::wait(Cpu& cpu) {
   }
   if (now < until_) return;
   leave(cpu);
-  schedule(cpu).at = now;  // perhaps it goes on
+  note_cut();  // perhaps it goes on, as behind an interrupt
+  note_resumed(cpu);
+  schedule(cpu).at = now;
 }
 
 // what whole rounds leave behind
@@ -393,11 +402,22 @@ void Waits::leave(Cpu& cpu) {
   counts_ = nullptr;
 }
 
+void Waits::note_cut() {
+  cut_ = wait_->first;
+  cut_took_ = wait_->took;
+  between_ = 0;
+}
+
 void Waits::cut(Cpu& cpu, int vector) {
   const bool waits = is_waiting();
   if (waits) {
-    cut_ = wait_->first;
+    note_cut();
     leave(cpu);
+  } else {
+    // another one before it was back where it waited: what was between belongs to the wait, if it goes on
+    const Cycle now = cpu.clocks.own_cycles(cpu.now);
+    if ((state_ == State::Looking ? look_began_own_ : now) - resumed_ <= cut_took_)
+      between_ += now - resumed_;
   }
   // behind the handler it comes to a wait's first instruction by itself, and stops there
   if (waits && is_by_head_)
@@ -445,6 +465,8 @@ void Waits::note(Cpu& cpu, const ByHeart& wait) {
   waited_ += wait.cut - wait.came;
   jumped_ += wait.cut - wait.came;
   cut_ = wait.head;
+  cut_took_ = cpu.known_counts.at(wait.head)->round().took;
+  between_ = 0;
   next.at = look_beside_heads(cpu, wait.cut_true);
   begin_handler(cpu, wait.vector, wait.cut_true);
   resumed_ = wait.went_on;
@@ -515,7 +537,7 @@ bool Waits::is_hinted_look(const Cpu& cpu) {
 // where nothing has changed, it is found again within a round, and has waited all the time
 void Waits::stir(Cpu& cpu) {
   if (is_waiting()) {
-    cut_ = wait_->first;
+    note_cut();
     leave(cpu);
     note_resumed(cpu);
   }

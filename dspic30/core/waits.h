@@ -160,6 +160,7 @@ class Waits {
   Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
+  void note_cut();
   void begin_handler(const Cpu& cpu, int vector, Cycle at);
   /// Looks are rare, and each robot has one of these. `wait` goes on.
   void forget_probe(const KnownWaits::Wait* wait = nullptr) {
@@ -191,6 +192,7 @@ class Waits {
   std::array<HandlerLooks, kVectors> handler_looks_;
   unsigned hints_ = 0, hint_gap_ = 1;  // since the last look that one brought; between two
   const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
+  Cycle cut_took_ = 0, between_ = 0;   // a round of it; cycles since, between handlers, before it was back
   Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
   Cycle resumed_delayed_ = 0;          // Cpu::delayed then
   Cycle resumed_at_ = 0;               // true time then
@@ -199,10 +201,12 @@ class Waits {
   Cycle left_ = 0;                          // ... of that round: cycles of the program
   const Decoded* look_head_ = nullptr;      // where the look began
   Cycle look_began_ = 0, round_began_ = 0;  // true time; cycles of the program
+  Cycle look_began_own_ = 0;                // cycles of the program
   Cycle round_delayed_ = 0;                 // Cpu::delayed then
   Cycle round_began_at_ = 0;                // true time then
   bool is_turned_ = false;                  // it begins at a known head that the look came to
   int chances_ = 0, steps_ = 0;
+  std::uint16_t outermost_ = 0;  // the stack pointer where the round begins
   // a loop that counts, with few rounds to go: the look goes on behind it, or when it still runs then
   struct Range {
     const Decoded *first = nullptr, *last = nullptr;

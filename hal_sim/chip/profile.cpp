@@ -88,6 +88,7 @@ void Profile::after(const Step& step) {
   // The first step of all begins the profile.
   if (from_ < 0) {
     from_ = step.begin;
+    idle_before_ = processor_.idle(step.end);
     here().frames.push_back({function_of(step.pc), 0, 0, step.begin});
   }
   to_ = step.end;
@@ -441,7 +442,7 @@ ProfileReport Profile::report() const {
   report.from = std::max<Cycle>(from_, 0);
   report.to = to_;
   report.slept = slept_;
-  report.waited = contexts_[0].waited;
+  report.waited = from_ < 0 ? 0 : processor_.idle(to_) - idle_before_ - slept_;
   report.in_handlers = in_handlers_;
   // Functions, with who called the longest of their calls, and where they stand in the source.
   if (const FunctionTally& own = functions_.back(); own.own > 0)

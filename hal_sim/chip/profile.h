@@ -55,7 +55,8 @@ struct ProfileReport {
     bool counts = false;  ///< a delay loop; else it polls
   };
   Cycle from = 0, to = 0;  ///< what was seen
-  Cycle slept = 0, waited = 0, in_handlers = 0;
+  Cycle slept = 0, waited = 0;  ///< as the run's load counts them
+  Cycle in_handlers = 0;
   Spread turn;  ///< of the main loop; count 0: none was found
   std::string turn_place;
   int stack_bytes = 0;  ///< deepest
@@ -185,7 +186,7 @@ class Profile final : public StepWatch {
   std::vector<Cut> cuts_;              // one a handler
   std::uint64_t flags_ = 0;            // enabled ones, as they were
   std::uint64_t served_by_heart_ = 0;  // flags, bit i of IRQ i, whose handlers the host plays
-  Cycle from_ = -1, to_ = 0, in_handlers_ = 0, slept_ = 0;
+  Cycle from_ = -1, to_ = 0, in_handlers_ = 0, slept_ = 0, idle_before_ = 0;
   std::int64_t steps_ = 0;
   unsigned stack_base_ = 0, stack_top_ = 0;
   Cycle stack_at_ = 0;

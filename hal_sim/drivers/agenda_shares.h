@@ -75,7 +75,8 @@ class AgendaShares {
   void count_firings(board::Wheel wheel, Cycle at);
   /// Another command comes: what was taken too little until `at`.
   void settle_firings(board::Wheel wheel, Cycle at);
-  /// Ticks are lost, or the handler is held: nobody knows.
+  /// Ticks are lost: nobody knows. (While the handler is held for less than a tick nothing is taken: a share of a
+  /// share.)
   void forget_firings() { counted_from_[0] = counted_from_[1] = kNever; }
   /// What was taken too little by now, in cycles of 2^-32; negative: too much.
   std::int64_t take_owed_q32() const { return std::exchange(owed_q32_, 0); }

@@ -327,7 +327,6 @@ void AgendaTimer::resume(std::int64_t done, Cycle at, bool pending) {
 
 void AgendaTimer::release(Cycle at, bool pending) {
   if (!ticks_.is_held()) return;
-  shares_.forget_firings();
   pays_firings_ = pending;
   const std::int64_t done = ticks_.let_go();
   if (!ticks_.is_walking()) resume(done, at, pending);
@@ -335,7 +334,6 @@ void AgendaTimer::release(Cycle at, bool pending) {
 
 void AgendaTimer::release(Cycle at) {
   if (!ticks_.is_held()) return;
-  shares_.forget_firings();
   const std::int64_t done = ticks_.let_go();
   if (!ticks_.is_running() || ticks_.is_walking() || at < ticks_.line().cycle_of(done + 1)) return;
   resume(done, at);

@@ -62,10 +62,7 @@ class AgendaTimer {
   void forget(Cycle at);
 
   /// From `at` on the handler is not called, because the program masks it; and is again.
-  void hold(Cycle at) {
-    shares_.forget_firings();
-    ticks_.hold(at);
-  }
+  void hold(Cycle at) { ticks_.hold(at); }
   void release(Cycle at);
   /// Somebody else keeps the interrupt's flag, and tells of it: `pending`, it is set as the handler is let
   /// go. Then the handler begins once, whether a tick came meanwhile or the program has set the flag.
