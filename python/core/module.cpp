@@ -86,6 +86,19 @@ class Handle {
   };
   /// What was lost, a line each.
   std::string close() {
+    const std::string lost = finish();
+    world_.reset();
+    return lost;
+  }
+  /// Closes it, but for what it came to, which can be asked in a handle of its own. None: it was closed before.
+  py::tuple close_and_keep() {
+    const std::string lost = finish();
+    return py::make_tuple(lost, world_ ? py::cast(std::make_unique<Handle>(std::move(world_))) : py::none());
+  }
+  bool is_open() const { return world_ != nullptr; }
+
+ private:
+  std::string finish() {
     if (!world_) return "";
     const Running running(*this);
     std::vector<std::string> problems;
@@ -93,12 +106,8 @@ class Handle {
       py::gil_scoped_release free;
       world_->finish(problems);
     }
-    world_.reset();
     return joined(problems);
   }
-  bool is_open() const { return world_ != nullptr; }
-
- private:
   void check() const {
     if (!world_) throw std::runtime_error("world: got a call behind close(), expected it before");
   }
@@ -556,6 +565,7 @@ PYBIND11_MODULE(_core, module) {
       .def("holds", &Watch::holds);
   world.def(py::init(&open_world))
       .def("close", &Handle::close)
+      .def("close_and_keep", &Handle::close_and_keep)
       .def_property_readonly("is_open", &Handle::is_open)
       .def_property_readonly("now", [](Handle& h) { return h.world().simulation().now(); })
       .def_property_readonly("tick_s", [](Handle& h) { return h.world().simulation().scene().tick_s(); })

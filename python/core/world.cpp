@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <chrono>
 
+#include "hal_sim/board/bluetooth_module.h"
+#include "hal_sim/board/uart_end.h"
 #include "hal_sim/chip/chip_runner.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/record/picture.h"
@@ -14,6 +16,14 @@ namespace {
 
 constexpr sim::Clicks kLook = sim::kClicksPerSecond / 64;
 constexpr auto kStopEvery = std::chrono::milliseconds(20);
+
+/// Where a link leads that nobody is at any more.
+class Nobody : public board::UartEnd {
+ public:
+  void deliver(const std::uint8_t*, const board::Cycle*, std::size_t) override {}
+  std::size_t collect(std::uint8_t*, std::size_t, board::Cycle) override { return 0; }
+  std::string name() const override { return {}; }
+};
 
 }  // namespace
 
@@ -130,7 +140,18 @@ void World::finish(std::vector<std::string>& problems) {
   if (is_finished_ || !run_) return;
   is_finished_ = true;
   run_->team().finish();
+  let_go_of_ends();
   if (auto* coverage = run_->coverage()) coverage->finish(problems);
+}
+
+/// Files, ports and terminals are free for another world, whoever still looks at this one.
+void World::let_go_of_ends() {
+  for (int robot = 0; robot < twin().robots(); ++robot) {
+    board::Board& board = twin().mind(robot).board();
+    if (!twin().bluetooth(robot).name().empty())
+      twin().bluetooth(robot).connect_computer(std::make_shared<Nobody>());
+    board.uart(2).connect(nullptr);
+  }
 }
 
 std::int64_t World::traps_seen() const {

@@ -85,7 +85,8 @@ class World {
   Why run(sim::Clicks end, const std::function<bool()>& each_tick, bool stops_at_traps);
   /// Asked every 20 ms of real time while it runs.
   std::function<bool()> should_stop;
-  /// The run is over: programs of the PC are told and have a second to end; coverage is written.
+  /// The run is over: programs of the PC are told and have a second to end; serial lines lose their other ends;
+  /// coverage is written.
   void finish(std::vector<std::string>& problems);
 
   // --- touching
@@ -121,6 +122,7 @@ class World {
   explicit World(const Opening& opening) : opening_(opening) {}
   bool begin(std::vector<std::string>& problems);
   void listen();
+  void let_go_of_ends();
   void sample();
   void write_row(Record& record);
   sim::Clicks next_look() const;

@@ -21,10 +21,11 @@ import pytest
 
 from . import _core, _declarative, _failures, _matrix, _outputs
 from ._errors import InvalidRun, OutputLost, TwinpuckError
+from ._kept_world import KeptWorld
 from ._robot import Robot
 from ._world import World, read, text_in
 
-_WORLDS = pytest.StashKey[list[World]]()
+_WORLDS = pytest.StashKey[list[KeptWorld]]()
 _LOST = pytest.StashKey[list[str]]()  # outputs, a line each
 
 
@@ -195,11 +196,11 @@ def make_world(request: pytest.FixtureRequest, _chosen: dict[str, typing.Any]) -
     close(request.config, worlds)
 
 
-def close(config: pytest.Config, worlds: list[World]) -> None:
+def close(config: pytest.Config, worlds: list[KeptWorld]) -> None:
     """Closes a test's worlds. That coverage was lost is no test's failure: it is told at the end."""
     for world in worlds:
         try:
-            world.close()
+            world.drop()
         except OutputLost as wrong:
             config.stash[_LOST] += str(wrong).splitlines()
 
@@ -233,7 +234,7 @@ def place_of(source: typing.Any, folder: pathlib.Path) -> typing.Any:
 
 
 def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
-               firmware: typing.Any = None, **options: typing.Any) -> World:
+               firmware: typing.Any = None, **options: typing.Any) -> KeptWorld:
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
     source = place_of(source, folder)
 
@@ -259,7 +260,9 @@ def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, 
         options["sanitize"] = True
     if option(config, "coverage"):
         options["coverage"] = str(pathlib.Path(option(config, "coverage")).resolve())
-    world = World(source, firmware, **options)
+    world = KeptWorld(source, firmware, **options)
+    if option(config, "coverage"):
+        world.lost = config.stash[_LOST]
     if "selector" in chosen:
         for each in world.robots:
             each.selector = chosen["selector"]
@@ -335,7 +338,7 @@ class DeclarativeTest(pytest.Item):
 def pytest_runtest_call(item: pytest.Item) -> None:
     """Behind a test that passed: a run whose faults never took effect shows nothing, so it did not pass."""
     for world in item.stash.get(_WORLDS, []):
-        world.check_faults()
+        world.as_it_came_to_be().check_faults()
 
 
 @pytest.hookimpl(hookwrapper=True)
@@ -349,10 +352,12 @@ def pytest_runtest_makereport(item: pytest.Item, call: pytest.CallInfo[None]) ->
     if call.excinfo is not None and isinstance(call.excinfo.value, _declarative.TestFileError):
         item.user_properties.append(("twinpuck_bad_input", str(call.excinfo.value)))
     for number, world in enumerate(item.stash.get(_WORLDS, [])):
-        properties: dict[str, typing.Any] = {"seed": world.seed, "time_s": world.time_s}
+        properties: dict[str, typing.Any] = {}
         try:
-            shown, files = _failures.show(world, failures_folder(item.config) / _failures.name_of(item.nodeid, number))
-        except (TwinpuckError, OSError, RuntimeError) as wrong:  # the failure itself must be told
+            ended = world.as_it_came_to_be()
+            properties = {"seed": ended.seed, "time_s": ended.time_s}
+            shown, files = _failures.show(ended, failures_folder(item.config) / _failures.name_of(item.nodeid, number))
+        except Exception as wrong:  # whatever it is: the failure itself must be told, and of the other tests theirs
             shown, files = f"nothing more can be shown: {wrong}", {}
         report.sections.append((f"world {pathlib.Path(world.file).name}", shown))
         # JUnit's readers take files that are named so, and text that stands beside them

@@ -279,6 +279,63 @@ def test_each_failure_has_a_folder_of_its_own(mine, command):
     assert len(left) == 8 and "test_mine.py_test_n[a_b]" in {place.name for place in left}
 
 
+CLOSES = {
+    "with": "with make_world() as world:\n        world.run(0.25)",
+    "close": "world = make_world()\n    world.run(0.25)\n    world.close()",
+    "twice": "world = make_world()\n    world.run(0.25)\n    world.close()\n    world.close()",
+    "reset": "world = make_world()\n    world.run(9)\n    world.reset()\n    world.run(0.25)\n    world.close()",
+    "anew": "world = make_world()\n    world.close()\n    world.reset()\n    world.run(0.25)",
+    "several": "with make_world() as world, make_world(seed=2) as other:\n        world.run(0.25)",
+    "same_place": "for _ in range(2):\n        with make_world(uart1={'*': 'pty:line'}, uart2={'*': 'file:heard'}) as world:\n"
+                  "            world.run(0.25)",
+    "no_program": "world = make_world(firmware=str(tmp_path / 'p'))\n    world.run(0.25)\n    (tmp_path / 'p').rename(tmp_path / 'q')\n"
+                  "    with pytest.raises(twinpuck.WorldError):\n        world.reset()\n    (tmp_path / 'q').rename(tmp_path / 'p')",
+}
+
+
+# a world that its test closed was asked all the same, and no other test ran any more
+@pytest.mark.parametrize("how", CLOSES)
+def test_a_world_that_a_test_closes_is_as_any_other_to_the_plugin(mine, command, how):
+    begin = ("(make_world, tmp_path):\n    (tmp_path / 'p').mkdir()\n"
+             f"    (tmp_path / 'p/main.c').write_text('int main(void) {{ while (1) ; }}')\n    {CLOSES[how]}\n")
+    closed = "" if how == "anew" else "    with pytest.raises(RuntimeError, match='behind close'):\n        world.time_s\n"
+    late = begin.replace("world.run(0.25)", "world.inject('bump', at_s=5); world.run(0.25)")
+    folder = mine(f"import pytest, twinpuck\ndef test_good{begin}{closed}def test_bad{begin}    assert 0\n"
+                  f"def test_late{late}def test_last(world):\n    world.run(0.1)\n")
+    done = command("test", "-v", "--seeds", "4", "--junitxml", "out.xml", cwd=folder)
+    ended = {re.sub(r".*::test_(\w+).*", r"\1", name): end for name, end in names(done.stdout).items()}
+    assert ended == {"good": "PASSED", "bad": "FAILED", "late": "FAILED", "last": "PASSED"}, done.stdout + done.stderr
+    assert done.returncode == 1 and "bump at_s" not in done.stderr
+    cases = {re.sub(r"\W.*", "", c.get("name")): c for c in xml.etree.ElementTree.parse(folder / "out.xml").iter("testcase")}
+    for name in ("test_bad", "test_late"):
+        properties = [(p.get("name"), p.get("value")) for p in cases[name].iter("property")]
+        assert ("twinpuck_seed", "4") in properties and ("twinpuck_time_s", "0.25") in properties, properties
+        assert "puck: at (0.000, 0.000) m" in cases[name].find("system-out").text
+        recording = next(value for key, value in properties if key == "twinpuck_recording")
+        again = command("run", "--replay", recording, "-q", "--summary", "s.json", cwd=folder)
+        assert again.returncode == (7 if name == "test_late" else 0) and json.loads((folder / "s.json").read_text())["simulated_s"] == 0.25
+    assert "never began" in cases["test_late"].find("failure").text
+
+
+def test_a_world_that_a_test_closes_adds_its_counts_once_and_its_own_world_is_its_own(mine, command):
+    closed = "        world.run(0.1)\n        world.reset()\n        world.run(0.1)\n    world.close()\n"
+    folder = mine(f"import twinpuck\ndef test_once(make_world):\n    with make_world() as world:\n{closed}"
+                  f"def test_mine():\n    with twinpuck.World('world.toml') as world:\n        world.inject('bump', at_s=5)\n{closed}"
+                  f"def test_bad():\n    with twinpuck.World('world.toml') as world:\n{closed}    assert 0\n")
+    done = command("test", "-v", "--coverage", "c.info", cwd=folder)
+    assert list(names(done.stdout).values()) == ["PASSED", "PASSED", "FAILED"], done.stdout
+    led = MAIN.splitlines().index("  e_set_led(0, 1);") + 1
+    assert f"DA:{led},2\n" in (folder / "c.info").read_text(), "a count for each run"
+
+
+def test_a_world_that_cannot_be_asked_takes_no_other_test_with_it(mine, command):
+    folder = mine("import threading, time\ndef test_runs_on(make_world):\n    world = make_world()\n"
+                  "    threading.Thread(target=world.run, args=(1e6,), daemon=True).start()\n    time.sleep(0.2)\n"
+                  "def test_last(world):\n    world.run(0.1)\n")
+    done = command("test", "-v", cwd=folder)
+    assert names(done.stdout)["test_mine.py::test_last"] == "PASSED" and "while it runs in another thread" in done.stdout
+
+
 def test_names_of_failures_differ():
     from twinpuck import _failures
 
