@@ -85,25 +85,27 @@ void add_test(CLI::App& app, int& exit_code) {
 }
 
 void add_grade(CLI::App& app, int& exit_code) {
-  add_python_verb(app, "grade", "Run tests over a class's folders: points, a table, JUnit", "twinpuck._grade",
-                  "Arguments are folders or files of tests, as `twinpuck test` has them, and:\n"
-                  "  --submissions DIR  a folder for each student in it\n"
-                  "  --program NAME     the folder in each submission that holds the program\n"
-                  "  --seeds 1..50      each test with these seeds, which students need not know\n"
-                  "  --hal sim,dspic    ... with programs linked with these HALs\n"
-                  "  --selector 0..15   ... with the selector in these positions\n"
-                  "  --sanitize         programs are checked at each access of memory\n"
-                  "  --limit S          real seconds a submission (120)\n"
-                  "  --jobs N           so many at a time (all cores)\n"
-                  "  --csv FILE         the points for a spreadsheet\n"
-                  "  --html FILE        the table as a page, with what failed\n"
-                  "  --junitxml FILE    for CI: a suite a submission\n"
-                  "  --keep DIR         pictures and recordings of failures\n"
-                  "  --trusted          programs of the PC are not contained\n"
-                  "Example: twinpuck grade tests/ --submissions class/ --csv points.csv --html points.html   "
-                  "(docs/testing.md)\n"
-                  "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 130 interrupted",
-                  exit_code);
+  add_python_verb(
+      app, "grade", "Run tests over a class's folders: points, a table, JUnit", "twinpuck._grade",
+      "Arguments are folders or files of tests, as `twinpuck test` has them, and:\n"
+      "  --submissions DIR  a folder for each student in it\n"
+      "  --program NAME     the folder in each submission that holds the program\n"
+      "  --seeds 1..50      each test with these seeds, which students need not know\n"
+      "  --hal sim,dspic    ... with programs linked with these HALs\n"
+      "  --selector 0..15   ... with the selector in these positions\n"
+      "  --sanitize         programs are checked at each access of memory\n"
+      "  --limit S          real seconds a submission (120)\n"
+      "  --jobs N           so many at a time (all cores)\n"
+      "  --csv FILE         the points for a spreadsheet\n"
+      "  --html FILE        the table as a page, with what failed\n"
+      "  --junitxml FILE    for CI: a suite a submission\n"
+      "  --keep DIR         pictures and recordings of failures\n"
+      "  --trusted          programs of the PC are not contained\n"
+      "Example: twinpuck grade tests/ --submissions class/ --csv points.csv --html points.html   "
+      "(docs/testing.md)\n"
+      "Exit codes: 0 everybody was graded, 2 bad input, 6 somebody was not: the tests broke, 7 a table "
+      "could not be written, 130 interrupted",
+      exit_code);
 }
 
 }  // namespace tools

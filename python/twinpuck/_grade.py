@@ -27,8 +27,10 @@ from . import _ending, _matrix, _outputs
 
 _BUBBLEWRAP = "/usr/bin/bwrap"
 _INTERRUPTED = "not graded to its end: interrupted"
+_UNREAD = "the test cannot be read: "
 _ENDINGS = {"--csv": ".csv", "--html": ".html", "--junitxml": ".xml"}
-_CODES = "Exit codes: 0 everybody was graded, 2 bad input, 6 internal error, 7 a table could not be written, 130 interrupted"
+_CODES = ("Exit codes: 0 everybody was graded, 2 bad input, 6 somebody was not: the tests broke, 7 a table could not be "
+          "written, 130 interrupted")
 
 
 @dataclasses.dataclass
@@ -46,11 +48,13 @@ class Case:
 
 @dataclasses.dataclass
 class Grade:
-    """What came of one submission. problem: it was not graded to its end, and why."""
+    """What came of one submission. problem: it was not graded to its end, and why; is_broken: that is the tests' fault, or
+    ours, so its points say nothing."""
 
     name: str
     cases: list[Case] = dataclasses.field(default_factory=list)
     problem: str = ""
+    is_broken: bool = False
 
     def points(self, tests: collections.abc.Mapping[str, float]) -> float:
         """Points of all tests that passed; a test over several seeds gives its points in parts."""
@@ -112,7 +116,7 @@ def run_tests(arguments: list[str]) -> int:
 
         def pytest_collectreport(self, report: pytest.CollectReport) -> None:
             if report.failed:
-                cases.append(Case(report.nodeid, 0, "failed", "the test cannot be read: " + report.longreprtext))
+                cases.append(Case(report.nodeid, 0, "failed", _UNREAD + report.longreprtext))
 
     def said(report: pytest.TestReport) -> str:
         crash = getattr(report.longrepr, "reprcrash", None)
@@ -229,15 +233,29 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
         environment["TWINPUCK_SUBMISSION"] = str(student.resolve())  # its builds read nothing else
         environment["PATH"] = "/usr/local/bin:/usr/bin:/bin"  # what they see
     log = work / "log.txt"
-    if wait_for(words, environment, log, options.limit_s) is None and not _is_ending.is_set():
-        result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
+    code = wait_for(words, environment, log, options.limit_s)
     result.cases = cases_of(work / "result.json")
-    if not result.cases:
-        last = log.read_text(encoding="utf-8", errors="replace").strip().splitlines()[-1:]
-        without_result = "the tests ended without a result" + "".join(f": {line}" for line in last)
-        result.problem = result.problem or (_INTERRUPTED if _is_ending.is_set() else without_result)
+    if _is_ending.is_set() and not result.cases:
+        result.problem = _INTERRUPTED
+    elif code is None and not _is_ending.is_set():
+        result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
+    elif code is not None and (code not in _TOLD or not result.cases):
+        result.problem, result.is_broken = broken(code, result.cases, log), True
     result.problem = result.problem or result.told_by_all()
     return result
+
+
+_TOLD = (0, 1, 7)  # what pytest ends with when each test has an outcome
+
+
+def broken(code: int, cases: list[Case], log: pathlib.Path) -> str:
+    """Why tests came to no end of their own, as a line."""
+    if unread := next((case for case in cases if case.text.startswith(_UNREAD)), None):
+        return f"{unread.name}: " + " ".join(unread.text.split())
+    said = [line for line in log.read_text(encoding="utf-8", errors="replace").splitlines() if line.strip()]
+    errors = [line for line in said if re.match(r"INTERNALERROR> \S*(Error|Exception|Run|Fault|Lost)\b", line)]
+    last = (errors or said)[-1:]
+    return f"the tests broke (pytest's exit code {code})" + "".join(f": {line.removeprefix('INTERNALERROR> ')}" for line in last)
 
 
 def common(paths: list[pathlib.Path]) -> pathlib.Path:
@@ -434,7 +452,7 @@ def main(arguments: list[str]) -> int:
         grades = heeding_signals(lambda: grade_all(students, options, base))
         _ending.heed_work()
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _ending.SIGNALS)  # nobody may read what is written
-        code = write_all(grades, options, base)
+        code = write_all(grades, options, base) or (6 if any(g.is_broken for g in grades) else 0)
         return _ending.INTERRUPTED if _is_ending.is_set() else code
     except KeyboardInterrupt:
         return _ending.INTERRUPTED

@@ -423,6 +423,34 @@ def test_tests_that_nobody_can_pass_are_bad_input(small, command, tests, says):
     assert done.returncode == 2 and says in done.stderr and done.stdout == "" and not (small / "g.csv").exists(), done.stderr
 
 
+@pytest.mark.parametrize("hook, tests, says", [
+    ("def pytest_runtest_makereport(item):\n    raise ValueError('a hook')\n", "def test_b(): pass\n",
+     "the tests broke (pytest's exit code 3): ValueError: a hook"),
+    ("", "open('{small}/data.txt')\ndef test_b(): pass\n", "test_b.py: the test cannot be read: "),
+    ("", "import os\ndef test_b(): os._exit(0)\n", "the tests broke (pytest's exit code 0)")])
+def test_who_was_not_graded_is_told_by_the_exit_code(small, command, hook, tests, says):
+    (small / "data.txt").write_text("which nobody sees who is contained")
+    (small / "tests" / "conftest.py").write_text(hook)
+    (small / "tests" / "test_b.py").write_text(tests.replace("{small}", str(small)))
+    done = command("grade", "tests", "--submissions", "class", "--csv", "g.csv", cwd=small)
+    assert done.returncode == 6, done.stdout + done.stderr
+    rows = list(csv.DictReader(open(small / "g.csv", encoding="utf-8")))
+    assert [row["problem"][:len(says)] for row in rows] == [says] * 2, rows
+    assert f"\nbad: {says}" in done.stdout and f"\ngood: {says}" in done.stdout
+
+
+def test_a_world_that_a_test_closes_costs_nobody_points(small, command):
+    (small / "tests" / "test_a.py").write_text(
+        "def test_a(make_world):\n    with make_world() as world:\n        world.run(0.1)\n"
+        "        assert world.robots[0].variable('n') == 1\ndef test_b(world): pass\n")
+    (small / "class" / "none").mkdir()
+    (small / "class" / "none" / "main.c").write_text('#include "nothing_of_that_name.h"\n')
+    done = command("grade", "tests", "--submissions", "class", cwd=small)
+    assert done.returncode == 0 and re.search(r"^good +pass +pass +2$", done.stdout, re.M), done.stdout + done.stderr
+    assert re.search(r"^bad +FAIL +pass +1$", done.stdout, re.M), done.stdout
+    assert re.search(r"^none: .*/none/main.c:1:10: fatal error: 'nothing_of_that_name.h' file not found$", done.stdout, re.M), done.stdout
+
+
 # each process takes a second to begin
 SLOWLY = """import signal, subprocess, time
 from twinpuck import _ending, _grade
