@@ -251,7 +251,7 @@ bool Building::compile() {
                                 (program.unlisted.count(p.user[i].source)
                                      ? "it is no part of the program: "
                                      : "a file of a copy of the library: ") +
-                                outcomes[i].messages.substr(0, outcomes[i].messages.find('\n')));
+                                first_error(outcomes[i].messages));
       continue;
     }
     // warnings of a library are not the user's

@@ -53,26 +53,49 @@ std::string with_hints(const std::string& text) {
   return out;
 }
 
-/// Splits what a compiler printed into errors and warnings; notes stay with the line before them.
+namespace {
+
+/// "In file included from main.c:3:" and what goes on from it: where the next message's file is asked for.
+bool is_way_to_header(const std::string& line) {
+  return line.rfind("In file included from ", 0) == 0 ||
+         (line.rfind("  ", 0) == 0 && line.find_first_not_of(' ') == line.find("from "));
+}
+
+}  // namespace
+
 void sort_messages(const std::string& text, BuildResult& result, bool failed) {
   std::istringstream lines(text);
   std::vector<std::string>* last = nullptr;
+  std::string way;  // to the header of the next message
   for (std::string line; std::getline(lines, line);) {
     const bool is_summary = line.size() > 11 && line.compare(line.size() - 11, 11, " generated.") == 0;
     if (line.empty() || is_summary) continue;
+    if (is_way_to_header(line)) {
+      way += "\n" + line;
+      continue;
+    }
     bool is_error =
         line.find(" error: ") != std::string::npos || line.find("fatal error: ") != std::string::npos;
     bool is_warning = line.find("warning: ") != std::string::npos;
     if (is_error || is_warning) {
       last = is_error ? &result.errors : &result.warnings;
-      if (std::find(last->begin(), last->end(), line) == last->end()) last->push_back(line);
+      const std::string whole = is_error ? line + way : line;
+      if (std::find(last->begin(), last->end(), whole) == last->end()) last->push_back(whole);
     } else if (last && !last->empty() && line.find("note: ") != std::string::npos) {
       last->back() += "\n" + line;
     } else if (failed) {
       last = &result.errors;
       last->push_back(line);
     }
+    way.clear();
   }
+}
+
+std::string first_error(const std::string& text) {
+  BuildResult sorted;
+  sort_messages(text, sorted, true);
+  const std::string error = sorted.errors.empty() ? "" : sorted.errors.front();
+  return error.substr(0, error.find('\n'));
 }
 
 }  // namespace cc

@@ -107,6 +107,36 @@ TEST(build, sixteen_bit_warnings_are_passed_on) {
       "expression of type 'int' is always true [-Wtautological-constant-out-of-range-compare]"));
 }
 
+// whoever shows one error only shows the first
+TEST(build, an_error_in_a_header_comes_before_who_includes_it) {
+  struct Row {
+    const char *first, *second, *wanted;
+  } const rows[] = {
+      {"int f(void) { return x; }", "",
+       "@/prog/first.h:1:22: error: use of undeclared identifier 'x'\nIn file included from "
+       "@/prog/main.c:1:"},
+      {"#include \"second.h\"\n", "int y = ;",
+       "@/prog/second.h:1:9: error: expected expression\nIn file included from @/prog/main.c:1:\n"
+       "In file included from @/prog/first.h:1:"},
+      {"#include \"nothing_of_that_name.h\"\n", "",
+       "@/prog/first.h:1:10: fatal error: 'nothing_of_that_name.h' file not found\nIn file included from "
+       "@/prog/main.c:1:"},
+      {"int f(void) { return 70000; }\nint g(void) { return z; }", "",
+       "@/prog/first.h:2:22: error: use of undeclared identifier 'z'"},
+  };
+  for (const Row& row : rows) {
+    Folder folder;
+    folder.file("prog/first.h", row.first);
+    folder.file("prog/second.h", row.second);
+    const auto built = build(folder, "#include \"first.h\"\nint main(void) { return 0; }");
+    EXPECT_FALSE(built.ok);
+    ASSERT_FALSE(built.errors.empty());
+    EXPECT_TRUE(reads(folder, built.errors.front(), row.wanted));
+    for (const std::string& warning : built.warnings)
+      EXPECT_EQ(warning.find("In file"), std::string::npos) << warning;
+  }
+}
+
 TEST(build, syntax_errors_name_file_and_line) {
   Folder folder;
   auto built = build(folder, "int main(void) {\n  int x = ;\n}");

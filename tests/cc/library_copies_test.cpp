@@ -96,11 +96,12 @@ TEST(library_members, the_variant_whose_header_the_program_includes_is_linked) {
 TEST(library_members, files_that_do_not_compile_are_left_out_with_a_warning) {
   Folder folder;
   folder.file("prog/motor_led/e_motors.c", "int e_init_motors(void) { return 7; }");
-  folder.file("prog/old/e_motors.c", "int e_init_motors(void) { return nobody_declared_this; }");
+  folder.file("prog/old/e_motors.c", "#include \"e_motors.h\"\nint e_init_motors(void) { return 1; }");
+  folder.file("prog/old/e_motors.h", "int i = nobody_declared_this;\n");
   auto built = build(folder, "int e_init_motors(void); int main(void) { return e_init_motors(); }");
   EXPECT_TRUE(built.ok) << text_of(built);
   EXPECT_TRUE(
       reads(folder, text_of(built),
             "@/prog/old/e_motors.c: does not compile and is left out, as a file of a copy of the library: "
-            "@/prog/old/e_motors.c:1:34: error: use of undeclared identifier 'nobody_declared_this'"));
+            "@/prog/old/e_motors.h:1:9: error: use of undeclared identifier 'nobody_declared_this'"));
 }
