@@ -12,6 +12,7 @@
 #include "hal_sim/host/variables.h"
 #include "sim_core/base/hash.h"
 #include "sim_core/base/portable_math.h"
+#include "sim_core/base/utf8.h"
 #include "sim_core/light/proximity.h"
 
 namespace faults {
@@ -381,7 +382,7 @@ void apply(Case& c, std::vector<Case*>& cases, twin::Twin& twin) {
     pins(c, cases, h);
   else if (is_kind(c, "bytes_sent")) {
     c.first_byte = h.board.uart(uart_of(c)).queued();
-    h.board.uart(uart_of(c)).inject(word(c, "bytes"));
+    h.board.uart(uart_of(c)).inject(sim::bytes_of_characters(word(c, "bytes")).value_or(""));
   } else if (is_kind(c, "key_pressed")) {
     h.mind.press_key({int(number(c, "key")), sim::to_seconds(h.simulation().now()), number(c, "hold_s"),
                       int(number(c, "address"))});

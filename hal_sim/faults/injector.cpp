@@ -13,6 +13,7 @@
 #include "hal_sim/signals/condition.h"
 #include "hal_sim/signals/signals.h"
 #include "sim_core/base/did_you_mean.h"
+#include "sim_core/base/utf8.h"
 
 namespace faults {
 
@@ -41,6 +42,8 @@ std::string check_values(const Fault& fault, const Kind& kind) {
     if (p.type == sim::ValueType::Choice &&
         ("|" + std::string(p.choices) + "|").find("|" + value.text + "|") == std::string::npos)
       return fmt::format("{}: got '{}', expected one of {}", name, value.text, p.choices);
+    if (p.type == sim::ValueType::Bytes && !sim::bytes_of_characters(value.text))
+      return fmt::format("{}: got a character above U+00FF, expected one byte a character", name);
     if (p.type == sim::ValueType::Triple && value.numbers.size() != 3)
       return fmt::format("{}: got {} numbers, expected x, y and heading", name, value.numbers.size());
   }

@@ -13,6 +13,7 @@
 #include "hal_sim/host/variables.h"
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/base/hash.h"
+#include "sim_core/base/utf8.h"
 #include "sim_core/load/world_loader.h"
 
 namespace inputs {
@@ -21,20 +22,47 @@ namespace {
 
 [[noreturn]] void refuse_input(const std::string& what) { throw std::runtime_error(what); }
 
+/// A field of an input that must be there.
+const Json& field(const Json& input, const char* key, const std::string& expected) {
+  if (!input.contains(key)) refuse_input(fmt::format("{}: got none, expected {}", key, expected));
+  return input.at(key);
+}
+
+/// A field of one type; `is` says whether it is of that.
+template <typename T>
+T typed(const Json& input, const char* key, bool (Json::*is)() const noexcept, const char* expected) {
+  const Json& value = field(input, key, expected);
+  if (!(value.*is)()) refuse_input(fmt::format("{}: got {}, expected {}", key, value.dump(), expected));
+  return value.get<T>();
+}
+
+std::string text(const Json& input, const char* key) {
+  return typed<std::string>(input, key, &Json::is_string, "a text");
+}
+
+double real(const Json& input, const char* key) {
+  return typed<double>(input, key, &Json::is_number, "a number");
+}
+
 /// NaN, which is in no range, where it is no number.
 double value_of(const Json& value) { return value.is_number() ? value.get<double>() : std::nan(""); }
 
 int whole(const Json& input, const char* key, int least, int most) {
-  const double value = value_of(input.at(key));
+  const std::string range =
+      most < least ? fmt::format("none: there is no {}", key) : fmt::format("{} to {}", least, most);
+  const Json& given = field(input, key, range);
+  const double value = value_of(given);
   if (!(value >= least && value <= most) || value != static_cast<int>(value))
-    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+    refuse_input(fmt::format("{}: got {}, expected {}", key, given.dump(), range));
   return static_cast<int>(value);
 }
 
 double number(const Json& input, const char* key, double least, double most) {
-  const double value = value_of(input.at(key));
+  const std::string range = fmt::format("{} to {}", least, most);
+  const Json& given = field(input, key, range);
+  const double value = value_of(given);
   if (!(value >= least && value <= most))
-    refuse_input(fmt::format("{}: got {}, expected {} to {}", key, input.at(key).dump(), least, most));
+    refuse_input(fmt::format("{}: got {}, expected {}", key, given.dump(), range));
   return value;
 }
 
@@ -44,20 +72,10 @@ Json bare(Json input) {
   return input;
 }
 
-/// Bytes of a text in which each character stands for one.
 std::string bytes_of(const std::string& text) {
-  std::string bytes;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto first = static_cast<unsigned char>(text[i]);
-    if (first < 0x80) {
-      bytes += text[i];
-    } else if ((first == 0xC2 || first == 0xC3) && i + 1 < text.size()) {
-      bytes += static_cast<char>((first & 3) << 6 | (static_cast<unsigned char>(text[++i]) & 0x3F));
-    } else {
-      refuse_input("bytes: got a character above U+00FF, expected one byte a character");
-    }
-  }
-  return bytes;
+  const auto bytes = sim::bytes_of_characters(text);
+  if (!bytes) refuse_input("bytes: got a character above U+00FF, expected one byte a character");
+  return *bytes;
 }
 
 }  // namespace
@@ -108,7 +126,7 @@ const std::vector<Inputs::Kind>& Inputs::kinds() {
 }
 
 int Inputs::robot_of(const Json& input) const {
-  const auto name = input.at("robot").get<std::string>();
+  const auto name = text(input, "robot");
   const int robot = twin_.find(name);
   if (robot < 0) refuse_input(fmt::format("robot: got '{}', expected a robot of the world", name));
   return robot;
@@ -135,7 +153,7 @@ TypedLine& Inputs::line(int robot, int port) {
 }
 
 void Inputs::refurnish(const Json& input) {
-  sim::LoadedWorld loaded = twin::parse_world(input.at("text").get<std::string>(), twin_.world().file);
+  sim::LoadedWorld loaded = twin::parse_world(text(input, "text"), twin_.world().file);
   if (!loaded.world) refuse_input(loaded.report("world"));
   refurnish(input, std::move(*loaded.world));
 }
@@ -146,7 +164,7 @@ void Inputs::refurnish(const Json& input, sim::WorldDesc world) {
     refuse_input("text: got other robots or another tick, expected the same");
   std::size_t movable = 0;
   for (const auto& object : world.objects) movable += object.movable;
-  const auto before = input.at("before").get<std::vector<int>>();
+  const auto before = typed<std::vector<int>>(input, "before", &Json::is_array, "a list");
   if (before.size() != movable) refuse_input("before: expected one number for each movable object");
   for (int body : before)
     if (body >= simulation.scene().bodies() || (body >= 0 && body < twin_.robots()))
@@ -159,7 +177,7 @@ void Inputs::refurnish(const Json& input, sim::WorldDesc world) {
 
 void Inputs::flash(const Json& input) {
   const std::string wrong =
-      twin_.flash(input.at("robots").get<std::vector<int>>(), input.at("image").get<std::string>());
+      twin_.flash(typed<std::vector<int>>(input, "robots", &Json::is_array, "a list"), text(input, "image"));
   if (!wrong.empty()) refuse_input(wrong);
 }
 
@@ -175,7 +193,7 @@ void Inputs::move(const Json& input) {
 
 void Inputs::add_faults(const Json& input) {
   const auto of = input.value("of", std::string("faults"));
-  const faults::LoadedFaults loaded = faults::parse_faults(input.at("text").get<std::string>(), of);
+  const faults::LoadedFaults loaded = faults::parse_faults(text(input, "text"), of);
   if (!loaded.problems.empty()) refuse_input(loaded.report(of));
   faults_.add(loaded.faults);
 }
@@ -190,29 +208,29 @@ void Inputs::set_lamp(const Json& input) {
   const auto& desc = lamps[static_cast<std::size_t>(lamp)];
   const double intensity_w_m2 =
       input.contains("intensity") ? number(input, "intensity", 0, 1e4) : desc.intensity_w_m2;
-  twin_.simulation().set_lamp(lamp, input.at("on").get<bool>(), intensity_w_m2, desc.position_m);
+  twin_.simulation().set_lamp(lamp, typed<bool>(input, "on", &Json::is_boolean, "true or false"),
+                              intensity_w_m2, desc.position_m);
 }
 
 void Inputs::set_variable(const Json& input, int robot) {
   host::ProgramData& data = program_of(input, robot).data();
   std::string error;
-  const host::Variable* v = data.find_number(input.at("variable").get<std::string>(), error);
+  const host::Variable* v = data.find_number(text(input, "variable"), error);
   if (!v) refuse_input(error);
-  data.set_number(*v, input.at("value").get<double>());
+  data.set_number(*v, real(input, "value"));
 }
 
 void Inputs::write_memory(const Json& input, int robot) {
   const int bytes = whole(input, "bytes", 1, 8);
   const int address = whole(input, "address", 0, 0xFFFF - bytes + 1);
-  const auto value = input.at("value").get<std::uint64_t>();
+  const auto value = typed<std::uint64_t>(input, "value", &Json::is_number, "a whole number");
   program_of(input, robot)
       .data()
       .write_memory(static_cast<unsigned>(address), &value, static_cast<std::size_t>(bytes));
 }
 
 void Inputs::set_sensor(const Json& input, int robot) {
-  twin_.mind(robot).board().virtual_devices().set(input.at("name").get<std::string>(),
-                                                  input.at("value").get<double>());
+  twin_.mind(robot).board().virtual_devices().set(text(input, "name"), real(input, "value"));
 }
 
 void Inputs::turn_selector(const Json& input, int robot) {
@@ -225,7 +243,7 @@ void Inputs::set_battery(const Json& input, int robot) {
 }
 
 void Inputs::type(const Json& input, int robot) {
-  line(robot, whole(input, "port", 1, 2)).type(bytes_of(input.at("bytes").get<std::string>()));
+  line(robot, whole(input, "port", 1, 2)).type(bytes_of(text(input, "bytes")));
 }
 
 void Inputs::restart(const Json& input, int robot) { program_of(input, robot).restart(); }
@@ -237,7 +255,7 @@ void Inputs::press_key(const Json& input, int robot) {
 }
 
 void Inputs::apply(const Json& input) {
-  const auto what = input.at("do").get<std::string>();
+  const auto what = text(input, "do");
   const auto& all = kinds();
   const auto kind = std::find_if(all.begin(), all.end(), [&](const Kind& k) { return what == k.name; });
   if (kind == all.end()) refuse_input(fmt::format("do: got '{}', expected an input", what));

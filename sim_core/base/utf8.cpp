@@ -20,4 +20,18 @@ std::size_t utf8_length(std::string_view text, std::size_t at) {
   return is_overlong || is_surrogate || is_beyond ? 0 : length;
 }
 
+std::optional<std::string> bytes_of_characters(std::string_view text) {
+  std::string bytes;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t length = utf8_length(text, at);
+    const auto first = static_cast<unsigned char>(text[at]);
+    if (length == 0 || length > 2 || (length == 2 && first > 0xC3)) return {};
+    bytes += length == 1
+                 ? text[at]
+                 : static_cast<char>((first & 3) << 6 | (static_cast<unsigned char>(text[at + 1]) & 0x3F));
+    at += length;
+  }
+  return bytes;
+}
+
 }  // namespace sim

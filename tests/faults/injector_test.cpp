@@ -203,6 +203,8 @@ TEST(Injector, what_the_world_has_not_is_told_before_the_run) {
   says("pin_forced pin=nonsense",
        "pin: got 'nonsense', expected an input or an LED's: F1, F6, G6 to G9, A6, A7, A9, A10, A12 to A15, "
        "C1, C2");
+  says("bytes_sent bytes=\"\\u00ff\\u0100\"",
+       "bytes: got a character above U+00FF, expected one byte a character");
   faults::Fault fault;
   fault.kind = "sensor_blocked";
   const auto adds = [&] { b.faults().add(fault); };

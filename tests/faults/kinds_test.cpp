@@ -184,11 +184,11 @@ std::vector<Row> of_body() {
 
 std::vector<Row> of_hands() {
   return {
-      {"bytes_sent bytes=hello", in_the_open,
+      {"bytes_sent bytes=\"hello\\u00bc\\u0001\"", in_the_open,
        [](Bench& with, Bench& without) {
-         EXPECT_EQ(with.look("received"), without.look("received") + 5);
+         EXPECT_EQ(with.look("received"), without.look("received") + 7);
          const auto heard = with.puck().variables<char>("heard", 25);
-         EXPECT_NE(std::string(heard.begin(), heard.end()).find("hello"), std::string::npos);
+         EXPECT_NE(std::string(heard.begin(), heard.end()).find("hello\xbc\x01"), std::string::npos);
        }},
       {"key_pressed key=5 hold_s=0.3", in_the_open,
        [](Bench& with, Bench& without) {
