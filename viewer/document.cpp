@@ -5,6 +5,7 @@
 #include <sys/stat.h>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -12,6 +13,7 @@
 #include "hal_sim/twin/world_file.h"
 #include "sim_core/load/key_rules.h"
 #include "sim_core/load/schema.h"
+#include "viewer/requests.h"
 
 namespace viewer {
 
@@ -168,7 +170,21 @@ std::vector<int> Document::edit(const Json& request) {
 }
 
 std::vector<int> Document::edit_one(sim::WorldText& next, const Json& request) const {
+  if (!request.is_object()) refuse("edits: got " + request.dump() + ", expected an object");
+  const Request& known = *find_request("edit");
+  check_request(known, request);
+  need_fields(known, request, {"op"});
   const auto op = request.at("op").get<std::string>();
+  static const std::map<std::string, std::vector<std::string>> kNeeds{
+      {"set", {"thing", "values"}},
+      {"add", {"path", "values"}},
+      {"remove", {"thing"}},
+      {"copy", {"thing"}},
+      {"add_inner", {"thing", "path", "values"}},
+      {"remove_inner", {"thing", "path", "index"}},
+      {"text", {"text"}},
+      {"paste", {"text"}}};
+  if (const auto needs = kNeeds.find(op); needs != kNeeds.end()) need_fields(known, request, needs->second);
   // The piece that is meant, a copy: what is written moves it. Keys are judged before that.
   const auto piece = [&]() -> sim::WorldText::Element {
     const int id = request.at("thing");

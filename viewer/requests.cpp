@@ -17,6 +17,9 @@ namespace {
 
 using Json = nlohmann::json;
 
+// 2^64: the largest whole number is this to a double, and of others only whole ones of JSON are not beyond
+constexpr double kBeyondWhole = 18446744073709551616.0;
+
 // shapes of fields that come more than once
 Field text(const char* name, const char* does, bool needed = true) {
   return {name, FieldType::Text, needed, 0, 0, "", "", does};
@@ -59,7 +62,7 @@ std::vector<Request> make_requests() {
        "how fast it goes"},
       {"restart",
        Right::Steer,
-       {whole("seed", 0, 18446744073709549568.0, "of the new run", false), flag("play", "goes on at once")},
+       {whole("seed", 0, kBeyondWhole, "of the new run", false), flag("play", "goes on at once")},
        "",
        "a new run from time 0"},
       {"steer", Right::Look, {}, "", "from now on this client does, and others look"},
@@ -185,7 +188,7 @@ std::vector<Request> make_requests() {
       {"write",
        Right::Touch,
        {robot(), whole("address", 0, 65535, ""), whole("bytes", 1, 8, ""),
-        whole("value", 0, 18446744073709549568.0, "lowest byte first")},
+        whole("value", 0, kBeyondWhole, "lowest byte first")},
        "",
        "data memory or registers"},
       {"reset", Right::Touch, {robot()}, "", "its reset button"},
@@ -355,6 +358,7 @@ bool fits(const Field& field, const Json& value) {
       if (!value.is_number()) return false;
       const double v = value.get<double>();
       if (field.type == FieldType::Integer && v != std::floor(v)) return false;
+      if (v == kBeyondWhole && !value.is_number_integer()) return false;
       return std::isfinite(v) && (field.least == field.most || (v >= field.least && v <= field.most));
     }
     case FieldType::Flag:
@@ -385,7 +389,9 @@ std::string expected(const Field& field) {
     return out;
   }
   std::string out = type_said(field.type);
-  if (field.least < field.most && field.most < 1e18)
+  if (field.most == kBeyondWhole)
+    out = fmt::format("{}, {:g} to {}", out, field.least, UINT64_MAX);
+  else if (field.least < field.most)
     out = fmt::format("{}, {:g} to {:.10g}", out, field.least, field.most);
   return *field.unit ? fmt::format("{} ({})", out, field.unit) : out;
 }
@@ -446,9 +452,17 @@ void check_request(const Request& request, const Json& got) {
       throw std::runtime_error(
           fmt::format("{}: got {}, expected {}", name, shortened(value), expected(*field)));
   }
+  std::vector<std::string> needed;
   for (const Field& field : request.fields)
-    if (field.needed && !got.contains(field.name))
-      throw std::runtime_error(fmt::format("{}: got none, expected {}", field.name, expected(field)));
+    if (field.needed) needed.emplace_back(field.name);
+  need_fields(request, got, needed);
+}
+
+void need_fields(const Request& request, const Json& got, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    for (const Field& field : request.fields)
+      if (name == field.name && !got.contains(name))
+        throw std::runtime_error(fmt::format("{}: got none, expected {}", name, expected(field)));
 }
 
 namespace {

@@ -36,6 +36,8 @@ const Request* find_request(const std::string& name);
 /// Throws std::runtime_error, "FIELD: got ..., expected ... (unit); did you mean ...?", for a request whose
 /// fields are not what the table says.
 void check_request(const Request& request, const nlohmann::json& got);
+/// Throws likewise for fields of a request's kind (`op` of an edit) that are not there.
+void need_fields(const Request& request, const nlohmann::json& got, const std::vector<std::string>& names);
 
 struct Member {
   const char* name;

@@ -177,7 +177,7 @@ TEST_F(InputsTest, what_lies_beyond_the_bounds_is_refused) {
       {R"({"do": "reset", "robot": "off"})", "robot: got \"off\", which runs no program"},
       {R"({"do": "set", "robot": "puck", "variable": "nix", "value": 0})",
        "got 'nix', expected a variable of the image that is known here"},
-      {R"({"do": "end_fault", "fault": 0})", "fault: got 0, expected 0 to -1"},
+      {R"({"do": "end_fault", "fault": 0})", "fault: got 0, expected none: there is no fault"},
       {R"({"do": "world", "text": "twinpuck = 1\n", "before": []})",
        "text: got other robots or another tick, expected the same"},
   };
