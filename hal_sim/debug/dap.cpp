@@ -367,7 +367,11 @@ void DapServer::evaluate(const Json& request) {
   }
   CValue value, number;
   std::string error;
-  if (!session_->values().compute(text, Want::Place, value, error)) return refuse(request, error);
+  if (!session_->values().compute(text, Want::Place, value, error)) {
+    // a console's line that is no expression is meant as a command
+    const bool is_command = arguments.value("context", "") == "repl";
+    return refuse(request, is_command ? "'" + text + "': the program runs; pause it first" : error);
+  }
   // what pointers point to is what one wants to see
   const bool is_pointer =
       value.type.stars > 0 && session_->values().compute(text, Want::Number, number, error);

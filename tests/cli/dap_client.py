@@ -151,8 +151,8 @@ assert "expected sim, dspic" in ask("launch", hal="boat")["message"]
 event("terminated")
 assert "native is hal sim now" in ask("launch", way="native")["message"]
 event("terminated")
-for wrong, says in (({"seed": -1}, "launch: seed: got -1, expected 0 to 9000000000000000000"),
-                    ({"seed": 1.5}, "launch: seed: got 1.5, expected 0 to 9000000000000000000"),
+for wrong, says in (({"seed": -1}, "launch: seed: got -1, expected 0 to 18446744073709551615"),
+                    ({"seed": 1.5}, "launch: seed: got 1.5, expected 0 to 18446744073709551615"),
                     ({"seconds": -1}, "launch: seconds: got -1, expected 0 to 1e+07 s"),
                     ({"seconds": "x"}, "launch: seconds: got \"x\", expected 0 to 1e+07 s")):
     expect(ask("launch", firmware=FIRMWARE, **wrong)["message"], says)
@@ -168,6 +168,9 @@ for command, more in (("variables", {}), ("setVariable", {"name": "ticks", "valu
     expect(ask(command, variablesReference=99999, **more)["message"], "variablesReference: got none of scopes")
 good("continue", threadId=1)
 good("threads")
+for line in ("why", "break main", "info registers"):
+    expect(ask("evaluate", expression=line, context="repl")["message"], f"'{line}': the program runs; pause it first")
+assert good("evaluate", expression="1 + 1", context="repl")["result"].startswith("2")
 good("pause", threadId=1)
 expect(event("stopped")["reason"], "pause")
 assert int(value("cycle").split()[0]) > 0
