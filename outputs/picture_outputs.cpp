@@ -31,24 +31,27 @@ PictureOutputs::PictureOutputs(const PictureArguments& arguments, twin::Twin& tw
     : arguments_(arguments), twin_(twin) {}
 PictureOutputs::~PictureOutputs() = default;
 
-void PictureOutputs::open(std::vector<std::string>& problems) {
+void PictureOutputs::check(std::vector<std::string>& problems) const {
   const auto& a = arguments_;
   if (!a.picture.empty()) {
     check_ending(a.picture, "--picture", {".png", ".svg"}, problems);
     can_write(a.picture, "--picture", problems);
-    paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
   }
   for (const auto& file : a.heatmaps) {
     check_ending(file, "--heatmap", {".png", ".svg", ".csv"}, problems);
     can_write(file, "--heatmap", problems);
-    if (!heatmap_) heatmap_ = std::make_unique<sim::Heatmap>(twin_.robots(), a.heatmap_cell_m);
   }
   if (!a.film.empty()) {
     check_ending(a.film, "--film", {".webm", ".png", ".apng"}, problems);
     can_write(a.film, "--film", problems);
   }
-  // the film's file is begun, and emptied, only when nothing else is wrong
-  if (a.film.empty() || !problems.empty()) return;
+}
+
+void PictureOutputs::open() {
+  const auto& a = arguments_;
+  if (!a.picture.empty()) paths_ = std::make_unique<sim::Trajectories>(twin_.robots());
+  if (!a.heatmaps.empty()) heatmap_ = std::make_unique<sim::Heatmap>(twin_.robots(), a.heatmap_cell_m);
+  if (a.film.empty()) return;
   sim::FilmOptions options;
   options.frames_per_s = a.film_fps;
   options.speed = a.film_speed;

@@ -30,8 +30,9 @@ class PictureOutputs {
  public:
   PictureOutputs(const PictureArguments& arguments, twin::Twin& twin);
   ~PictureOutputs();
-  /// Whether the files can be written, and the film begun; one line per problem otherwise.
-  void open(std::vector<std::string>& problems);
+  /// Whether the files can be written, which stay as they are; one line per problem otherwise.
+  void check(std::vector<std::string>& problems) const;
+  void open();
   void before_run();
   void after_tick();
   /// Where text laid over the picture and each frame comes from; asked when one is drawn.

@@ -53,23 +53,33 @@ RunOutputs::~RunOutputs() = default;
 bool RunOutputs::open(std::vector<std::string>& problems) {
   const std::size_t before = problems.size();
   const auto& a = arguments_;
-  can_write(a.summary, "--summary", problems);
-  can_write(a.coverage, "--coverage", problems);  // counts are added to those of earlier runs
+  // what there is already stays as it is until all is well
+  for (const auto& [file, option] : {std::pair{a.summary, "--summary"},
+                                     {a.coverage, "--coverage"},  // counts are added to those of earlier runs
+                                     {a.record, "--record"},
+                                     {a.report, "--report"}})
+    can_write(file, option, problems);
+  pictures_.check(problems);
+  traces_.check(problems);
+  if (problems.size() != before) return false;
+
   if (!a.sound_folder.empty()) {
     sound_ = std::make_unique<SoundOutput>(a.sound_folder, twin_);
     sound_->open(problems);
-  }
-  if (!a.record.empty() && can_write(a.record, "--record", problems)) {
-    recorder_ = std::make_unique<sim::CsvRecorder>(a.record, a.record_every_s);
-    if (!recorder_->is_good()) problems.push_back(recorder_->error());
   }
   if (!a.images.empty()) {
     images_ = std::make_unique<SavedImages>(a.images);
     images_->open(twin_, problems);
   }
-  pictures_.open(problems);
+  if (problems.size() != before) return false;
+
+  if (!a.record.empty()) {
+    recorder_ = std::make_unique<sim::CsvRecorder>(a.record, a.record_every_s);
+    if (!recorder_->is_good()) problems.push_back(recorder_->error());
+  }
+  pictures_.open();
   traces_.open(problems);
-  if (!a.report.empty() && can_write(a.report, "--report", problems)) {
+  if (!a.report.empty()) {
     report_ = std::make_unique<viewer::Report>(a.report, twin_, places::page_folder().string(),
                                                a.traces.vcd.empty() && a.traces.timeline.empty());
     if (!report_->error().empty()) problems.push_back(report_->error());

@@ -38,7 +38,7 @@ class RunOutputs {
   /// Of a run that outlives it, and that was opened with `arguments.coverage`.
   RunOutputs(const OutputArguments& arguments, runs::Run& run);
   ~RunOutputs();
-  /// Opens what can be opened; false and one line per problem otherwise.
+  /// Checks all, then opens all; false and one line per problem otherwise.
   bool open(std::vector<std::string>& problems);
   void before_run();
   void after_tick();

@@ -61,20 +61,20 @@ bool TraceOutputs::add(const std::string& word, const char* option,
   return false;
 }
 
-bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trace::Window& window,
-                          std::vector<std::string>& problems) {
+bool TraceOutputs::choose(std::vector<std::string>& problems) {
   const auto& a = arguments_;
   const std::size_t before = problems.size();
   if (a.signals.empty())
     for (const std::string& name : trace::usual_signals())
-      add("*:" + name, "--vcd-signals", signals, problems);
-  for (const std::string& word : a.signals) add(word, "--vcd-signals", signals, problems);
+      add("*:" + name, "--vcd-signals", signals_, problems);
+  for (const std::string& word : a.signals) add(word, "--vcd-signals", signals_, problems);
 
-  window.from = sim::from_seconds(a.from_s);
-  if (a.to_s >= 0) window.to = sim::from_seconds(a.to_s);
-  if (window.to < window.from)
-    problems.push_back("command line: --vcd-to: got less than --vcd-from, expected a later second");
-  window.most_bytes = static_cast<std::int64_t>(a.most_mb * kBytesPerMb);
+  window_.from = sim::from_seconds(a.from_s);
+  if (a.to_s >= 0) window_.to = sim::from_seconds(a.to_s);
+  if (window_.to < window_.from)
+    problems.push_back(fmt::format(
+        "command line: --vcd-to: got {:g} s, expected --vcd-from, {:g} s, or later", a.to_s, a.from_s));
+  window_.most_bytes = static_cast<std::int64_t>(a.most_mb * kBytesPerMb);
 
   // the trigger is one signal of one robot; of an interrupt its flag, of a line its byte
   std::string trigger_robot, trigger_name;
@@ -86,13 +86,13 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
     } else {
       trigger_robot = a.trigger.substr(0, colon);
       trigger_name = a.trigger.substr(colon + 1, equals - colon - 1);
-      add(a.trigger.substr(0, equals), "--vcd-trigger", signals, problems);
+      add(a.trigger.substr(0, equals), "--vcd-trigger", signals_, problems);
     }
   }
   if (problems.size() != before) return false;
 
   // the order of groups in a scope is that of their first signals; each is one block
-  for (auto& mine : signals) {
+  for (auto& mine : signals_) {
     std::vector<std::string> groups;
     for (const auto& s : mine)
       if (std::find(groups.begin(), groups.end(), s.group) == groups.end()) groups.push_back(s.group);
@@ -109,35 +109,36 @@ bool TraceOutputs::choose(std::vector<std::vector<trace::Signal>>& signals, trac
   const std::string text = a.trigger.substr(a.trigger.rfind('=') + 1);
   if (meant.front().group == "variables" && meant.size() > 1)
     error = "got '" + trigger_name + "', an array, expected one of its elements";
-  if (!error.empty() || !trace::value_of_signal(meant.front(), text, window.trigger_value, error)) {
+  if (!error.empty() || !trace::value_of_signal(meant.front(), text, window_.trigger_value, error)) {
     problems.push_back("command line: --vcd-trigger: " + trigger_robot + ":" + trigger_name + ": " + error);
     return false;
   }
   int number = 0;
   for (int r = 0; r < twin_.robots(); ++r)
-    for (const auto& s : signals[static_cast<std::size_t>(r)]) {
-      if (r == robot && is_same(s, meant.front())) window.trigger = number;
+    for (const auto& s : signals_[static_cast<std::size_t>(r)]) {
+      if (r == robot && is_same(s, meant.front())) window_.trigger = number;
       ++number;
     }
   return true;
 }
 
-bool TraceOutputs::open(std::vector<std::string>& problems) {
+void TraceOutputs::check(std::vector<std::string>& problems) {
   const auto& a = arguments_;
-  const std::size_t before = problems.size();
   if (a.vcd.empty() && (!a.signals.empty() || !a.trigger.empty()))
     problems.push_back("command line: --vcd-signals: got signals without a file, expected --vcd FILE too");
-  if (problems.size() != before || (a.vcd.empty() && a.timeline.empty())) return problems.size() == before;
-  std::vector<std::vector<trace::Signal>> signals(static_cast<std::size_t>(twin_.robots()));
-  trace::Window window;
-  if (!a.vcd.empty() && (!choose(signals, window, problems) || !can_write(a.vcd, "--vcd", problems)))
-    return false;
-  if (!can_write(a.timeline, "--trace", problems)) return false;
+  signals_.resize(static_cast<std::size_t>(twin_.robots()));
+  if (!a.vcd.empty() && choose(problems)) can_write(a.vcd, "--vcd", problems);
+  can_write(a.timeline, "--trace", problems);
+}
+
+void TraceOutputs::open(std::vector<std::string>& problems) {
+  const auto& a = arguments_;
+  if (a.vcd.empty() && a.timeline.empty()) return;
   const bool spans = !a.timeline.empty();
   std::vector<trace::VcdWriter::Scope> scopes;
   int first = 0;
   for (int r = 0; r < twin_.robots(); ++r) {
-    auto& mine = signals[static_cast<std::size_t>(r)];
+    auto& mine = signals_[static_cast<std::size_t>(r)];
     const int count = static_cast<int>(mine.size());
     if (count > 0) scopes.push_back({twin_.world().robots[static_cast<std::size_t>(r)].name, mine});
     auto& mind = twin_.mind(r);
@@ -148,7 +149,7 @@ bool TraceOutputs::open(std::vector<std::string>& problems) {
     first += count;
   }
   if (!a.vcd.empty()) {
-    vcd_ = std::make_unique<trace::VcdWriter>(a.vcd, scopes, window);
+    vcd_ = std::make_unique<trace::VcdWriter>(a.vcd, scopes, window_);
     if (!vcd_->error().empty()) problems.push_back(vcd_->error());
   }
   if (spans) {
@@ -158,7 +159,6 @@ bool TraceOutputs::open(std::vector<std::string>& problems) {
     for (const Traced& t : traced_)
       timeline_->add_robot(t.robot, twin_.world().robots[static_cast<std::size_t>(t.robot)].name);
   }
-  return problems.size() == before;
 }
 
 void TraceOutputs::after_tick() {
@@ -246,6 +246,11 @@ void TraceOutputs::finish(std::vector<std::string>& problems) {
     else if (!arguments_.trigger.empty() && !vcd_->has_begun())
       problems.push_back(arguments_.vcd + ": --vcd-trigger: got no " + arguments_.trigger +
                          " in the window, expected it once; the dump is empty");
+    else if (window_.from > now)
+      problems.push_back(
+          fmt::format("{}: --vcd-from: got {:g} s, expected a second of the run, which ended at {:g} s; the "
+                      "dump is empty",
+                      arguments_.vcd, arguments_.from_s, sim::to_seconds(now)));
   }
   if (timeline_) {
     timeline_->finish();

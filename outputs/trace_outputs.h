@@ -27,8 +27,10 @@ class TraceOutputs {
  public:
   TraceOutputs(TraceArguments arguments, twin::Twin& twin);
   ~TraceOutputs();
-  /// False and one line per problem: an unknown signal, a file that cannot be written.
-  bool open(std::vector<std::string>& problems);
+  /// One line per problem: an unknown signal, a file that cannot be written. Files stay as they are.
+  void check(std::vector<std::string>& problems);
+  /// Behind a check() that found nothing.
+  void open(std::vector<std::string>& problems);
   void after_tick();
   /// A file was lost (disk full).
   bool failed() const;
@@ -41,8 +43,7 @@ class TraceOutputs {
     std::unique_ptr<trace::RobotTrace> trace;
     host::Cycle counted_cycles = 0, counted_idle = 0;  // at the last point of its curves
   };
-  bool choose(std::vector<std::vector<trace::Signal>>& signals, trace::Window& window,
-              std::vector<std::string>& problems);
+  bool choose(std::vector<std::string>& problems);
   bool add(const std::string& word, const char* option, std::vector<std::vector<trace::Signal>>& signals,
            std::vector<std::string>& problems);
   void write_changes(sim::Clicks before);
@@ -52,6 +53,8 @@ class TraceOutputs {
 
   const TraceArguments arguments_;
   twin::Twin& twin_;
+  std::vector<std::vector<trace::Signal>> signals_;  // of each robot
+  trace::Window window_;
   std::vector<Traced> traced_;
   std::unique_ptr<trace::VcdWriter> vcd_;
   std::unique_ptr<trace::TimelineWriter> timeline_;

@@ -49,7 +49,8 @@ bool seconds(const std::string& text, double& out) {
 
 }  // namespace
 
-std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots) {
+std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots,
+                    double& at_s) {
   const std::string form = fmt::format("got '{}', expected [ADDRESS:]KEY@TIME[+HOLD]", press);
   const std::size_t at = press.find('@');
   if (at == std::string::npos) return form + " such as 5@1.5 or VOL_UP@2+0.5";
@@ -82,6 +83,7 @@ std::string add_key(const std::string& robot, const std::string& press, std::vec
     time = time.substr(0, plus);
   }
   if (!seconds(time, key.at_s)) return form + ", TIME 0 to 1e7 s";
+  at_s = key.at_s;
   bool found = false;
   std::vector<std::string> robot_names;
   for (sim::RobotDesc& r : robots) {

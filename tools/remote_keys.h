@@ -9,8 +9,9 @@
 
 namespace tools {
 
-/// Adds a press to the robots of that name ('*': all). Returns what is wrong as "got ..., expected ...", or
-/// an empty string.
-std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots);
+/// Adds a press to the robots of that name ('*': all), and says when it comes. Returns what is wrong as "got ...,
+/// expected ...", or an empty string.
+std::string add_key(const std::string& robot, const std::string& press, std::vector<sim::RobotDesc>& robots,
+                    double& at_s);
 
 }  // namespace tools

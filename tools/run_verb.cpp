@@ -48,7 +48,7 @@ struct RunArguments {
   double seconds = 60;
   bool has_end = false;  // seconds were given
   std::string speed = "max";
-  long long seed = -1;
+  std::optional<std::uint64_t> seed;
   int threads = 1;
   double host_limit_s = 0;
   std::string optimisation, hal;
@@ -137,6 +137,8 @@ class CommandRun {
   /// Nobody reads what is said, nor will read the summary.
   bool has_no_reader();
   void say(const std::string& line);
+  /// Faults without effect and keys that were not pressed, which make a run invalid.
+  void tell_what_never_came();
   /// False: there were some.
   bool tell_diagnoses(const outputs::Summary& summary) const;
   int exit_code(int end_code, bool is_clean, bool kept_budgets) const;
@@ -152,6 +154,7 @@ class CommandRun {
   twin::Options options_;
   double speed_ = 0;  // 0: as fast as possible
   bool fits_the_chip_ = true;
+  std::vector<std::pair<std::string, double>> presses_;  // of --key, and when (s)
   std::unique_ptr<inputs::Replay> replay_;
   std::unique_ptr<runs::Run> run_;
   std::unique_ptr<outputs::RunOutputs> outputs_;
@@ -207,14 +210,17 @@ std::optional<sim::WorldDesc> CommandRun::read_world() {
     return {};
   }
   if (replay_) loaded.world->seed = replay_->opening.seed;
-  if (a_.seed >= 0) loaded.world->seed = static_cast<std::uint64_t>(a_.seed);
+  if (a_.seed) loaded.world->seed = *a_.seed;
   std::vector<twin::Choice> keys;
   if (!split_choices(a_.keys, "--key", keys)) return {};
-  for (const auto& key : keys)
-    if (const std::string wrong = add_key(key.robot, key.value, loaded.world->robots); !wrong.empty()) {
+  for (const auto& key : keys) {
+    double at_s = 0;
+    if (const std::string wrong = add_key(key.robot, key.value, loaded.world->robots, at_s); !wrong.empty()) {
       problems_.push_back("command line: --key: " + wrong);
       return {};
     }
+    presses_.emplace_back(key.value, at_s);
+  }
   return std::move(loaded.world);
 }
 
@@ -236,7 +242,7 @@ bool CommandRun::open() {
     if (!a_.quiet) std::cout << outputs::programs_text(run_->twin()) << std::flush;
     outputs_ = std::make_unique<outputs::RunOutputs>(a_.outputs, *run_);
     profile_ = std::make_unique<outputs::ProfileOutputs>(a_.profile, run_->twin());
-    return outputs_->open(problems_) && profile_->open(problems_);
+    return profile_->open(problems_) && outputs_->open(problems_);
   };
   if (!opens()) {
     complain(problems_);
@@ -419,12 +425,8 @@ int CommandRun::close() {
     std::cout << to_text(summary);
     if (!written.empty()) std::cout << fmt::format("written: {}\n", fmt::join(written, ", "));
   }
-  // a run that was cut off says nothing of faults that were still to come
-  if (end_code == 0)
-    for (const std::string& line : run_->inputs().faults().problems()) {
-      problems_.push_back(line);
-      complain({line});
-    }
+  // a run that was cut off says nothing of what was still to come
+  if (end_code == 0) tell_what_never_came();
   const bool kept_budgets = profile_->tell();
   for (const auto& t : summary.traps) std::cerr << outputs::to_text(t);
   const bool is_clean = tell_diagnoses(summary);
@@ -433,6 +435,16 @@ int CommandRun::close() {
         "twinpuck: host time: got {:.3f} s, expected at most {:g} s; outputs hold what was simulated",
         std::chrono::duration<double>(Wall::now() - began_).count(), a_.host_limit_s)});
   return exit_code(end_code, is_clean, kept_budgets);
+}
+
+void CommandRun::tell_what_never_came() {
+  std::vector<std::string> lines = run_->inputs().faults().problems();
+  for (const auto& [press, at_s] : presses_)
+    if (at_s >= now_s())
+      lines.push_back(
+          fmt::format("command line: --key: {}: never began: the run ended before {:g} s", press, at_s));
+  complain(lines);
+  problems_.insert(problems_.end(), lines.begin(), lines.end());
 }
 
 bool CommandRun::tell_diagnoses(const outputs::Summary& summary) const {
