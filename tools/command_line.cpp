@@ -37,10 +37,9 @@ CLI::Validator named() {
 CLI::Validator seed_range() {
   return CLI::Validator(
       [](std::string& text) {
-        long long seed = 0;
+        std::uint64_t seed = 0;
         const auto [end, wrong] = std::from_chars(text.data(), text.data() + text.size(), seed);
-        if (wrong == std::errc() && end == text.data() + text.size() && seed >= 0 && seed <= kMostSeed)
-          return std::string();
+        if (wrong == std::errc() && end == text.data() + text.size()) return std::string();
         return fmt::format("got {}, expected 0 to {}", text, kMostSeed);
       },
       "NONNEGATIVE");
@@ -88,7 +87,7 @@ void add_firmware(CLI::App& verb, std::vector<std::string>& firmware) {
       "every robot"));
 }
 
-void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads) {
+void add_seed_and_threads(CLI::App& verb, std::optional<std::uint64_t>& seed, int& threads) {
   verb.add_option("--seed", seed, "the world's seed, 0 or more, instead of the file's")->check(seed_range());
   verb.add_option("--threads", threads, "threads that run firmware; the result does not depend on it")
       ->check(CLI::Range(1, 256))

@@ -20,7 +20,7 @@ std::string world_here(const char* missing);
 
 /// Of options that name a file to be written: not an empty one.
 CLI::Validator named();
-inline constexpr long long kMostSeed = 9'000'000'000'000'000'000;  ///< as a world file may have it
+inline constexpr std::uint64_t kMostSeed = UINT64_MAX;
 /// A world's seed, exactly.
 CLI::Validator seed_range();
 /// WORLD or --replay, one of them, and beside a recording nothing that it says itself: else lines in `problems`,
@@ -49,7 +49,7 @@ CLI::Option* one_each(CLI::Option* option);
 void add_hal(CLI::App& verb, std::string& hal);
 /// "--fw" of a verb that runs a world; and "--seed", "--threads".
 void add_firmware(CLI::App& verb, std::vector<std::string>& firmware);
-void add_seed_and_threads(CLI::App& verb, long long& seed, int& threads);
+void add_seed_and_threads(CLI::App& verb, std::optional<std::uint64_t>& seed, int& threads);
 
 /// "ROBOT=VALUE" of each word; what names no robot is for every robot. False, told, when one is neither.
 bool split_choices(const std::vector<std::string>& words, const char* option,

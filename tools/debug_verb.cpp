@@ -35,7 +35,7 @@ struct DebugArguments {
   std::string world, robot, commands, hal, optimisation;
   std::vector<std::string> firmware;
   double seconds = 1e6;
-  long long seed = -1;
+  std::optional<std::uint64_t> seed;
   bool dap = false;
 };
 
@@ -64,7 +64,7 @@ bool set_up(const DebugArguments& a, debug::Session::Setup& setup, std::vector<s
   if (!split_choices(a.firmware, "--fw", setup.options.firmware)) return false;
   std::optional<sim::WorldDesc> world = open_world(a.world, problems);
   if (!world) return false;
-  if (a.seed >= 0) world->seed = static_cast<std::uint64_t>(a.seed);
+  if (a.seed) world->seed = *a.seed;
   setup.world = std::move(*world);
   setup.options.world_folder = fs::path(setup.world.file).parent_path().string();
   setup.options.hal = a.hal.empty() ? kUsualHal : a.hal;
@@ -110,14 +110,14 @@ std::unique_ptr<debug::Session> launched(const nlohmann::json& launch,
       return nullptr;
     }
   const auto seed = launch.find("seed"), seconds = launch.find("seconds");
-  if (seed != launch.end() && !(seed->is_number_unsigned() && *seed <= kMostSeed))
+  if (seed != launch.end() && !(seed->is_number_unsigned()))
     problems.push_back(fmt::format("launch: seed: got {}, expected 0 to {}", seed->dump(), kMostSeed));
   if (seconds != launch.end() && !(seconds->is_number() && *seconds >= 0 && *seconds <= kMostSeconds))
     problems.push_back(
         fmt::format("launch: seconds: got {}, expected 0 to {:g} s", seconds->dump(), kMostSeconds));
   if (!problems.empty()) return nullptr;
   a.seconds = launch.value("seconds", a.seconds);
-  a.seed = launch.value("seed", a.seed);
+  if (seed != launch.end()) a.seed = seed->get<std::uint64_t>();
   if (const std::string firmware = launch.value("firmware", ""); !firmware.empty())
     a.firmware.push_back(firmware);
   debug::Session::Setup setup;

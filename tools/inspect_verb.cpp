@@ -26,9 +26,10 @@ struct InspectArguments {
   std::string world, robot, profile, picture, plot;
   int sensor = -1;
   double at_s = 0;
-  long long seed = -1;
+  std::optional<std::uint64_t> seed;
   std::vector<double> colour{1, 1, 1};
   double roughness = 0;
+  std::vector<std::string> of_curves;  // options that were given and say what the wall of curves is
   bool json = false;
 };
 
@@ -132,7 +133,7 @@ int inspect_world(const InspectArguments& a) {
     return kBadInput;
   }
   sim::WorldDesc& world = *opened;
-  if (a.seed >= 0) world.seed = static_cast<std::uint64_t>(a.seed);
+  if (a.seed) world.seed = *a.seed;
   if (world.robots.empty())
     return wrong(world.file + ": inspect: got a world without robots, expected one or more");
   int robot = a.robot.empty() ? 0 : -1;
@@ -199,6 +200,9 @@ int inspect(const InspectArguments& a) {
     if (!file->empty() && kind != ".png" && kind != ".svg")
       return wrong(fmt::format("{}: got '{}', expected a name that ends in .png or .svg", option, *file));
   }
+  if (!a.of_curves.empty() && a.profile.empty() && a.plot.empty())
+    return wrong(fmt::format("{}: got no --profile or --plot, expected curves, whose wall it is of",
+                             a.of_curves.front()));
   if (!a.world.empty()) return inspect_world(a);
   if (a.profile.empty())
     return wrong("inspect: got no world, expected a WORLD, or --profile NAME for curves");
@@ -237,7 +241,11 @@ void add_inspect(CLI::App& app, int& exit_code) {
   verb->add_option("--roughness", a->roughness, "of that wall, 0 to 1; the new colour rule asks for it")
       ->check(between(0, 1));
   verb->add_flag("--json", a->json, "for scripts");
-  verb->callback([a, &exit_code] { exit_code = inspect(*a); });
+  verb->callback([a, verb, &exit_code] {
+    for (const char* option : {"--colour", "--roughness"})
+      if (verb->get_option(option)->count() > 0) a->of_curves.push_back(option);
+    exit_code = inspect(*a);
+  });
 }
 
 }  // namespace tools

@@ -259,6 +259,8 @@ void check_together(const LabArguments& a, const std::string& table,
       }))
     problems.push_back(
         "command line: --plot: got exercises with one noise scale, expected one with several, S15");
+  if (!a.replay.trial.empty() && a.limit_s > 0)
+    problems.push_back("command line: --limit: got --replay besides, expected a class's folder, --mine");
   if (a.replay.trial.empty())
     for (const auto& [file, option] :
          {std::pair{a.replay.picture, "--picture"}, std::pair{a.replay.report, "--report"},
@@ -317,6 +319,11 @@ int lab(const LabArguments& given) {
       lab::is_class(a.mine, programs_of(all), lab::wanted_programs(chosen), !a.ids.empty())) {
     if (a.plot.empty()) return judge_class(a, chosen, options);
     complain({a.mine + ": --mine: got a class's folder, expected one student's with --plot"});
+    return kBadInput;
+  }
+  if (a.limit_s > 0) {
+    complain(
+        {"command line: --limit: got no class, expected --mine with a folder of folders, one a student"});
     return kBadInput;
   }
   lab::Programs programs = a.setting.is_mine

@@ -29,7 +29,7 @@ struct ViewArguments {
   std::string world, record, replay, hal, optimisation;
   std::vector<std::string> firmware, supervisors;
   int port = 0, threads = 1;
-  long long seed = -1;
+  std::optional<std::uint64_t> seed;
 };
 
 /// A recording's world, under a name of its own beside the world's file: saved, it shall overwrite nothing.
@@ -53,8 +53,8 @@ inputs::Opening opening_of(const ViewArguments& a, std::vector<std::string>& pro
   opening.options.optimisation = a.optimisation;
   opening.supervisors = a.supervisors;
   const viewer::Document first(opening.file, opening.text);
-  opening.seed = a.seed >= 0 ? static_cast<std::uint64_t>(a.seed)
-                             : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
+  opening.seed =
+      a.seed ? *a.seed : (first.loaded().world ? *first.loaded().world : first.loaded().draft).seed;
   return opening;
 }
 
