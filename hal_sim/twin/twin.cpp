@@ -189,6 +189,18 @@ void check_choices(const sim::WorldDesc& world, const Options& options, std::vec
   check_names(world, options.uart2, "--uart2", problems);
 }
 
+/// Keys of a robot that only a program of the PC heeds.
+void check_program_keys(const sim::RobotDesc& robot, const Firmware* firmware,
+                        std::vector<std::string>& problems) {
+  if (!firmware || firmware->program) return;
+  const auto wrong = [&](const char* key, const std::string& got) {
+    problems.push_back("robot '" + robot.name + "': " + key + ": got " + got +
+                       " and firmware, expected a program of the PC with it");
+  };
+  if (!robot.args.empty()) wrong("args", "'" + robot.args + "'");
+  if (robot.supervisor) wrong("supervisor", "true");
+}
+
 std::string chosen_firmware(const Options& options, const sim::RobotDesc& robot) {
   for (const std::string& outside : options.externs)
     if (outside == robot.name || outside == "*") return kExtern;
@@ -277,8 +289,10 @@ std::unique_ptr<Twin> Twin::open(sim::WorldDesc world, const Options& options,
   FirmwareShelf shelf(options, problems);
   std::vector<const Firmware*> firmware;
   for (auto& robot : world.robots) {
-    robot.firmware = chosen_firmware(options, robot);  // what it runs, for pictures and supervisors
-    firmware.push_back(shelf.find(world, robot));
+    const std::string of_world = std::exchange(robot.firmware, chosen_firmware(options, robot));
+    firmware.push_back(shelf.find(world, robot));  // what it runs, for pictures and supervisors, too
+    if (robot.firmware == of_world && options.hal.empty())
+      check_program_keys(robot, firmware.back(), problems);
   }
   if (problems.size() != problems_before) return nullptr;
 

@@ -33,6 +33,21 @@ constexpr KeyRule kRules[] = {
     {"sound", "every", "kind", "clap"},
     {"sound", "jitter", "kind", "clap"},
     {"radio", "fading", "model", "log-distance"},
+    {"robot.device|supervisor.device", "channel", "kind", "emitter|receiver"},
+    {"robot.device|supervisor.device", "range", "kind", "emitter"},
+    {"robot.device|supervisor.device", "baud_rate", "kind", "emitter"},
+    {"robot.device|supervisor.device", "infra_red", "kind", "emitter"},
+    {"robot.device|supervisor.device", "width", "kind", "display|camera|lidar|range-finder"},
+    {"robot.device|supervisor.device", "height", "kind", "display|camera|lidar|range-finder"},
+    {"robot.device|supervisor.device", "at", "kind", "distance|lidar|range-finder"},
+    {"robot.device|supervisor.device", "heading", "kind", "distance|lidar|range-finder"},
+    {"robot.device|supervisor.device", "fov", "kind", "camera|lidar|range-finder"},
+    {"robot.device|supervisor.device", "vertical_fov", "kind", "lidar"},
+    {"robot.device|supervisor.device", "near", "kind", "lidar|range-finder"},
+    {"robot.device|supervisor.device", "far", "kind", "lidar|range-finder"},
+    {"robot.device|supervisor.device", "table", "kind", "distance"},
+    {"robot.device|supervisor.device", "rays", "kind", "distance"},
+    {"robot.device|supervisor.device", "aperture", "kind", "distance"},
     {"box|cylinder|ball|polygon", "mass", "movable", "true"},
     {"box|cylinder|polygon", "friction", "movable", "true"},
     {"ball", "rolling_friction", "movable", "true"},
@@ -69,8 +84,11 @@ std::vector<IdleKey> idle_keys(const SectionSpec& spec, const WrittenValue& valu
       // a value that is missing or wrong is told by itself
       const std::string value = other ? *other : fallback_of(spec, rule.other);
       if (value.empty() || has_word(rule.values, value)) continue;
+      std::string values = rule.values;
+      for (std::size_t at; (at = values.rfind('|')) != std::string::npos;)
+        values.replace(at, 1, values.find(" or ") == std::string::npos ? " or " : ", ");
       why = fmt::format("got one where '{}' is {}, expected one only where it is {}", rule.other, value,
-                        rule.values);
+                        values);
     }
     out.push_back({rule.key, rule.other, is_same, std::move(why)});
     told += std::string("|") + rule.key;

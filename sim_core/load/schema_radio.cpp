@@ -111,7 +111,8 @@ SectionSpec robot_bluetooth_section() {
              e.name = v.text;
              return std::string();
            })},
-          {"pin", ValueType::Text, "", 0, 0, "", "", "its number, four digits, otherwise",
+          {"pin", ValueType::Text, "", 0, 0, "", "",
+           "1 to 16 characters; its number as four digits otherwise",
            checked<E>([](E& e, const Value& v, const WorldDesc&) {
              if (v.text.empty() || v.text.size() > 16) {
                return fmt::format("got {} characters, expected 1 to 16", v.text.size());

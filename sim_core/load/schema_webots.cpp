@@ -141,7 +141,7 @@ SectionSpec robot_device_section() {
           {"heading", ValueType::Number, "degrees", -360, 360, "", "0", "likewise: from ahead to the left",
            into<D>([](D& d, const Value& v) { d.heading_rad = radians(v.number); })},
           {"fov", ValueType::Number, "rad", 0, 6.2832, "", "1.5708",
-           "of a lidar or range finder: from the left edge to the right one",
+           "of a camera, lidar or range finder: from the left edge to the right one",
            into<D>([](D& d, const Value& v) { d.fov_rad = v.number; })},
           {"vertical_fov", ValueType::Number, "rad", 0, 3.1416, "", "0.2",
            "of a lidar with several rows (`height`): from the uppermost to the lowest",

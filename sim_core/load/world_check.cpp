@@ -79,18 +79,7 @@ void check_models(const WorldDesc& world, const std::vector<std::size_t>& unplac
       out.push_back(
           {r.line, 1,
            fmt::format("robot.model: got \"{}\", expected a model that the program knows", r.model)});
-      continue;
     }
-    const std::size_t sensors = model->proximity.size();
-    const auto counted = [&](const char* key, std::size_t got) {
-      if (got > 0 && got != sensors) {
-        out.push_back({r.line, 1,
-                       fmt::format("robot.variation.{}: got {} numbers, expected {}, one per sensor", key,
-                                   got, sensors)});
-      }
-    };
-    counted("sensor_gain", r.variation.sensor_gain.size());
-    counted("sensor_offset", r.variation.sensor_offset_counts.size());
   }
 }
 

@@ -194,6 +194,14 @@ class Reader : private SchemaReader {
     });
   }
 
+  /// Of a robot's variation: a number for each sensor, or none.
+  void check_count(const toml::table& variation, const char* key, std::size_t got, std::size_t sensors) {
+    if (got > 0 && got != sensors)
+      problem(
+          variation.get(key)->source(),
+          fmt::format("robot.variation.{}: got {} numbers, expected {}, one per sensor", key, got, sensors));
+  }
+
   void read_robots(const toml::table& root) {
     read_many("robot", root, "robot", [&](const toml::table& t) {
       RobotDesc r;
@@ -202,6 +210,12 @@ class Reader : private SchemaReader {
       if (!read_place(robot_keys(t), t, &r)) unplaced_robots_.push_back(world_.robots.size());
       r.firmware_at = place_of(t.get("firmware"));
       read_one("robot.variation", t, "variation", &r.variation);
+      if (const toml::table* variation = t["variation"].as_table())
+        if (const RobotModel* model = world_.model_of(r)) {
+          check_count(*variation, "sensor_gain", r.variation.sensor_gain.size(), model->proximity.size());
+          check_count(*variation, "sensor_offset", r.variation.sensor_offset_counts.size(),
+                      model->proximity.size());
+        }
       read_one("robot.proximity", t, "proximity", &r.proximity);
       read_one("robot.bluetooth", t, "bluetooth", &r.link);
       read_many("robot.sensor", t, "sensor", [&](const toml::table& st) {

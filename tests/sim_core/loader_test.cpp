@@ -418,7 +418,7 @@ TEST(Loader, every_kind_of_mistake_has_its_sentence) {
       {"[[robot]]\nvariation = { left_wheel = 0 }",
        "w.toml:3:28: robot.variation.left_wheel: got 0, expected number from 0.5 to 2"},
       {"[[robot]]\nvariation = { sensor_gain = [1, 1] }",
-       "w.toml:2:1: robot.variation.sensor_gain: got 2 numbers, expected 8, one per sensor"},
+       "w.toml:3:29: robot.variation.sensor_gain: got 2 numbers, expected 8, one per sensor"},
       {"[[robot]]\n[[robot.sensor]]\nrays = 2",
        "w.toml:3:1: robot.sensor.index: missing, expected whole number from 0 to 63"},
       {"[[robot]]\n[[robot.sensor]]\nindex = 8", "w.toml:3:1: robot.sensor.index: got 8, expected 0 to 7"},
