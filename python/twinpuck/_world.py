@@ -205,7 +205,7 @@ class World:
     A world is closed by close(), by `with`, or when nothing refers to it or a robot of it any more.
     """
 
-    __slots__ = ("_text", "_file", "_options", "_traps", "_callables", "_core", "_arrays", "_lines", "_robots", "_names",
+    __slots__ = ("_text", "_file", "_is_of", "_options", "_traps", "_callables", "_core", "_arrays", "_lines", "_robots", "_names",
                  "_by_name", "__weakref__")
 
     def __init__(self, source: Source, firmware: Firmware = None, *, seed: int | None = None, hal: str = "",
@@ -225,7 +225,7 @@ class World:
         if wrong := _outputs.unwritable([(coverage, "World: coverage")]):
             raise WorldError(wrong[0])
         __tracebackhide__ = True
-        self._text, self._file = read(source)
+        self._text, self._file, self._is_of = read(source)
         self._options: dict[str, typing.Any] = {
             "seed": seed, "hal": hal, "optimise": optimise, "sanitize": sanitize, "measured": list(measured),
             "coverage": os.fspath(coverage), "threads": threads, "supervisors": list(supervisors),
@@ -244,8 +244,11 @@ class World:
         try:
             self._core = _core.World(self._text, self._file, self._options)
         except ValueError as wrong:  # nobody has given options of a command line
-            raise WorldError(re.sub(r"^command line: --(\w+)", lambda m: "World: " + _OPTIONS.get(m[1], m[1]), str(wrong),
-                                    flags=re.M)) from None
+            said = re.sub(r"^command line: --(\w+)", lambda m: "World: " + _OPTIONS.get(m[1], m[1]), str(wrong), flags=re.M)
+            if self._is_of != "file":  # nobody finds one, nor a dict's lines
+                place = r":\d+:\d+" if self._is_of == "dict" else ""
+                said = re.sub(rf"^{re.escape(self._file)}{place}(?=:)", "World: source", said, flags=re.M)
+            raise WorldError(said) from None
         self._arrays = _core.Arrays(len(self._core.names))
 
     @property
@@ -544,19 +547,22 @@ def _check_seed(seed: int | None) -> None:
 
 
 class Text(typing.NamedTuple):
-    """A world's text, and the file that it is of, or would be: where relative names begin."""
+    """A world's text, and the file that it is of, or would be: where relative names begin. `is_of`: "file", or "text" and
+    "dict", of which there is no such file."""
 
     text: str
     file: str
+    is_of: str = "file"
 
 
 def text_in(source: typing.Any, folder: str | os.PathLike[str]) -> typing.Any:
     """A dict or text so that relative names in it begin in `folder`; anything else as it is."""
+    is_of = "text"
     if isinstance(source, collections.abc.Mapping):
-        source = toml_text(source)
+        source, is_of = toml_text(source), "dict"
     elif not isinstance(source, str) or "\n" not in source:
         return source
-    return Text(_arguments.fit("World: source", "str", source), os.path.join(os.path.abspath(folder), "world.toml"))
+    return Text(_arguments.fit("World: source", "str", source), os.path.join(os.path.abspath(folder), "world.toml"), is_of)
 
 
 def read(source: Source) -> Text:

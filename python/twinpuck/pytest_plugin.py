@@ -280,10 +280,10 @@ def pytest_collect_file(file_path: pathlib.Path, parent: pytest.Collector) -> py
 def wrong_places(file: _declarative.TestFile, firmware: str | None) -> str:
     """What is wrong with the world and the program that a file names, of which `firmware` takes the place."""
     try:
-        world = read(place_of(file.table["world"], file.path.parent))
+        text, path, _ = read(place_of(file.table["world"], file.path.parent))
     except (TwinpuckError, OSError) as wrong:
         return f"{file.path}: test.world: {wrong}"
-    problems = _core.check_world(*world)
+    problems = _core.check_world(text, path)
     if not firmware and "firmware" in file.table:
         wrong_name = _core.check_firmware(file.table["firmware"], str(file.path.parent))
         problems += f"{file.path}: test.firmware: {wrong_name}" if wrong_name else ""
