@@ -50,7 +50,29 @@ bool names_webots(const std::vector<fs::path>& sources, const std::vector<fs::pa
   return false;
 }
 
+namespace {
+
+/// Of a C file that is a link to what is not there, or not to be seen from here; empty: there is none.
+std::string dead_link(const fs::path& folder) {
+  std::error_code odd;
+  for (fs::recursive_directory_iterator it(folder, odd), end; it != end && !odd; it.increment(odd)) {
+    std::error_code none;
+    const fs::path file = it->path();
+    if (file.extension() != ".c" || !it->is_symlink(none) || fs::exists(file, none)) continue;
+    const fs::path to = fs::weakly_canonical(file.parent_path() / fs::read_symlink(file, none), none);
+    const std::string below = to.lexically_relative(fs::weakly_canonical(folder, none)).string();
+    const bool is_outside = below.empty() || below.rfind("..", 0) == 0;
+    return file.string() + ": source: got a link to " + to.string() +
+           (is_outside ? ", which lies outside " + folder.string() : ", where nothing is") +
+           ", expected a file of the folder";
+  }
+  return {};
+}
+
+}  // namespace
+
 std::string no_program(const fs::path& folder) {
+  if (const std::string dead = dead_link(folder); !dead.empty()) return dead;
   // a controller's own test lies beside it, with programs in its texts
   const bool has_c = !files_below(folder, ".c").empty();
   for (const fs::path& file : files_below(folder, {".cpp", ".cc", ".cxx"}))

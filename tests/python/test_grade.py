@@ -269,14 +269,16 @@ def test_what_is_compiled_sees_no_tests_and_no_other_submission(small, command):
         (small / "class" / name).mkdir()
         (small / "class" / name / file).write_text(text)
     (small / "class" / "good" / "good.h").write_text("int main(void) { while (1) ; }")
-    (small / "class" / "link").mkdir()
-    (small / "class" / "link" / "main.c").symlink_to(hidden)
+    for name, to in (("link", hidden), ("link_to_other", small / "class" / "good" / "main.c"), ("link_to_none", "gone.c")):
+        (small / "class" / name).mkdir()
+        (small / "class" / name / "main.c").symlink_to(to)
     done = command("grade", "tests", "--submissions", "class", *TABLES, cwd=small)
     assert done.returncode == 0 and re.search(r"^good +pass", done.stdout, re.M), done.stdout + done.stderr
-    said = {name: "\n".join(messages(small, name)) for name in ("bytes", "header", "other", "webots", "webots_bytes", "link")}
+    said = {name: "\n".join(messages(small, name)) for name in ("bytes", "header", "other", "webots", "webots_bytes", "link", "link_to_other", "link_to_none")}
     outside = f"which lies outside {small}/class/"
-    for name in ("bytes", "header", "link"):
+    for name in ("bytes", "header", "link", "link_to_other"):
         assert outside + name in said[name], said[name]
+    assert "got a link to" in said["link_to_other"] and "gone.c, where nothing is" in said["link_to_none"], said
     assert "'../good/good.h' file not found" in said["other"], said["other"]
     assert "does not compile" in said["webots"] and "does not compile" in said["webots_bytes"], said
     assert "world.run(0.1)" not in "".join(said.values()), "the hidden test's text"
