@@ -410,7 +410,7 @@ Choice choose(const std::string& mnemonic, const std::string& text, const Compla
     }
     forms += (forms.empty() ? "" : " | ") + std::string(choice.row->operands);
   }
-  complain(forms.empty() ? "unknown instruction '" + name + "'"
+  complain(forms.empty() ? "instruction: got '" + name + "', expected one of the dsPIC30F's"
                          : name + ": operands '" + text + "' fit none of: " + forms);
   return {};
 }

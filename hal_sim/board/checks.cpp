@@ -66,7 +66,8 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
   }
   if (const Cycle empty = power_.battery().empty_since(at); empty < kNever)
     all.push_back({"battery empty", "battery",
-                   text("the %.3g Wh are used up; an e-puck stops, this one goes on", setup().battery_wh),
+                   text("its charge is used up (full it holds %.3g Wh); an e-puck stops, this one goes on",
+                        setup().battery_wh),
                    "give it battery_wh or battery_v for so long a run", empty, 0, 1});
   if (i2c_.unstopped() > 0)
     all.push_back({"I2C bus not stopped", "I2CCON.PEN",

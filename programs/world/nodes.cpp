@@ -616,8 +616,13 @@ struct Nodes::Inside {
       case Picture: {
         const std::size_t dot = text.rfind('.');
         const std::string kind = dot == std::string::npos ? "" : text.substr(dot);
-        host.picture(kind == ".png" || kind == ".svg" ? text : text + ".png");
-        break;
+        if (kind == ".png" || kind == ".svg") return host.picture(text);
+        host.picture(text + ".png");
+        return warn(
+            program,
+            fmt::format("wb_supervisor_export_image(): got '{}', expected a name that ends in .png or .svg; "
+                        "the picture is {}.png",
+                        text, text));
       }
       case Mode:
         break;  // the run goes as fast as it can

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sim_core/record/canvas.h"
 #include "sim_core/record/frame_feed.h"
@@ -26,7 +27,8 @@ Film::Film(const std::string& path, const Scene& scene, const FilmOptions& optio
       trails_(scene.robots(), from_seconds(options.trail_s)),
       legend_(std::make_unique<Legend>()) {
   if (!is_film(path)) {
-    error_ = fmt::format("{}: film: got this extension, expected .webm, .png or .apng", path);
+    error_ = fmt::format("{}: film: got the ending '{}', expected .webm, .png or .apng", path,
+                         std::filesystem::path(path).extension().string());
     return;
   }
   if (options.sensor_rays) add_ray_legend(*legend_);

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "sim_core/record/canvas.h"
@@ -143,7 +144,8 @@ std::string write_heatmap(const std::string& path, const Heatmap& heatmap, const
                           const HeatmapOptions& options) {
   if (ends_with(path, ".csv")) return write_csv(path, heatmap, scene.tick_s());
   if (!ends_with(path, ".svg") && !ends_with(path, ".png"))
-    return fmt::format("{}: heat map: got this extension, expected .png, .svg or .csv", path);
+    return fmt::format("{}: heat map: got the ending '{}', expected .png, .svg or .csv", path,
+                       std::filesystem::path(path).extension().string());
   const std::vector<Heatmap::Cell> cells = heatmap.cells();
   const double side = heatmap.cell_m();
   MapPlace place = place_map(scene, options.width_px);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sim_core/record/canvas.h"
 #include "sim_core/record/map_frame.h"
@@ -39,7 +40,8 @@ Legend legend_of(const Scene& scene, bool ways, bool rays) {
 std::string write_picture(const std::string& path, const Scene& scene, const Minds& minds,
                           const Trajectories* trajectories, const PictureOptions& options) {
   if (!ends_with(path, ".svg") && !ends_with(path, ".png"))
-    return fmt::format("{}: picture: got this extension, expected .png or .svg", path);
+    return fmt::format("{}: picture: got the ending '{}', expected .png or .svg", path,
+                       std::filesystem::path(path).extension().string());
   MapPlace place = place_map(scene, options.width_px);
   place.left_px = kMarginPx;
   place.top_px = kTitlePx;

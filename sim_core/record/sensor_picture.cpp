@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "sim_core/record/canvas.h"
 #include "sim_core/world/scene.h"
@@ -20,7 +21,8 @@ constexpr double kSeen[3] = {0.85, 0.1, 0.1}, kLonger[3] = {1.0, 0.55, 0.0}, kFr
 std::string write(const std::string& path, int width_px, int height_px,
                   const std::function<void(cairo_t*)>& draw) {
   if (!ends_with(path, ".svg") && !ends_with(path, ".png"))
-    return fmt::format("{}: picture: got this extension, expected .png or .svg", path);
+    return fmt::format("{}: picture: got the ending '{}', expected .png or .svg", path,
+                       std::filesystem::path(path).extension().string());
   return write_drawing(path, width_px, height_px, draw);
 }
 

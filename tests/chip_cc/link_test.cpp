@@ -160,9 +160,9 @@ TEST_F(Built, mistakes_in_assembler_text_are_all_told_with_their_lines) {
        "}\n"
        "int main(void) {\n  WRONG;\n  first();\n  return 0;\n}\n");
   const std::string told = build(false);
-  for (const char* message :
-       {"main.c:4:8: error: unknown instruction 'foo'", "main.c:5:8: error: unknown instruction 'bar'",
-        "main.c:8:3: error: mov: operands '#5, w99'"})
+  for (const char* message : {"main.c:4:8: error: instruction: got 'foo', expected one of the dsPIC30F's",
+                              "main.c:5:8: error: instruction: got 'bar', expected one of the dsPIC30F's",
+                              "main.c:8:3: error: mov: operands '#5, w99'"})
     EXPECT_TRUE(has(told, message)) << message << "\n" << told;
 }
 

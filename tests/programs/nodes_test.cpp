@@ -294,6 +294,9 @@ TEST_F(NodesTest, the_world_is_commanded_through_the_host) {
   EXPECT_TRUE(host_.has("reset"));
   EXPECT_TRUE(host_.has("reload"));
   EXPECT_TRUE(host_.has("picture shot.jpg.png"));
+  EXPECT_TRUE(
+      host_.has("warn 0 wb_supervisor_export_image(): got 'shot.jpg', expected a name that ends in .png or "
+                ".svg; the picture is shot.jpg.png"));
   EXPECT_TRUE(host_.has("restart 0"));
   ASSERT_EQ(host_.labels.size(), 1u);
   EXPECT_EQ(host_.labels[0].text, "goal");

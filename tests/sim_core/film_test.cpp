@@ -253,7 +253,7 @@ TEST(Film, a_full_disk_a_missing_folder_and_a_bad_name_are_said) {
   EXPECT_EQ(sim::Film("/nonexistent/a.webm", s->scene()).error(),
             "/nonexistent/a.webm: cannot be written: No such file or directory");
   EXPECT_EQ(sim::Film("a.mp4", s->scene()).error(),
-            "a.mp4: film: got this extension, expected .webm, .png or .apng");
+            "a.mp4: film: got the ending '.mp4', expected .webm, .png or .apng");
 }
 
 TEST(Trails, hold_the_last_seconds_and_break_where_a_robot_was_put) {

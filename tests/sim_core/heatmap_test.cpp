@@ -81,7 +81,7 @@ TEST(Heatmap, pictures_are_written_even_when_nobody_was_anywhere) {
     EXPECT_GT(text_of(scratch(name)).size(), 1000u);
   }
   EXPECT_EQ(sim::write_heatmap("a.gif", heat, s->scene()),
-            "a.gif: heat map: got this extension, expected .png, .svg or .csv");
+            "a.gif: heat map: got the ending '.gif', expected .png, .svg or .csv");
   EXPECT_EQ(sim::write_heatmap("/nonexistent/a.csv", heat, s->scene()),
             "/nonexistent/a.csv: cannot be written: No such file or directory");
 }

@@ -125,7 +125,7 @@ TEST(Picture, trajectories_agree_with_the_distance) {
 TEST(Picture, bad_names_are_said) {
   auto s = cruising(world_of("twinpuck = 1\n"), 0, 0);
   EXPECT_EQ(sim::write_picture("a.gif", s->scene(), s->minds(), nullptr),
-            "a.gif: picture: got this extension, expected .png or .svg");
+            "a.gif: picture: got the ending '.gif', expected .png or .svg");
   EXPECT_EQ(sim::write_picture("/nonexistent/a.png", s->scene(), s->minds(), nullptr)
                 .rfind("/nonexistent/a.png: cannot be written: ", 0),
             0u);
