@@ -28,7 +28,7 @@ struct Imported {
   std::vector<Remark> report;  ///< what was not carried, by line
   std::vector<Remark> errors;  ///< what is wrong with the .wbt file
   int robots = 0;
-  int objects = 0;
+  int objects = 0;  ///< [[box]] and its like, without arenas, walls and ramps
 };
 
 /// Things for a world that runs already.

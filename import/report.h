@@ -35,6 +35,8 @@ class Report {
     add(f.line, title(node) + "." + f.name, why, instead);
   }
 
+  int size() const { return static_cast<int>(lines_.size()) + more_; }
+
   /// Sorted by line.
   std::vector<Remark> lines() const {
     auto out = lines_;

@@ -149,8 +149,10 @@ void Walk::visit(const Node& n, const Affine& frame, int depth) {
     b.def = n.def;
     b.line = n.line;
     b.untouched = true;
+    const int before = found();
     gather(n, frame, depth, b.pieces, nullptr, false);
     add_body(std::move(b));
+    if (found() == before) report_.add(n, "it has no geometry");
   } else if (known_proto(n, frame)) {
   } else if (const NodePtr body = unfolded(n)) {
     kept_.push_back(body);
@@ -300,6 +302,7 @@ std::vector<sim::Colour> Walk::recognition_of(const Node& n) {
 
 void Walk::solid(const Node& n, const Affine& frame, int depth) {
   // What it is, and whether it moves.
+  const int before = found();
   Body b = body_of(n);
   b.contact = n.text("contactMaterial", "default");
   b.robot_like = is_robot(n.type);
@@ -354,7 +357,19 @@ void Walk::solid(const Node& n, const Affine& frame, int depth) {
     b.pieces = std::move(shown);
     b.untouched = true;
   }
+  const bool has_body = !b.pieces.empty();
   add_body(std::move(b));
+  // What it does, and that nothing is left of it.
+  const std::string stands = has_body ? "it is a body that stands there" : "";
+  if (n.type == "Charger") report_.add(n, "that it charges robots", stands);
+  if (n.type == "Track") report_.add(n, "that its belt moves", stands);
+  if (found() == before && !is_robot(n.type)) report_.add(n, "it has no shape");
+}
+
+int Walk::found() const {
+  return report_.size() +
+         static_cast<int>(scene_.bodies.size() + scene_.lamps.size() + scene_.robots.size() +
+                          scene_.supervisors.size() + scene_.arenas.size() + scene_.cosmetic.size());
 }
 
 void Walk::add_body(Body body) {

@@ -31,6 +31,7 @@ class Walk {
   void gather(const Node& n, const Affine& frame, int depth, std::vector<Piece>& out, const Surface* paint,
               bool nested_solids);
   void add_body(Body body);
+  int found() const;  ///< how many things were met that are carried or reported
   void lamp(const Node& n, const Affine& frame);
   void background(const Node& n);
   bool afford(const Node& n);

@@ -264,6 +264,42 @@ TEST(Import, what_has_no_bounding_object_is_left_out_by_name) {
   EXPECT_TRUE(r.reports(3, {"Solid", "not carried", "no boundingObject"})) << r.all_reports();
 }
 
+TEST(Import, nothing_goes_without_a_line) {
+  struct Case {
+    const char* node;
+    std::size_t objects;
+    std::initializer_list<const char*> words;  // none: carried whole
+  };
+  const std::string box =
+      " children [ DEF B Shape { geometry Box { size 0.1 0.1 0.1 } } ] boundingObject USE B }";
+  const std::string charger = "Charger { translation 0 0 0.05" + box,
+                    solid = "Solid { translation 0 0 0.05" + box,
+                    track = "Track { translation 0 0 0.05" + box;
+  for (const Case& c :
+       {Case{charger.c_str(), 1, {"Charger", "that it charges robots", "it is a body that stands there"}},
+        Case{"Charger { radius 0.1 }", 0, {"Charger", "that it charges robots"}},
+        Case{track.c_str(), 1, {"Track", "that its belt moves"}},
+        Case{"Solid { }", 0, {"Solid", "it has no shape"}},
+        Case{"Solid { children [ Solid { } ] }", 0, {"Solid", "it has no shape"}},
+        Case{"Shape { }", 0, {"Shape", "it has no geometry"}}, Case{solid.c_str(), 1, {}},
+        Case{"Solid { children [ PointLight { location 0 0 1 } ] }", 0, {}}}) {
+    const Result r = import(kNew + "RectangleArena { }\n" + c.node + "\n");
+    EXPECT_EQ(r.world.objects.size(), c.objects) << c.node;
+    EXPECT_EQ(r.made.objects, static_cast<int>(c.objects)) << c.node;
+    EXPECT_EQ(r.made.report.size(), c.words.size() > 0 ? 1u : 0u) << c.node << "\n" << r.all_reports();
+    if (c.words.size() > 0) EXPECT_TRUE(r.reports(3, c.words)) << c.node << "\n" << r.all_reports();
+  }
+}
+
+// `check` counts objects alike
+TEST(Import, walls_and_ramps_are_no_objects) {
+  const Result r = import(kNew +
+                          "RectangleArena { rotation 0 0 1 0.3 }\n"
+                          "Solid { translation 0 0 0.05 boundingObject Box { size 0.1 0.1 0.1 } }\n");
+  EXPECT_GT(r.world.walls.size(), 0u);
+  EXPECT_EQ(r.made.objects, static_cast<int>(r.world.objects.size()));
+}
+
 TEST(Import, a_tilted_board_becomes_a_ramp_cut_off_at_the_floor) {
   // 1 m long, 10 degrees, its middle at the height where half of it is under the floor
   const Result r = import(kNew + R"(
