@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "import/walk.h"
+#include "sim_core/world/most_ranges.h"
 
 namespace wbt {
 namespace {
@@ -542,6 +543,14 @@ void Walk::ranging(const Node& n, const Affine& at, Device& made) {
       std::clamp(lidar ? n.number("horizontalResolution", 512) : n.number("width", 64), 1.0, 4096.0));
   made.height = static_cast<int>(
       std::clamp(lidar ? n.number("numberOfLayers", 4) : n.number("height", 64), 1.0, 4096.0));
+  const int columns = *made.width, rows = *made.height;
+  const auto thinned = [](int side, int each) { return std::max(1, side / each); };
+  for (int each = 2; *made.width * *made.height > sim::kMostRanges; ++each)
+    made.width = thinned(columns, each), made.height = thinned(rows, each);
+  if (*made.width != columns || *made.height != rows)
+    report_.add(
+        n, fmt::format("{} columns and {} rows, more than {} distances", columns, rows, sim::kMostRanges),
+        fmt::format("{} columns and {} rows", *made.width, *made.height));
   made.fov_rad = std::clamp(n.number("fieldOfView", lidar ? 1.5708 : 0.7854), 0.001, 6.2831);
   if (lidar) made.vertical_fov_rad = std::clamp(n.number("verticalFieldOfView", 0.2), 0.0, 3.14);
   made.near_m = std::clamp(n.number("minRange", 0.01), 0.0, kFarthestM);

@@ -33,34 +33,26 @@ double along(const sim::Scene& scene, int robot, const Eye& eye, double left_rad
 
 }  // namespace
 
-RangeGrid range_grid(const sim::DeviceDesc& device) {
-  int each = 1;
-  const auto side = [&](int pixels) { return std::max(1, pixels / each); };
-  const int height = device.height;
-  while (static_cast<std::int64_t>(side(device.width)) * side(height) > kMostRanges) ++each;
-  return {side(device.width), side(height)};
-}
-
 std::vector<double> ranges(const sim::Scene& scene, int robot, const sim::DeviceDesc& device,
                            sim::Clicks at) {
-  const RangeGrid grid = range_grid(device);
+  const int columns = device.width, rows = device.height;
   const Eye eye = eye_of(scene, robot, device, at);
   const bool flat = device.kind == sim::DeviceKind::RangeFinder;  // a picture on a plane
   const double half = std::min(device.fov_rad / 2, flat ? 1.5 : sim::kPi);
   std::vector<double> out;
-  out.reserve(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows));
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column) {
+  out.reserve(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows));
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
       // middles of pixels, from -1 on the left to 1 on the right
-      const double right = (2 * column + 1.0) / grid.columns - 1, down = (2 * row + 1.0) / grid.rows - 1;
+      const double right = (2 * column + 1.0) / columns - 1, down = (2 * row + 1.0) / rows - 1;
       double left_rad = -right * half, up_rad = 0, shorter = 1;
       if (flat) {
-        const double x = right * std::tan(half), y = -down * std::tan(half) * grid.rows / grid.columns;
+        const double x = right * std::tan(half), y = -down * std::tan(half) * rows / columns;
         left_rad = -std::atan(x);
         up_rad = std::atan2(y, std::hypot(1, x));
         shorter = std::cos(left_rad) * std::cos(up_rad);
       }
-      if (!flat && grid.rows > 1) up_rad = device.vertical_fov_rad * (0.5 - row / (grid.rows - 1.0));
+      if (!flat && rows > 1) up_rad = device.vertical_fov_rad * (0.5 - row / (rows - 1.0));
       const double limit = device.far_m / shorter;
       const double distance = along(scene, robot, eye, left_rad, up_rad, limit, at);
       const double range = distance * shorter;

@@ -5,22 +5,14 @@
 #include <vector>
 
 #include "sim_core/world/device_desc.h"
+#include "sim_core/world/most_ranges.h"
 #include "sim_core/world/scene.h"
 
 namespace programs {
 
-/// Most distances of a lidar or range finder: what a packet holds.
-inline constexpr int kMostRanges = 12000;
-
-/// Columns and rows that are measured: those of the description, or, if these were too
-/// many, each n-th of both.
-struct RangeGrid {
-  int columns = 1, rows = 1;
-};
-RangeGrid range_grid(const sim::DeviceDesc& device);
-
-/// m, rows from the top, each from the left to the right: of a lidar along the ray, of a range finder along
-/// its line of sight. Infinite: nothing from `near_m` to `far_m`.
+/// m, `height` rows from the top, each of `width` columns from the left to the right, at most sim::kMostRanges:
+/// of a lidar along the ray, of a range finder along its line of sight. Infinite: nothing from `near_m` to
+/// `far_m`.
 std::vector<double> ranges(const sim::Scene& scene, int robot, const sim::DeviceDesc& device, sim::Clicks at);
 
 /// What a distance sensor's table makes of the mean distance over its rays.

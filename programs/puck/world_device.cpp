@@ -23,10 +23,9 @@ WorldDevice world_device(const sim::DeviceDesc& d) {
       return {WB_NODE_CAMERA, {double(d.width), double(d.height), d.fov_rad, 0, 0}};
     case sim::DeviceKind::Lidar:
     case sim::DeviceKind::RangeFinder: {
-      const RangeGrid grid = range_grid(d);
       const bool is_lidar = d.kind == sim::DeviceKind::Lidar;
       return {is_lidar ? WB_NODE_LIDAR : WB_NODE_RANGE_FINDER,
-              {double(grid.columns), double(grid.rows), d.fov_rad, d.near_m, d.far_m,
+              {double(d.width), double(d.height), d.fov_rad, d.near_m, d.far_m,
                is_lidar ? d.vertical_fov_rad : 0}};
     }
     case sim::DeviceKind::Gps:

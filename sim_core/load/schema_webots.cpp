@@ -128,9 +128,10 @@ SectionSpec robot_device_section() {
            "of an emitter: packets need a free line of sight",
            into<D>([](D& d, const Value& v) { d.infra_red = v.flag; })},
           {"width", ValueType::Integer, "", 1, 4096, "", "128",
-           "of a display or camera, in pixels; of a lidar, its points; of a range finder, its columns",
+           "of a display or camera, in pixels; of a lidar or range finder, its columns",
            into<D>([](D& d, const Value& v) { d.width = static_cast<int>(v.integer); })},
-          {"height", ValueType::Integer, "", 1, 4096, "", "64", "likewise",
+          {"height", ValueType::Integer, "", 1, 4096, "", "64",
+           "likewise, its rows: of a lidar 1, unless written; at most 12,000 distances",
            into<D>([](D& d, const Value& v) { d.height = static_cast<int>(v.integer); })},
           {"at", ValueType::Triple, "m", -1, 1, "", "[0, 0, 0]",
            "of what measures distances: its place on the robot, from the middle on the floor: ahead, left, "

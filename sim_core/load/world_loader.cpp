@@ -14,6 +14,7 @@
 #include "sim_core/load/schema.h"
 #include "sim_core/load/schema_reader.h"
 #include "sim_core/sound/wav_file.h"
+#include "sim_core/world/most_ranges.h"
 
 namespace sim {
 namespace {
@@ -251,6 +252,9 @@ class Reader : private SchemaReader {
       DeviceDesc device;
       device.line = line_of(dt);
       read_table(path, dt, &device);
+      const bool is_lidar = device.kind == DeviceKind::Lidar;
+      if (is_lidar && !dt.contains("height")) device.height = 1;
+      if (is_lidar || device.kind == DeviceKind::RangeFinder) check_ranges(path, dt, device);
       for (const DeviceDesc& other : devices) {
         if (other.name == device.name)
           problem(dt.source(), fmt::format("{}.name: got \"{}\" a second time, expected each device once",
@@ -262,6 +266,15 @@ class Reader : private SchemaReader {
                             device.far_m));
       devices.push_back(std::move(device));
     });
+  }
+
+  void check_ranges(const char* path, const toml::table& table, const DeviceDesc& device) {
+    const int all = device.width * device.height;
+    if (all <= kMostRanges) return;
+    const toml::node* side = table.get(table.contains("width") ? "width" : "height");
+    problem(side ? side->source() : table.source(),
+            fmt::format("{}.width: got {} columns and {} rows, {} distances, expected at most {}", path,
+                        device.width, device.height, all, kMostRanges));
   }
 
   /// The keys that a robot may have depend on its model, which is therefore looked at first.

@@ -291,6 +291,21 @@ TEST(Import, nothing_goes_without_a_line) {
   }
 }
 
+// Webots' lidar has 512 columns and 4 rows unless its world says otherwise
+TEST(Import, distances_that_are_too_many_are_thinned_and_reported) {
+  const Result r = import(kNew +
+                          "E-puck { turretSlot [ Lidar { name \"l\" }\n"
+                          "RangeFinder { name \"r\" width 640 height 480 } ] }\n");
+  const auto& devices = r.world.robots.at(0).devices;
+  ASSERT_EQ(devices.size(), 2u) << r.all_reports();
+  EXPECT_EQ(devices[0].width, 512);
+  EXPECT_EQ(devices[0].height, 4);
+  EXPECT_EQ(devices[1].width, 640 / 6);
+  EXPECT_EQ(devices[1].height, 480 / 6);
+  EXPECT_TRUE(r.reports(3, {"640 columns and 480 rows", "12000", "106 columns and 80 rows"}))
+      << r.all_reports();
+}
+
 // `check` counts objects alike
 TEST(Import, walls_and_ramps_are_no_objects) {
   const Result r = import(kNew +

@@ -79,12 +79,4 @@ TEST_F(Ranging, a_distance_sensor_looks_its_table_up) {
   EXPECT_EQ(programs::looked_up(d.table, 5), 200);
 }
 
-TEST(RangeGrid, what_is_too_much_for_a_packet_is_thinned) {
-  EXPECT_EQ(programs::range_grid(device(sim::DeviceKind::Lidar, 360, 1, 1, 1)).columns, 360);
-  const auto grid = programs::range_grid(device(sim::DeviceKind::RangeFinder, 640, 480, 1, 1));
-  EXPECT_LE(grid.columns * grid.rows, programs::kMostRanges);
-  EXPECT_EQ(grid.columns, 640 / 6);
-  EXPECT_EQ(grid.rows, 480 / 6);
-}
-
 }  // namespace

@@ -78,6 +78,19 @@ TEST(WebotsKeys, supervisors_have_devices_and_robots_may_supervise) {
   EXPECT_EQ(s.devices[1].kind, sim::DeviceKind::Motor);
 }
 
+TEST(WebotsKeys, a_lidar_is_a_row_and_a_range_finder_a_picture) {
+  const auto loaded = parse(
+      "[[robot]]\nposition = [0, 0]\n[[robot.device]]\nname = \"l\"\nkind = \"lidar\"\nwidth = 4096\n"
+      "[[robot.device]]\nname = \"m\"\nkind = \"lidar\"\nwidth = 3000\nheight = 4\n"
+      "[[robot.device]]\nname = \"r\"\nkind = \"range-finder\"\n");
+  ASSERT_TRUE(loaded.world) << loaded.report("w.toml");
+  const auto& devices = loaded.world->robots[0].devices;
+  EXPECT_EQ(devices[0].height, 1);
+  EXPECT_EQ(devices[1].height, 4);
+  EXPECT_EQ(devices[2].width, 128);
+  EXPECT_EQ(devices[2].height, 64);
+}
+
 TEST(WebotsKeys, words_stand_between_blanks_or_in_quotes) {
   using Words = std::vector<std::string>;
   EXPECT_EQ(sim::argument_words(""), Words{});
@@ -127,6 +140,12 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{
             kDevice + "name = \"a\"\nkind = \"gps\"\n[[robot.device]]\nname = \"a\"\nkind = \"compass\"\n",
             "7:1: robot.device.name: got \"a\" a second time, expected each device once"},
+        Mistake{
+            kDevice + "name = \"a\"\nkind = \"lidar\"\nwidth = 512\nheight = 64\n",
+            "7:9: robot.device.width: got 512 columns and 64 rows, 32768 distances, expected at most 12000"},
+        Mistake{
+            kDevice + "name = \"a\"\nkind = \"range-finder\"\nheight = 94\n",
+            "7:10: robot.device.width: got 128 columns and 94 rows, 12032 distances, expected at most 12000"},
         Mistake{kOfSupervisor + "kind = \"wing\"\n",
                 std::string("6:8: supervisor.device.kind: got \"wing\", expected one of ") + kKinds},
         Mistake{kOfSupervisor + "kind = \"gps\"\n[[supervisor.device]]\nname = \"a\"\nkind = \"gps\"\n",
