@@ -92,13 +92,14 @@ std::string idle_timer(Machine& machine, int vector) {
 std::string writers(Machine& machine, const Place& place) {
   std::string text;
   for (const auto& function : machine.file().code.functions) {
-    bool writes = false;
-    for (const Instruction& i : machine.code().of(function))
-      writes |= i.access && i.access->writes && (i.access->address & ~1u) == (place.address & ~1u);
-    if (!writes) continue;
+    const std::vector<Instruction> all = machine.code().of(function);
+    const auto writes = std::find_if(all.begin(), all.end(), [&](const Instruction& i) {
+      return i.access && i.access->writes && (i.access->address & ~1u) == (place.address & ~1u);
+    });
+    if (writes == all.end()) continue;
     const std::vector<int> vectors = machine.code().vectors_of(function.begin);
     if (vectors.empty())
-      text += fmt::format("    {} writes it\n", machine.file().code.describe(function.begin));
+      text += fmt::format("    {} writes it\n", machine.file().code.describe(writes->address));
     for (const int vector : vectors)
       text += fmt::format("    the handler {} writes it; {}{}\n", function.name, state_of(machine, vector),
                           idle_timer(machine, vector));
@@ -148,7 +149,8 @@ std::string Machine::why() {
   if (!loop.end) {
     text = fmt::format("it is in no loop of {} words or less\n", kLongestLoop / 2);
   } else {
-    text = fmt::format("it goes round in {}, {:#08x} to {:#08x}", machine.file().code.describe(loop.begin),
+    // what leads back is the loop's own; its first instruction may be of a function that was inlined
+    text = fmt::format("it goes round in {}, {:#08x} to {:#08x}", machine.file().code.describe(loop.end),
                        loop.begin, loop.end);
     // What the loop reads may end it: so that is shown, with what it is now and who could change it.
     std::set<Place> reads;

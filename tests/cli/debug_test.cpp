@@ -216,4 +216,32 @@ TEST_P(Debug, why_names_the_wait_and_who_could_end_it) {
                   {"timer 1 is off (T1CON.TON = 0)"});
 }
 
+// the loop begins with what was inlined; who writes does so in the second line of main()'s loop
+TEST_P(Debug, why_names_the_lines_of_the_loop_and_of_who_writes) {
+  build(R"(#include <p30F6014A.h>
+int due;
+static void flash(void) {
+  LATAbits.LATA6 = !LATAbits.LATA6;
+}
+int main(void) {
+  TRISAbits.TRISA6 = 0;
+  while (1) {
+    flash();
+  }
+}
+)");
+  expect_in_order(debug("goto 100000\nwhy\n"), {"it goes round in main() (main.c:8)"});
+  build(R"(int due;
+int main(void) {
+  while (1) {
+    while (!*(volatile int *)&due)
+      ;
+    due = 0;
+  }
+}
+)");
+  expect_in_order(debug("goto 100000\nwhy\n"),
+                  {"it goes round in main() (main.c:4)", "due = 0x0", "main() (main.c:6) writes it"});
+}
+
 }  // namespace
