@@ -86,8 +86,28 @@ bool may_replace(const fs::path& output) {
   return false;
 }
 
+/// x.hex is asked for by its own name or by that of x.elf, beside which it lies; both are x.elf here. What a
+/// robot takes is hal_dspic's. False after a complaint.
+bool take_ending(cc::BuildOptions& options, const std::string& asked_hal) {
+  std::string ending = options.output.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), ::tolower);
+  if (ending.empty() || ending == ".elf") return true;
+  if (ending != ".hex") {
+    if (may_replace(options.output))
+      complain({options.output.string() + ": -o: got the ending " + ending + ", expected .elf or .hex"});
+    return false;
+  }
+  if (asked_hal == "sim") {
+    complain({options.output.string() +
+              ": -o: got .hex with --hal sim, whose image no robot takes, expected --hal dspic, or .elf"});
+    return false;
+  }
+  options.hal = "dspic";
+  options.output.replace_extension(".elf");
+  return true;
+}
+
 int build(cc::BuildOptions options, bool counts_lines) {
-  if (!may_replace(options.output)) return kBadInput;
   const std::string given = options.source_dir.string();
   twin::Options of_run;
   of_run.hal = options.hal;
@@ -100,7 +120,8 @@ int build(cc::BuildOptions options, bool counts_lines) {
   const std::string found = twin::find_firmware(given, "", no_controller);
   options.hal = twin::hal_of(of_run, found);
   if (options.hal.empty() && !found.empty() && programs::is_pc_program(found))
-    return build_program(given, options.output);
+    return may_replace(options.output) ? build_program(given, options.output) : kBadInput;
+  if (!take_ending(options, of_run.hal) || !may_replace(options.output)) return kBadInput;
   options.source_dir = controller_folder(given, "build");
   if (options.source_dir.empty()) return kBadInput;
   options.with_texts = !options.output.empty();

@@ -287,7 +287,12 @@ bool Building::choose() {
 bool Building::link() {
   std::error_code ec;
   const fs::path output = fs::absolute(o.output);
-  fs::create_directories(output.parent_path(), ec);
+  const fs::path folder = output.parent_path();
+  fs::create_directories(folder, ec);
+  if (ec)
+    return refuse(o.output.string() + ": image: got the folder " + folder.string() +
+                  ", which does not exist and cannot be made (" + ec.message() +
+                  "), expected one that exists");
   std::vector<CompileOutcome> drivers;  // linked for their handlers, too
   for (auto it = outcomes.begin() + long(p.user.size()); it != outcomes.end(); ++it)
     (p.assembler_members.count(it->source) ? drivers : user).push_back(*it);

@@ -77,6 +77,10 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   std::error_code ec;
   const fs::path half = unfinished(output);  // a folder
   fs::create_directories(half, ec);
+  if (ec) {
+    result.errors.push_back(output.string() + ": image: cannot be written: " + ec.message());
+    return;
+  }
   const fs::path made = half / (output.stem().string() + ".elf");
   std::vector<std::string> argv = {compiler_path().string(), "--link", "-o", made.string()};
   for (const auto& u : user) argv.push_back(u.object.string());

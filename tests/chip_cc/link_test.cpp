@@ -380,6 +380,28 @@ TEST_F(Built, two_drivers_of_the_library_with_one_handler_are_refused) {
     }
 }
 
+TEST_F(Built, an_image_is_asked_for_by_the_name_of_its_elf_or_hex) {
+  file("main.c", "int main(void) { return 0; }\n");
+  for (int time = 0; time < 2; ++time) build(true, "dspic", "y.hex");  // the second takes the first's place
+  for (const char* name : {"y.elf", "y.hex", "y.lst", "y.map"})
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
+  EXPECT_EQ(text_at(folder / "y.elf").substr(1, 3), "ELF");
+  EXPECT_EQ(text_at(folder / "y.hex").substr(0, 1), ":");
+  file("a_file", "");
+  struct Case {
+    const char *hal, *output, *expected;
+  };
+  for (const Case& c : {Case{"dspic", "x.txt", "x.txt: -o: got the ending .txt, expected .elf or .hex"},
+                        Case{"sim", "x.hex",
+                             "x.hex: -o: got .hex with --hal sim, whose image no robot takes, expected --hal "
+                             "dspic, or .elf"},
+                        Case{"dspic", "prog/a_file/x.elf", "prog/a_file/x.elf: image: got the folder"}}) {
+    const std::string told = build(false, c.hal, c.output);
+    EXPECT_TRUE(has(told, c.expected)) << told;
+    EXPECT_FALSE(has(told, "half")) << told;
+  }
+}
+
 // XC16 has its preprocessor read a .S file, not a .s file
 TEST_F(Built, assembler_in_upper_case_is_preprocessed) {
   file("main.c", "extern int limit(void); int main(void) { return limit(); }\n");
