@@ -3,6 +3,7 @@
 // small structs are returned in registers, unions without a value are zero.
 #include "chip.h"
 #include "dspic30/llvm/target.h"
+#include "dspic30/memory/irqs.h"
 #include "llvm/IR/Constants.h"
 #include "llvm/IR/IRBuilder.h"
 #include "llvm/IR/InlineAsm.h"
@@ -16,6 +17,8 @@ namespace cc {
 using namespace llvm;
 
 namespace {
+
+constexpr const char* kNamedByVector = "named-by-vector";
 
 void place_configuration(GlobalVariable& g, StringRef word) {
   g.setSection(word == "fosc" ? ".config@F80000" : ".config@F80002");
@@ -36,8 +39,43 @@ void place_registers(Module& m) {
   }
 }
 
+/// The handler of interrupt(irq(n)) is called as the linker looks for vector n's. Its own name stays beside
+/// it, for other files that call the function.
+void name_by_vector(Unit& unit, Function& f, bool is_alternate, int irq) {
+  Module& m = unit.module;
+  const std::string name = (is_alternate ? "_Alt" : "_") + dspic::irq_handler(irq);
+  if (f.getName() == name) return;
+  if (GlobalValue* known = m.getNamedValue(name)) {
+    auto* other = dyn_cast<Function>(known->stripPointerCasts());
+    if (other == &f) return;
+    if (!known->isDeclaration()) {
+      const auto place = [](const Function* g) {
+        DISubprogram* of = g ? g->getSubprogram() : nullptr;
+        return of ? DebugLoc(DILocation::get(g->getContext(), of->getLine(), 0, of)) : DebugLoc();
+      };
+      const DebugLoc first = place(other);
+      return unit.error(place(&f), f.getName() + "(): got a second handler of interrupt " + Twine(irq) +
+                                       ", expected one; the first is " + name + "()" +
+                                       (first ? " in line " + Twine(first.getLine()) : Twine()));
+    }
+    known->replaceAllUsesWith(ConstantExpr::getBitCast(&f, known->getType()));
+    known->eraseFromParent();
+  }
+  if (!f.hasFnAttribute(kNamedByVector)) {
+    const std::string own = f.getName().str();
+    const bool is_of_file = f.hasLocalLinkage();
+    f.setName(name);
+    f.setLinkage(GlobalValue::ExternalLinkage);
+    f.addFnAttr(kNamedByVector);
+    if (!is_of_file) GlobalAlias::create(own, &f);
+  } else {
+    GlobalAlias::create(name, &f);
+  }
+}
+
 /// Attributes of functions, which clang has carried as annotations.
-void take_notes(Module& m) {
+void take_notes(Unit& unit) {
+  Module& m = unit.module;
   auto* all = m.getGlobalVariable("llvm.global.annotations");
   if (!all) return;
   for (auto& entry : cast<ConstantArray>(all->getInitializer())->operands()) {
@@ -48,8 +86,14 @@ void take_notes(Module& m) {
     f->addFnAttr(name, value);
   }
   all->eraseFromParent();
-  for (Function& f : m) {
-    if (!f.hasFnAttribute("interrupt")) continue;
+  std::vector<Function*> handlers;
+  for (Function& f : m)
+    if (f.hasFnAttribute("interrupt")) handlers.push_back(&f);
+  for (Function* handler : handlers) {
+    Function& f = *handler;
+    for (const bool is_alternate : {false, true})
+      if (const auto irq = f.getFnAttribute(is_alternate ? "altirq" : "irq"); irq.isStringAttribute())
+        name_by_vector(unit, f, is_alternate, std::stoi(irq.getValueAsString().str()));
     // XC16 takes a handler that says neither for one that reads constants
     if (!f.hasFnAttribute("no_auto_psv")) f.addFnAttr("auto_psv");
     f.addFnAttr(Attribute::NoInline);
@@ -303,7 +347,8 @@ bool lower_for_chip(Unit& unit) {
   if (unit.failed) return false;
   if (const std::string wrong = name_dspic_sections(m); !wrong.empty()) unit.error(DebugLoc(), wrong);
   if (unit.failed) return false;
-  take_notes(m);
+  take_notes(unit);
+  if (unit.failed) return false;
   place_registers(m);
   define_configuration(unit, place_configuration);
   define_initializers(m);

@@ -312,10 +312,10 @@ class Checker : public RecursiveASTVisitor<Checker> {
     return sources.isInMainFile(place) || !sources.isInSystemHeader(place);
   }
   bool is_of_program(const Decl* decl) const { return is_of_program_at(decl->getLocation()); }
-  /// interrupt(irq(n)) puts any name into a vector.
+  /// interrupt(irq(n)) puts any name into a vector (lower.cpp).
   static bool has_other_vector(const FunctionDecl* f) {
     for (const auto* note : f->specific_attrs<AnnotateAttr>())
-      if (note->getAnnotation().contains("irq")) return true;
+      if (note->getAnnotation().contains("irq=")) return true;
     return false;
   }
   void note_agenda(Expr* function) {

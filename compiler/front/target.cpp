@@ -13,6 +13,7 @@
 #include "clang/Sema/ParsedAttr.h"
 #include "clang/Sema/Sema.h"
 #include "dspic30/llvm/target.h"
+#include "dspic30/memory/irqs.h"
 #include "llvm/ADT/StringExtras.h"
 
 namespace {
@@ -112,11 +113,29 @@ bool is_in_ram(const Placement& place) {
               .Default(false);
 }
 
-/// __save__(a,b) and __preprologue__("...") inside interrupt(...): calls, as the parser sees them.
+/// __save__(a,b), __preprologue__("...") and __irq__(n) inside interrupt(...): calls, as the parser sees them.
 void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context);
 
 void note(Decl* decl, const std::string& what, ASTContext& context) {
   decl->addAttr(AnnotateAttr::CreateImplicit(context, cc::kNote + what, nullptr, 0));
+}
+
+/// irq(3): the function is the handler of the vector's normal entry, altirq(3): of its alternate one.
+void note_vector(StringRef table, const CallExpr* call, FunctionDecl* function, ASTContext& context) {
+  Expr::EvalResult value;
+  const Expr* number = call->getNumArgs() == 1 ? call->getArg(0) : nullptr;
+  const bool is_constant = number && !number->isValueDependent() && number->EvaluateAsInt(value, context);
+  const std::int64_t irq = is_constant ? value.Val.getInt().getExtValue() : -1;
+  if (irq >= 0 && irq < dspic::kIrqs) {
+    function->addAttr(UsedAttr::CreateImplicit(context));  // nobody calls it
+    return note(function, table.str() + "=" + std::to_string(irq), context);
+  }
+  auto& d = context.getDiagnostics();
+  d.Report(call->getBeginLoc(), d.getCustomDiagID(DiagnosticsEngine::Error, "%0"))
+      << (table + ": got " + (is_constant ? "interrupt " + std::to_string(irq) : "no number known here") +
+          ", expected one of the vector table, 0 to " + std::to_string(dspic::kIrqs - 1) + " (" +
+          std::to_string(dspic::irq::T1) + " is T1's)")
+             .str();
 }
 
 void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext& context) {
@@ -124,6 +143,8 @@ void note_interrupt_argument(Expr* argument, FunctionDecl* function, ASTContext&
   auto* callee = call ? call->getDirectCallee() : nullptr;
   if (!callee) return;
   const StringRef kind = callee->getName();
+  for (const char* table : {"irq", "altirq"})
+    if (kind == std::string(cc::kAttributePrefix) + table) return note_vector(table, call, function, context);
   std::string names;
   for (Expr* e : call->arguments()) {
     e = e->IgnoreParenCasts();

@@ -17,7 +17,9 @@ namespace {
 
 void print_message(const Unit& unit, const char* kind, const DebugLoc& where, const Twine& text) {
   if (where) {
-    errs() << file_of(where) << ":" << where.getLine() << ":" << where.getCol() << ": ";
+    errs() << file_of(where) << ":" << where.getLine() << ":";
+    if (where.getCol() > 0) errs() << where.getCol() << ":";
+    errs() << " ";
   } else {
     errs() << unit.options.input << ": ";
   }

@@ -344,10 +344,7 @@ bool can_lie_anywhere(const Section& section) {
 }
 
 std::string handler_name(int vector) {
-  const std::string name = vector_name(vector);
-  return name == "?"                ? "Interrupt" + std::to_string(vector - kFirstIrqVector)
-         : vector < kFirstIrqVector ? name
-                                    : name + "Interrupt";
+  return vector < kFirstIrqVector ? vector_name(vector) : irq_handler(vector - kFirstIrqVector);
 }
 
 bool is_handler(const std::string& name) {

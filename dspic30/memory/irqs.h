@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Numbers and names of the chip's interrupt sources; the table is irqs.inc.
 #pragma once
+#include <string>
 
 namespace dspic {
 
@@ -24,6 +25,12 @@ inline const char* irq_name(int irq) {
 #include "dspic30/memory/irqs.inc"
   };
   return irq >= 0 && irq < kIrqs ? kNames[irq] : "?";
+}
+
+/// "T1Interrupt", "Interrupt45": what the handler of a source is called, without underscore.
+inline std::string irq_handler(int irq) {
+  const std::string name = irq_name(irq);
+  return name == "?" ? "Interrupt" + std::to_string(irq) : name + "Interrupt";
 }
 
 }  // namespace dspic

@@ -380,6 +380,79 @@ TEST_F(Built, two_drivers_of_the_library_with_one_handler_are_refused) {
     }
 }
 
+std::uint32_t vector_word(const dspic::FirmwareFile& image, unsigned irq, bool is_alternate = false) {
+  return image.words.at((is_alternate ? 0x84 : 0x04) + 2 * (8 + irq));
+}
+
+// XC16: the number of an interrupt is its vector's, 0 for INT0
+TEST_F(Built, a_handler_may_name_its_vector_by_number) {
+  struct Case {
+    const char *attributes, *name;  // of the vector's handler
+    unsigned irq;
+    bool is_alternate;
+  };
+  for (const Case& c : {
+           Case{"interrupt(irq(3))", "_T1Interrupt", 3, false},
+           Case{"__interrupt__(__irq__(3))", "_T1Interrupt", 3, false},
+           Case{"interrupt(irq(3), save(kept)), auto_psv", "_T1Interrupt", 3, false},
+           Case{"__interrupt__(__save__(kept), irq(TIMER_4)), no_auto_psv, shadow", "_T4Interrupt", 21,
+                false},
+           Case{"interrupt(irq(45))", "_Interrupt45", 45, false},
+           Case{"interrupt(altirq(11))", "_AltADCInterrupt", 11, true},
+       })
+    for (const char* storage : {"", "static "}) {
+      file("main.c", std::string("#define TIMER_4 (20 + 1)\nint kept, calls;\n") + storage +
+                         "void __attribute__((" + c.attributes +
+                         ")) mine(void);\nvoid mine(void) { calls++; }\nint main(void) { return calls; }\n");
+      const std::string told = build();
+      EXPECT_FALSE(has(told, "warning")) << c.attributes << told;
+      const dspic::FirmwareFile made = image();
+      const std::uint32_t at = made.functions.at(c.name);
+      EXPECT_EQ(vector_word(made, c.irq, c.is_alternate), at) << c.attributes;
+      EXPECT_NE(vector_word(made, c.irq, !c.is_alternate), at) << c.attributes;
+    }
+  // one function may serve both tables, and be called by its own name elsewhere
+  file("main.c",
+       "int calls; void __attribute__((interrupt(irq(3), altirq(7)))) mine(void) { calls++; }\n"
+       "int main(void) { return calls; }\n");
+  file("other.c", "extern void mine(void); void (*kept)(void) = mine;\n");
+  build();
+  const dspic::FirmwareFile made = image();
+  EXPECT_EQ(vector_word(made, 3), made.functions.at("_T1Interrupt"));
+  EXPECT_EQ(vector_word(made, 7, true), made.functions.at("_T1Interrupt"));
+  EXPECT_EQ(place_of("_mine"), made.functions.at("_T1Interrupt"));
+}
+
+TEST_F(Built, a_second_handler_of_a_vector_and_numbers_without_one_are_refused) {
+  const std::string main = " int main(void) { return 0; }\n", head = "void __attribute__((interrupt(";
+  struct Case {
+    std::string one, other, expected;
+  };
+  const std::string range = ", expected one of the vector table, 0 to 53 (3 is T1's)";
+  for (const Case& c : {
+           Case{head + "irq(3)))) a(void) {}\nvoid _T1Interrupt(void) {}\n" + main, "",
+                "main.c:1: error: a(): got a second handler of interrupt 3, expected one; the first is "
+                "_T1Interrupt() in line 2"},
+           Case{head + "irq(3)))) a(void) {}\n" + head + "irq(3)))) b(void) {}\n" + main, "",
+                "main.c:2: error: b(): got a second handler of interrupt 3, expected one; the first is "
+                "_T1Interrupt() in line 1"},
+           Case{head + "irq(3)))) a(void) {}\n" + main, "void _T1Interrupt(void) {}\n",
+                "_T1Interrupt(): got a second definition"},
+           Case{head + "altirq(3)))) a(void) {}\n" + main, head + "altirq(3)))) b(void) {}\n",
+                "_AltT1Interrupt(): got a second definition"},
+           Case{head + "irq(54)))) a(void) {}\n" + main, "",
+                "main.c:1:31: error: irq: got interrupt 54" + range},
+           Case{head + "altirq(-1)))) a(void) {}\n" + main, "", "altirq: got interrupt -1" + range},
+           Case{"int n; " + head + "irq(n)))) a(void) {}\n" + main, "",
+                "irq: got no number known here" + range},
+       }) {
+    file("main.c", c.one);
+    file("other.c", c.other);
+    const std::string told = build(false);
+    EXPECT_TRUE(has(told, c.expected)) << c.expected << "\n" << told;
+  }
+}
+
 TEST_F(Built, an_image_is_asked_for_by_the_name_of_its_elf_or_hex) {
   file("main.c", "int main(void) { return 0; }\n");
   for (int time = 0; time < 2; ++time) build(true, "dspic", "y.hex");  // the second takes the first's place
