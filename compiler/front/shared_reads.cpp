@@ -220,10 +220,10 @@ class FactWriter {
 
   // --- reads of which XC16's optimiser may make one
 
-  /// In a loop that calls nobody and does not write the variable itself.
+  /// In a loop that waits for it, calls nobody and does not write the variable itself.
   bool may_be_once(Instruction& i) {
     const Loop* loop = loops_.getLoopFor(i.getParent());
-    if (!loop) return false;
+    if (!loop || !is_fixed(read_by(i), *loop) || !is_waited_for(i, *loop)) return false;
     const Value* read = getUnderlyingObject(read_by(i));
     for (const BasicBlock* block : loop->blocks())
       for (const Instruction& other : *block) {
@@ -241,6 +241,66 @@ class FactWriter {
         }
       }
     return true;
+  }
+
+  /// The same place in each round: no index that the loop counts.
+  static bool is_fixed(Value* pointer, const Loop& loop) {
+    SmallVector<Value*, 8> todo{pointer};
+    SmallPtrSet<Value*, 8> seen;
+    while (!todo.empty()) {
+      Value* v = todo.pop_back_val();
+      auto* i = dyn_cast<Instruction>(v);
+      if (!i || !loop.contains(i) || !seen.insert(v).second) continue;
+      if (isa<PHINode>(i) || isa<CallBase>(i)) return false;
+      if (auto* load = dyn_cast<LoadInst>(i); load && is_stored_in(load->getPointerOperand(), loop))
+        return false;
+      for (Use& operand : i->operands()) todo.push_back(operand);
+    }
+    return true;
+  }
+  static bool is_stored_in(const Value* pointer, const Loop& loop) {
+    for (const BasicBlock* block : loop.blocks())
+      for (const Instruction& i : *block)
+        if (auto* store = dyn_cast<StoreInst>(&i); store && store->getPointerOperand() == pointer)
+          return true;
+    return false;
+  }
+
+  /// What is read decides whether the loop ends, or, of one that never does, what it does.
+  static bool is_waited_for(Instruction& read, const Loop& loop) {
+    SmallVector<Value*, 8> todo{&read};
+    SmallPtrSet<Value*, 16> seen;
+    while (!todo.empty()) {
+      Value* v = todo.pop_back_val();
+      if (!seen.insert(v).second) continue;
+      if (auto* move = dyn_cast<MemTransferInst>(v)) add_loads_of(move->getRawDest(), loop, todo);
+      for (User* user : v->users()) {
+        auto* i = dyn_cast<Instruction>(user);
+        if (!i || !loop.contains(i)) continue;
+        if (auto* store = dyn_cast<StoreInst>(i)) add_loads_of(store->getPointerOperand(), loop, todo);
+        if (!i->isTerminator()) {
+          todo.push_back(i);
+          continue;
+        }
+        if (loop.hasNoExitBlocks()) return true;
+        for (unsigned n = 0; n < i->getNumSuccessors(); ++n) {
+          BasicBlock* next = i->getSuccessor(n);
+          if (!loop.contains(next)) return true;
+          for (PHINode& phi : next->phis()) todo.push_back(&phi);  // a || b, a && b
+        }
+      }
+    }
+    return false;
+  }
+  /// What the loop reads of a variable of the function, by way of which values go without optimiser.
+  static void add_loads_of(Value* pointer, const Loop& loop, SmallVectorImpl<Value*>& to) {
+    const Value* variable = getUnderlyingObject(pointer);
+    if (!isa<AllocaInst>(variable)) return;
+    for (BasicBlock* block : loop.blocks())
+      for (Instruction& i : *block)
+        if (auto* load = dyn_cast<LoadInst>(&i);
+            load && getUnderlyingObject(load->getPointerOperand()) == variable)
+          to.push_back(load);
   }
 
   static std::string place(const Instruction& i) {

@@ -153,6 +153,24 @@ const Polled kPolled[] = {
      "static void begin(void (*f)(void)) { e_activate_agenda(f, 1); e_start_agendas_processing(); }"
      "void poll(void) { begin(tick); while (!flag); }",
      "flag"},
+    {"one of two that end it",
+     "int flag, other; void work(void) { flag = 1; } void poll(void) { while (!(other || flag)); }", "flag"},
+    {"a loop that never ends polls it",
+     "int flag, seen; void work(void) { flag = 1; } void poll(void) { while (1) { if (flag) break; seen = 2; "
+     "} }",
+     "flag"},
+    {"what is copied is not waited for",
+     "int scan[8], copy[8]; void work(void) { scan[3] = 1; }"
+     "void poll(void) { int i; for (i = 0; i < 8; i++) copy[i] = scan[i]; }",
+     ""},
+    {"nor is what is compared",
+     "int scan[8], high; void work(void) { scan[3] = 1; }"
+     "void poll(void) { int i; for (i = 0; i < 8; i++) if (scan[i] > high) high = scan[i]; }",
+     ""},
+    {"nor what is added up",
+     "int level; long sum; void work(void) { level = 1; }"
+     "void poll(void) { int i; for (i = 0; i < 8; i++) sum += level; }",
+     ""},
     {"volatile needs no word",
      "volatile int flag; void work(void) { flag = 1; } void poll(void) { while (!flag); }", ""},
     {"nor does what a call may change",
