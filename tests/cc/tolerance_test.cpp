@@ -41,6 +41,34 @@ TEST(tolerance, every_spelling_of_an_interrupt_handler) {
       "{ return interrupt; }");
 }
 
+// e_init_ad_scan() and e_init_uart2() had no argument in older versions, and have an address all the same
+TEST(tolerance, functions_of_two_forms_are_called_and_pointed_at) {
+  const std::string program =
+      "#include <a_d/advance_ad_scan/e_ad_conv.h>\n#include <uart/e_uart_char.h>\n"
+      "void *all[] = {(void *)e_init_ad_scan, (void *)&e_init_uart2};\n"
+      "void (*today)(unsigned char) = e_init_ad_scan; void (*rate)(int) = &e_init_uart2;\n"
+      "int main(void) { e_init_ad_scan(); e_init_uart2(); e_init_ad_scan(ALL_ADC); e_init_uart2(95);\n"
+      "  today(ALL_ADC); rate(95); return all[0] == (void *)today; }\n";
+  for (const char* level : {"-O0", "-O1"}) {
+    Folder folder;
+    const auto built = build(folder, program, level);
+    EXPECT_TRUE(built.ok) << text_of(built);
+    EXPECT_EQ(text_of(built), "");
+  }
+}
+
+// the C standard's math.h has no PI
+TEST(tolerance, a_program_may_have_a_pi_of_its_own) {
+  Folder folder;
+  const auto own = build(folder, "#include <math.h>\n#define PI 3.14\nint main(void) { return PI > 3; }");
+  EXPECT_EQ(text_of(own), "");
+  const auto twice =
+      build(folder, "#define PI 3.1\n#include <math.h>\n#define PI 3.14\nint main(void) { return PI > 3; }");
+  EXPECT_NE(text_of(twice).find("'PI' macro redefined"), std::string::npos) << text_of(twice);
+  EXPECT_NE(text_of(twice).find("previous definition"), std::string::npos) << text_of(twice);
+  compiles("#include <math.h>\nint main(void) { return PI > 3; }");
+}
+
 // the optimiser makes one access of several by choosing between the registers' addresses
 TEST(tolerance, registers_chosen_by_a_switch_or_a_condition) {
   for (const char* level : {"-O0", "-O1", "-O2", "-Os"})
