@@ -20,8 +20,75 @@ bool is_of_webots(const std::string& name) {
   return std::any_of(kPrefixes.begin(), kPrefixes.end(), [&](const char* p) { return starts_with(name, p); });
 }
 
+/// Functions that the original library declares, and defines in no file.
+bool is_only_declared(const std::string& name) {
+  static constexpr std::array kNames = {"e_i2cp_read_string", "e_i2cp_write_string",
+                                        "e_po6030k_set_color_mode", "e_po8030d_set_color_mode"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
+/// Of XC16's dsp.h, beside those that are here.
+bool is_of_dsp_library(const std::string& name) {
+  static constexpr std::array kNames = {"BartlettInit",
+                                        "BlackmanInit",
+                                        "CosFactorInit",
+                                        "DCT",
+                                        "DCTIP",
+                                        "FIR",
+                                        "FIRDecimate",
+                                        "FIRDelayInit",
+                                        "FIRInterpDelayInit",
+                                        "FIRInterpolate",
+                                        "FIRLMS",
+                                        "FIRLMSNorm",
+                                        "FIRLattice",
+                                        "FIRStructInit",
+                                        "HammingInit",
+                                        "HanningInit",
+                                        "IFFTComplex",
+                                        "IFFTComplexIP",
+                                        "IIRCanonic",
+                                        "IIRCanonicInit",
+                                        "IIRLattice",
+                                        "IIRLatticeInit",
+                                        "IIRTransposed",
+                                        "IIRTransposedInit",
+                                        "KaiserInit",
+                                        "MatrixAdd",
+                                        "MatrixInvert",
+                                        "MatrixMultiply",
+                                        "MatrixScale",
+                                        "MatrixSubtract",
+                                        "MatrixTranspose",
+                                        "PID",
+                                        "PIDCoeffCalc",
+                                        "PIDInit",
+                                        "VectorAdd",
+                                        "VectorConvolve",
+                                        "VectorCopy",
+                                        "VectorCorrelate",
+                                        "VectorDotProduct",
+                                        "VectorMin",
+                                        "VectorMultiply",
+                                        "VectorNegate",
+                                        "VectorPower",
+                                        "VectorScale",
+                                        "VectorSubtract",
+                                        "VectorWindow",
+                                        "VectorZeroPad"};
+  return std::find(kNames.begin(), kNames.end(), name) != kNames.end();
+}
+
 /// What may be the matter with a name that nobody defines.
 std::string hint_for(const std::string& name) {
+  if (is_only_declared(name))
+    return "the e-puck library declares this function and defines it nowhere, so the robot's linker refuses "
+           "it, "
+           "too";
+  if (is_of_dsp_library(name))
+    return "it is a function of Microchip's signal-processing library: put XC16's libdsp-elf.a into the "
+           "folder, or "
+           "write it";
   if (is_of_webots(name))
     return "a controller runs on the robot and has not this function of Webots; docs/webots.md lists what "
            "there "

@@ -141,11 +141,24 @@ TEST_F(Built, link_errors_name_function_and_line_of_the_c) {
   EXPECT_TRUE(has(told, main + ":6: error: main() calls e_set_sped(): got no definition")) << told;
   EXPECT_TRUE(has(told, "its name is misspelt")) << told;
   EXPECT_TRUE(has(told, main + ":7: error: main() calls missing(): got no definition")) << told;
+  const std::string well = "int main(void) { return 0; }\n";
+  for (const auto& [call, hint] : {
+           std::pair("e_i2cp_read_string",
+                     "declares this function and defines it nowhere, so the robot's linker"),
+           std::pair("e_po8030d_set_color_mode", "declares this function and defines it nowhere"),
+           std::pair("VectorDotProduct", "put XC16's libdsp-elf.a into the folder"),
+           std::pair("FIR", "put XC16's libdsp-elf.a into the folder"),
+       }) {
+    file("main.c", std::string("int main(void) { return ") + call + "(); }\n");
+    told = build(false);
+    EXPECT_TRUE(has(told, hint)) << told;
+  }
+  file("main.c", "int twice(void) { return 1; }\n" + well);
   file("other.c", "\nint twice(void) { return 2; }\n");
   told = build(false);
   EXPECT_TRUE(
       has(told, "prog/other.c:2: error: twice(): got a second definition, expected one; the first is in " +
-                    main + ":3"))
+                    main + ":1"))
       << told;
   EXPECT_FALSE(has(told, "twinpuck/objects/")) << told;
 }
