@@ -159,6 +159,37 @@ TP_TIMER(3, IFS0bits, IEC0bits, IPC1bits)
 TP_TIMER(4, IFS1bits, IEC1bits, IPC5bits)
 TP_TIMER(5, IFS1bits, IEC1bits, IPC5bits)
 
+/* two timers as one of 32 bits, whose interrupt is the upper one's */
+#define TP_TIMER_PAIR(low, high, flags, enables, priorities)                                                          \
+  static __inline__ void OpenTimer##low##high(unsigned int config, unsigned long period) {                            \
+    TMR##high = 0;                                                                                                    \
+    TMR##low = 0;                                                                                                     \
+    PR##high = (unsigned int)(period >> 16);                                                                          \
+    PR##low = (unsigned int)period;                                                                                   \
+    T##low##CON = config;                                                                                             \
+    T##low##CONbits.T32 = 1;                                                                                          \
+  }                                                                                                                   \
+  static __inline__ void CloseTimer##low##high(void) {                                                                \
+    enables.T##high##IE = 0;                                                                                          \
+    T##low##CONbits.TON = 0;                                                                                          \
+    flags.T##high##IF = 0;                                                                                            \
+  }                                                                                                                   \
+  static __inline__ void ConfigIntTimer##low##high(unsigned int config) {                                             \
+    flags.T##high##IF = 0;                                                                                            \
+    priorities.T##high##IP = config & 7;                                                                              \
+    enables.T##high##IE = config >> 3 & 1;                                                                            \
+  }                                                                                                                   \
+  static __inline__ unsigned long ReadTimer##low##high(void) {                                                        \
+    unsigned int count = TMR##low; /* which holds the upper half */                                                   \
+    return (unsigned long)TMR##high##HLD << 16 | count;                                                               \
+  }                                                                                                                   \
+  static __inline__ void WriteTimer##low##high(unsigned long count) {                                                 \
+    TMR##high##HLD = (unsigned int)(count >> 16);                                                                     \
+    TMR##low = (unsigned int)count;                                                                                   \
+  }
+TP_TIMER_PAIR(2, 3, IFS0bits, IEC0bits, IPC1bits)
+TP_TIMER_PAIR(4, 5, IFS1bits, IEC1bits, IPC5bits)
+
 #define EnableIntT1 IEC0bits.T1IE = 1
 #define DisableIntT1 IEC0bits.T1IE = 0
 #define SetPriorityIntT1(priority) (IPC0bits.T1IP = (priority))

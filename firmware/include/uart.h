@@ -96,6 +96,17 @@
       while (U##n##STAbits.UTXBF) continue;                                                                           \
       U##n##TXREG = *c;                                                                                               \
     }                                                                                                                 \
+  }                                                                                                                   \
+  /* how many of `length` characters did not come: `wait` looks in vain end it */                                     \
+  static __inline__ unsigned int getsUART##n(unsigned int length, unsigned int *buffer, unsigned int wait) {          \
+    char *to = (char *)buffer;                                                                                        \
+    unsigned int looks;                                                                                               \
+    for (; length > 0; length--) {                                                                                    \
+      for (looks = 0; !U##n##STAbits.URXDA; looks++)                                                                  \
+        if (looks >= wait) return length;                                                                             \
+      *to++ = (char)U##n##RXREG;                                                                                      \
+    }                                                                                                                 \
+    return 0;                                                                                                         \
   }
 TP_UART(1, IFS0bits, IEC0bits, IPC2bits)
 TP_UART(2, IFS1bits, IEC1bits, IPC6bits)

@@ -271,6 +271,52 @@ int main(void)
   expect_no_traps();
 }
 
+// 32 bits: 100000 cycles are 0x186A0; the upper half is latched when the lower one is read
+TEST_F(OwnDrivers, the_peripheral_librarys_names_set_timers_of_32_bits_and_receive) {
+  Robot& robot = add_robot_with_source(R"(
+#include <xc.h>
+#include <timer.h>
+#include <uart.h>
+unsigned int fired, left, stands, got;
+unsigned long first, later;
+char text[4];
+void __attribute__((interrupt, no_auto_psv)) _T3Interrupt(void) { IFS0bits.T3IF = 0; fired++; }
+void __attribute__((interrupt(irq(22)), no_auto_psv)) fifth(void) { IFS1bits.T5IF = 0; fired += 16; }
+int main(void)
+{
+  ConfigIntTimer23(T3_INT_PRIOR_5 & T3_INT_ON);
+  OpenTimer23(T2_ON & T2_GATE_OFF & T2_PS_1_1 & T2_SOURCE_INT, 99999);
+  ConfigIntTimer45(T5_INT_PRIOR_4 & T5_INT_ON);
+  OpenTimer45(T4_ON & T4_GATE_OFF & T4_PS_1_1 & T4_SOURCE_INT, 199999);
+  OpenUART1(UART_EN & UART_IDLE_CON & UART_DIS_WAKE & UART_DIS_LOOPBACK & UART_DIS_ABAUD & UART_NO_PAR_8BIT &
+                UART_1STOPBIT,
+            UART_INT_TX_BUF_EMPTY & UART_TX_PIN_NORMAL & UART_TX_ENABLE & UART_INT_RX_CHAR & UART_ADR_DETECT_DIS &
+                UART_RX_OVERRUN_CLEAR,
+            7);
+  while (fired < 2 + 16);
+  CloseTimer23();
+  CloseTimer45();
+  WriteTimer23(0x12345678);
+  first = ReadTimer23();
+  stands = fired;
+  left = getsUART1(3, (unsigned int *)text, 50);
+  while (getsUART1(3, (unsigned int *)text, 65000)) continue;
+  got = 1;
+  while (1);
+}
+)");
+  run_for(0.1);
+  EXPECT_EQ(robot.variable<std::uint16_t>("stands"), 2 + 16);
+  EXPECT_EQ(robot.variable<std::uint32_t>("first"), 0x12345678u);
+  EXPECT_EQ(robot.variable<std::uint16_t>("left"), 3);
+  EXPECT_EQ(robot.variable<std::uint16_t>("got"), 0);
+  robot.uart(1).send("xyz");
+  run_for(0.1);
+  EXPECT_EQ(robot.variable<std::uint16_t>("got"), 1);
+  EXPECT_EQ(robot.variable<std::uint8_t>("text"), 'x');
+  expect_no_traps();
+}
+
 // --- configuration words
 
 std::string configured(const std::string& words, const std::string& rest) {
