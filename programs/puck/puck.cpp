@@ -16,7 +16,9 @@
 #include "programs/puck/records.h"
 #include "programs/puck/world_device.h"
 #include "sim_core/base/hash.h"
+#include "sim_core/light/profiles.h"
 #include "sim_core/world/scene.h"
+#include "sim_core/world/world_desc.h"
 
 namespace programs {
 
@@ -122,7 +124,7 @@ void Puck::add(const std::string& name, Kind kind, int node, int index, std::vec
   devices_.push_back({name, kind, node, index, std::move(needs)});
 }
 
-void Puck::add_own() {
+void Puck::add_own(const sim::WorldDesc& world) {
   // with the tags that they have in Webots, which programs have written down
   add("left wheel motor", Kind::Motor, WB_NODE_ROTATIONAL_MOTOR, 0, {kMostWheelRadS, 2});
   add("left wheel sensor", Kind::Encoder, WB_NODE_POSITION_SENSOR, 0, {1});
@@ -132,8 +134,12 @@ void Puck::add_own() {
   const bool of_lab = board_.setup().webots.sensor_order == "lab";
   for (int i = 0; i < kRing; ++i) {
     const int sensor = of_lab ? (i + 5) % kRing : i;
-    add("ps" + std::to_string(i), Kind::Proximity, WB_NODE_DISTANCE_SENSOR, sensor,
-        {0, kFullScale, kRingApertureRad, kInfraRed});
+    std::vector<double> needs = {0, kFullScale, kRingApertureRad, kInfraRed};
+    // the law of this world: of a white wall at a distance, its counts and their noise
+    const sim::ProximityConfig law = sim::resolve_proximity(world, board_.setup().robot, sensor);
+    for (const sim::ResponseRow& row : law.table)
+      needs.insert(needs.end(), {row.distance_m, row.value, row.relative_noise * law.noise_scale});
+    add("ps" + std::to_string(i), Kind::Proximity, WB_NODE_DISTANCE_SENSOR, sensor, std::move(needs));
     add("ls" + std::to_string(i), Kind::Light, WB_NODE_LIGHT_SENSOR, sensor);
   }
   for (int i = 0; i < kLeds; ++i) add("led" + std::to_string(i), Kind::Led, WB_NODE_LED, i);
@@ -150,7 +156,8 @@ void Puck::add_own() {
       for (const char* name : {"gs", "fs"})  // floor sensors had other names once
         add(name + std::to_string(i), Kind::Ground, WB_NODE_DISTANCE_SENSOR, i,
             {0, kGroundScale, 0, kInfraRed});
-  add("tof", Kind::Tof, WB_NODE_DISTANCE_SENSOR, 0, {0, kTofMostMm, 0, kLaser});
+  add("tof", Kind::Tof, WB_NODE_DISTANCE_SENSOR, 0,
+      {0, kTofMostMm, 0, kLaser, 0, 0, 0, kTofMostMm / 1000, kTofMostMm, 0});
   add("selector", Kind::Selector, WB_NODE_DISTANCE_SENSOR, 0, {0, 15, 0, kGeneric});
   add("battery", Kind::Battery, WB_NODE_NO_NODE, 0);
   add("keyboard", Kind::Keyboard, WB_NODE_NO_NODE, 0);
@@ -229,10 +236,10 @@ void Puck::tell(std::size_t number, link_packet& to) const {
   put_device(to, number, device.node, device.name, device.needs);
 }
 
-void Puck::tell_devices(link_packet& to) {
+void Puck::tell_devices(const sim::WorldDesc& world, link_packet& to) {
   // not before: parts are plugged in behind the constructor
   if (devices_.empty()) {
-    add_own();
+    add_own(world);
     add_of_world();
   }
   for (std::size_t i = 0; i < devices_.size(); ++i) tell(i, to);

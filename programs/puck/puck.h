@@ -24,6 +24,10 @@
 #include "programs/puck/camera.h"
 #include "programs/puck/wheels.h"
 
+namespace sim {
+struct WorldDesc;
+}
+
 namespace programs {
 
 using board::Cycle;
@@ -35,8 +39,8 @@ class Puck {
   /// The board outlives it.
   Puck(board::Board& board, Cycle start);
 
-  /// Appends a DEVICE for each device.
-  void tell_devices(link_packet& to);
+  /// Appends a DEVICE for each device. The world says by what law the proximity sensors answer.
+  void tell_devices(const sim::WorldDesc& world, link_packet& to);
   /// Appends DEVICE for one that was defined meanwhile (a supervisor's sensor), or NOTHING.
   void find_device(const std::string& name, link_packet& to);
 
@@ -105,7 +109,7 @@ class Puck {
   };
 
   void add(const std::string& name, Kind kind, int node, int index, std::vector<double> needs = {});
-  void add_own();
+  void add_own(const sim::WorldDesc& world);
   void add_of_world();
   void tell(std::size_t device, link_packet& to) const;
   void enable(Device& device, std::int64_t period_ms, Cycle at);

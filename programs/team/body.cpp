@@ -49,7 +49,7 @@ void BodilessBody::tell(std::size_t number, link_packet& to) const {
   put_device(to, number, device.node, device.name, device.needs);
 }
 
-void BodilessBody::tell_devices(link_packet& to) {
+void BodilessBody::tell_devices(const sim::WorldDesc&, link_packet& to) {
   for (std::size_t i = 0; i < devices_.size(); ++i) tell(i, to);
 }
 

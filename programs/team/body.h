@@ -19,7 +19,7 @@ class Body {
  public:
   virtual ~Body() = default;
   /// Appends a DEVICE for each device.
-  virtual void tell_devices(link_packet& to) = 0;
+  virtual void tell_devices(const sim::WorldDesc& world, link_packet& to) = 0;
   /// Appends DEVICE or NOTHING.
   virtual void find_device(const std::string& name, link_packet& to) = 0;
   /// Name of the device with this tag; empty: there is none.
@@ -45,7 +45,9 @@ class RobotBody final : public Body {
   ProgramRunner* runner() const { return seat_->runner; }
   std::uint64_t began() const { return seat_->began; }
 
-  void tell_devices(link_packet& to) override { runner()->puck().tell_devices(to); }
+  void tell_devices(const sim::WorldDesc& world, link_packet& to) override {
+    runner()->puck().tell_devices(world, to);
+  }
   void find_device(const std::string& name, link_packet& to) override {
     runner()->puck().find_device(name, to);
   }
@@ -76,7 +78,7 @@ class BodilessBody final : public Body, public sim::PacketPort {
  public:
   explicit BodilessBody(const sim::SupervisorDesc& desc);
 
-  void tell_devices(link_packet& to) override;
+  void tell_devices(const sim::WorldDesc& world, link_packet& to) override;
   void find_device(const std::string& name, link_packet& to) override;
   std::string device_name(std::int64_t tag) const override {
     return tag >= 1 && tag <= static_cast<std::int64_t>(devices_.size())

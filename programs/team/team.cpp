@@ -368,7 +368,7 @@ void Team::welcome(Member& member) {
   link_number(&packet_, world.webots.time_step_s * 1000);
   link_number(&packet_, world.webots.speed_unit_rad_s > 0 ? world.webots.speed_unit_rad_s : kUsualSpeedUnit);
   link_end(&packet_);
-  member.body->tell_devices(packet_);
+  member.body->tell_devices(world, packet_);
   link_begin(&packet_, LINK_READY);
   link_end(&packet_);
   reply(member);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim_core/light/profiles.h"
 #include "tests/programs/program_fixture.h"
 
 namespace {
@@ -97,6 +98,46 @@ TEST_F(Sensing, sensors_are_numbered_as_the_world_says) {
     EXPECT_EQ(std::max_element(ps.begin(), ps.end()) - ps.begin(), c.sees) << c.order << " " << c.wall_y_m;
     EXPECT_GT(ps[static_cast<std::size_t>(c.sees)], 1000) << c.order;
   }
+}
+
+// the proximity sensors' is that of the world's profile; that of tof: mm of m
+TEST_F(Sensing, a_sensor_tells_its_lookup_table_or_warns_once_that_it_has_none) {
+  world.proximity.profile = "webots-old";
+  world.proximity.noise_scale = 0.5;
+  const char* const tell =
+      "const char* names[] = {\"tof\", \"ps0\", \"ps7\", \"gs0\", \"selector\"};\n"
+      "for (int i = 0; i < 5; i++) { WbDeviceTag d = wb_robot_get_device(names[i]);\n"
+      "if (d == 0) continue;\n"
+      "int n = wb_distance_sensor_get_lookup_table_size(d);\n"
+      "const double* t = wb_distance_sensor_get_lookup_table(d);\n"
+      "printf(\"%s %d\", names[i], n); for (int k = 0; k < 3 * n; k++) printf(\" %g\", t[k]);\n"
+      "printf(\"\\n\"); }\n"
+      "wb_gyro_get_lookup_table_size(wb_robot_get_device(\"gyro\"));";
+  Robot& r = add_c("", tell, "");
+  run_for(0.1);
+  EXPECT_EQ(told(r, "tof"), (std::vector<double>{2, 0, 0, 0, 2, 2000, 0}));
+  const auto& law = sim::find_profile("webots-old")->table;
+  for (const char* name : {"ps0", "ps7"}) {
+    const auto rows = told(r, name);
+    ASSERT_EQ(rows.size(), 1 + 3 * law.size()) << name;
+    EXPECT_EQ(rows[0], static_cast<double>(law.size()));
+    for (std::size_t i = 0; i < law.size(); ++i) {
+      EXPECT_NEAR(rows[1 + 3 * i], law[i].distance_m, 1e-6);
+      EXPECT_NEAR(rows[2 + 3 * i], law[i].value, 1e-2);
+      EXPECT_NEAR(rows[3 + 3 * i], law[i].relative_noise / 2, 1e-6);
+    }
+  }
+  EXPECT_EQ(told(r, "selector"), std::vector<double>{0});
+  const auto& lines = r.console();
+  EXPECT_EQ(
+      std::count_if(lines.begin(), lines.end(),
+                    [](const std::string& line) { return line.find("lookup table:") != std::string::npos; }),
+      1);
+  EXPECT_EQ(
+      std::count(lines.begin(), lines.end(),
+                 "Warning: lookup table: got device \"selector\", which has none, expected one that measures "
+                 "distances; 0 rows"),
+      1);
 }
 
 // the wall's face is at 0.2 m less half of 1 cm, the sensor 3.5 cm before the middle: 160 mm

@@ -13,11 +13,20 @@
   const double* wb_##name##_get_values(WbDeviceTag tag) {                                                        \
     return device_values(name(tag, "wb_" #name "_get_values"), "wb_" #name "_get_values");                       \
   }
+/* of others an empty table is usual: their values are the truth */
+static void tell_of_no_table(const struct device* device) {
+  static int told;
+  if (!told && (device->kind == WB_NODE_DISTANCE_SENSOR || device->kind == WB_NODE_LIGHT_SENSOR))
+    warn(&told, "lookup table: got device \"%s\", which has none, expected one that measures distances; 0 rows",
+         device->name);
+}
 /* rows of three behind `first` numbers of DEVICE */
 #define LOOKUP_TABLE(name, first)                                                                                \
   int wb_##name##_get_lookup_table_size(WbDeviceTag tag) {                                                       \
     const struct device* d = name(tag, "wb_" #name "_get_lookup_table_size");                                    \
-    return d && d->info_count > first ? (d->info_count - first) / 3 : 0;                                         \
+    const int size = d && d->info_count > first ? (d->info_count - first) / 3 : 0;                               \
+    if (d && size == 0) tell_of_no_table(d);                                                                     \
+    return size;                                                                                                 \
   }                                                                                                              \
   const double* wb_##name##_get_lookup_table(WbDeviceTag tag) {                                                  \
     const struct device* d = name(tag, "wb_" #name "_get_lookup_table");                                         \
