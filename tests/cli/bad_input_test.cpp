@@ -33,11 +33,11 @@ TEST_F(BadLuck, a_port_in_use_is_named) {
 
 // a limit on the size of files is a disk that fills up within a record
 TEST_F(BadLuck, files_end_with_their_last_whole_record_when_the_disk_fills_up) {
-  ASSERT_EQ(twinpuck("build braitenberg -o " + path("b.so")).exit_code, 0);
+  ASSERT_EQ(twinpuck("build braitenberg -o " + path("b.elf")).exit_code, 0);
   for (const char* output : {"--record", "--vcd", "--trace"}) {
     const std::string file = path("x");
     fs::remove(file);
-    const Said s = twinpuck("run maze --for 60 -q --fw puck=" + path("b.so") + " " + output + " " + file,
+    const Said s = twinpuck("run maze --for 60 -q --fw puck=" + path("b.elf") + " " + output + " " + file,
                             "ulimit -f 13 &&");
     EXPECT_EQ(s.exit_code, 7) << s.text;
     EXPECT_TRUE(reads(s.text, std::string("@/x: ") +
@@ -61,16 +61,16 @@ TEST_F(BadLuck, very_long_comments_are_built_and_endless_files_refused) {
   const std::string end = "int main(void) { while (1); }\n";
   write("long/main.c", "/*" + std::string(1'900'000, 'x') + "*/\n" + end);
   write("longer/main.c", "//" + std::string(3'000'000, 'x') + "\n" + end);
-  const Said good = twinpuck("build " + path("long") + " -o " + path("x.so"));
+  const Said good = twinpuck("build " + path("long") + " -o " + path("x.elf"));
   EXPECT_EQ(good.exit_code, 0) << good.text;
-  const Said bad = twinpuck("build " + path("longer") + " -o " + path("x.so"));
+  const Said bad = twinpuck("build " + path("longer") + " -o " + path("x.elf"));
   EXPECT_EQ(bad.exit_code, 1) << bad.text;
   EXPECT_TRUE(reads(bad.text, "@/longer/main.c: source: got 3000033 bytes, expected at most 2097152"));
   for (const std::string name : {"main.c", "beside.h", "project.mcp", "configurations.xml"}) {
     const auto built = [&](const std::string& folder, std::size_t bytes) {
       write(folder + "/main.c", end);
       write(folder + "/" + name, end + "//" + std::string(bytes - end.size() - 2, 'x'));
-      return twinpuck("build " + path(folder) + " -o " + path("x.so"));
+      return twinpuck("build " + path(folder) + " -o " + path("x.elf"));
     };
     const std::string at = "longest_" + name;
     EXPECT_EQ(built("as_long_" + name, 2'097'152).text.find("expected at most"), std::string::npos) << name;
@@ -87,7 +87,7 @@ TEST_F(BadLuck, control_characters_in_names_do_not_reach_the_terminal) {
   write("w.wbt", "#VRML_SIM R2023b utf8\nE-puck { name \"\x1b[31m\" controller \"\x1b[2J\" }\nFoo\x1b { }\n");
   for (const std::string& arguments :
        {"check '" + path(name) + "'", "run '" + path(name) + "'",
-        "build " + path("folder") + " -o " + path("x.so"),
+        "build " + path("folder") + " -o " + path("x.elf"),
         "import " + path("w.wbt") + " -o " + path("w.toml"), std::string("run maze --fw 'puck=\x1b[31m'"),
         std::string("run maze '--\x1b[31m'"), std::string("list '\x9b'")}) {
     const Said s = twinpuck(arguments);
@@ -101,11 +101,11 @@ TEST_F(BadLuck, control_characters_in_names_do_not_reach_the_terminal) {
 
 TEST_F(BadLuck, a_failed_build_leaves_the_old_image) {
   write("c/main.c", "int main(void) { while (1); }\n");
-  ASSERT_EQ(twinpuck("build " + path("c") + " -o " + path("c.so")).exit_code, 0);
-  const std::string before = read(path("c.so"));
+  ASSERT_EQ(twinpuck("build " + path("c") + " -o " + path("c.elf")).exit_code, 0);
+  const std::string before = read(path("c.elf"));
   write("c/main.c", "int main(void) { oops }\n");
-  EXPECT_EQ(twinpuck("build " + path("c") + " -o " + path("c.so")).exit_code, 1);
-  EXPECT_EQ(read(path("c.so")), before);
+  EXPECT_EQ(twinpuck("build " + path("c") + " -o " + path("c.elf")).exit_code, 1);
+  EXPECT_EQ(read(path("c.elf")), before);
 }
 
 }  // namespace

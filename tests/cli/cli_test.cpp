@@ -212,8 +212,8 @@ TEST_F(Command, uart_output_goes_to_a_file) {
 }
 
 TEST_F(Command, build_then_run_the_image) {
-  ASSERT_EQ(twinpuck("build blink -o " + path("blink.so")).exit_code, 0);
-  const Said s = twinpuck("run maze --fw puck=" + path("blink.so") + " --for 1");
+  ASSERT_EQ(twinpuck("build blink -o " + path("blink.elf")).exit_code, 0);
+  const Said s = twinpuck("run maze --fw puck=" + path("blink.elf") + " --for 1");
   EXPECT_EQ(s.exit_code, 0) << s.text;
 }
 

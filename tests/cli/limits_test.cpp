@@ -56,7 +56,7 @@ TEST_F(Limits, compilers_end_with_the_verb_that_started_them) {
   expect_quick_end("view maze --port 0 --fw " + slow, "TERM");
   expect_quick_end("debug maze --fw " + slow, "TERM");
   // and of one that cannot react
-  twinpuck("build " + slow + " -o " + path("o.so"),
+  twinpuck("build " + slow + " -o " + path("o.elf"),
            "sh -c '\"$@\" & p=$!; sleep 1; kill -s KILL $p; wait $p' sh");
   usleep(200'000);
   EXPECT_EQ(compilers(), "");
