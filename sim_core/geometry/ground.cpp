@@ -49,6 +49,23 @@ Footing Ground::footing(const Pose2& pose, double half_length_m, double half_wid
   return {0.5 * (left + right), frame.turn(slope)};
 }
 
+bool Ground::is_smooth(const Pose2& pose, double half_length_m, double half_width_m) const {
+  double steepest = 0;
+  const double reach = std::max(half_length_m, half_width_m);
+  for (const Part& p : parts_) {
+    const Vec2 gap = p.frame.at - Vec2{pose.x_m, pose.y_m};
+    if (dot(gap, gap) <= (p.reach_m + reach) * (p.reach_m + reach))
+      steepest = std::max(steepest, std::fabs(p.rise));
+  }
+  const Frame2 frame(pose);
+  const Vec2 along = half_length_m * frame.turn({1, 0}), across = half_width_m * frame.turn({0, 1});
+  const double middle = height_m(frame.at);
+  const auto meets = [&](Vec2 way) {
+    return std::fabs(height_m(frame.at + way) - middle) <= steepest * length(way) + kEdgeM;
+  };
+  return meets(along) && meets(-1 * along) && meets(across) && meets(-1 * across);
+}
+
 int Ground::cast(const Ray& ray, double& distance_m, Vec3* normal) const {
   int hit = -1;
   for (std::size_t i = 0; i < parts_.size(); ++i) {
@@ -106,6 +123,18 @@ SlopeEffect slope_effect(Vec2 slope, double heading_rad, const Vec3& down) {
   const double facing = h.c * e.uphill.x + h.s * e.uphill.y;
   e.turn = (facing * facing + e.steep * e.steep * (1 - facing * facing)) / e.steep;
   return e;
+}
+
+Vec2 behind_bend(Vec2 plan, Vec2 before, Vec2 after) {
+  const Vec2 push = 0.5 * (before + after);
+  const double climbed = dot(before, plan), climbs = dot(after, plan), along = dot(after, push);
+  // |plan - k push|^2 + (after . (plan - k push))^2 = |plan|^2 + climbed^2, solved for the smaller k
+  const double square = dot(push, push) + along * along, half = dot(plan, push) + climbs * along,
+               rest = climbs * climbs - climbed * climbed;
+  if (square == 0 || rest == 0) return plan;
+  const double inside = half * half - square * rest;
+  const double k = inside <= 0 ? half / square : rest / (half + std::copysign(std::sqrt(inside), half));
+  return plan - k * push;
 }
 
 double surface_length(const SlopeEffect& slope, Vec2 plan) {

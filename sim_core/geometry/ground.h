@@ -43,6 +43,9 @@ class Ground {
   /// The plane through the ground under a body: heights before and behind it (half_length_m away) give the
   /// slope along its heading, heights at its sides (half_width_m away) the slope across and the height.
   Footing footing(const Pose2& pose, double half_length_m, double half_width_m) const;
+  /// No kerb lies under the body: nothing between its middle and the footing's four places is steeper than the
+  /// ramps there.
+  bool is_smooth(const Pose2& pose, double half_length_m, double half_width_m) const;
   /// Index of the ramp that a ray from above meets nearer than distance_m, which then becomes the distance;
   /// -1: none. The floor itself is the caller's.
   int cast(const Ray& ray, double& distance_m, Vec3* normal = nullptr) const;
@@ -80,6 +83,10 @@ struct SlopeEffect {
   Vec2 pull;         ///< acceleration by gravity without friction, plan, as a part of g
 };
 SlopeEffect slope_effect(Vec2 slope, double heading_rad, const Vec3& down);
+
+/// The velocity in plan behind a bend of the ground from one slope to another: the speed along the surface
+/// stays, the change is along the mean of both slopes, as the bend's push is.
+Vec2 behind_bend(Vec2 plan, Vec2 before, Vec2 after);
 
 /// Length along the surface of a vector that is given in plan.
 double surface_length(const SlopeEffect& slope, Vec2 plan);

@@ -32,6 +32,36 @@ Vec2 Motion::slope_under(int body) const {
   return desc_.ground->footing(bodies_[i].pose, base, base).slope;
 }
 
+/// What rolls or slides over a bend of the ground keeps its speed along the surface: plan speeds change.
+void Motion::follow_bends(const std::vector<int>& active, bool loose_too) {
+  for (int r : active) {
+    const RobotBody& body = desc_.robots[static_cast<std::size_t>(r)];
+    if (!follows_wheels_) follow_bend(r, body.half_base_m, 0.5 * body.axle_m);
+  }
+  if (!loose_too) return;
+  for (int i = robots(); i < static_cast<int>(bodies_.size()); ++i) {
+    const double base = 0.5 * desc_.solids[static_cast<std::size_t>(i)]->bound_m;
+    if (support_[static_cast<std::size_t>(i)] == kOnFloor) follow_bend(i, base, base);
+  }
+}
+
+void Motion::follow_bend(int body, double half_length_m, double half_width_m) {
+  const std::size_t i = static_cast<std::size_t>(body);
+  BodyState& b = bodies_[i];
+  const Pose2 before{before_[i].x, before_[i].y, b.pose.heading_rad};
+  if (before.x_m == b.pose.x_m && before.y_m == b.pose.y_m) return;
+  const Ground& ground = *desc_.ground;
+  const Vec2 was = ground.footing(before, half_length_m, half_width_m).slope,
+             is = ground.footing(b.pose, half_length_m, half_width_m).slope;
+  if (was.x == is.x && was.y == is.y) return;
+  // a kerb is no bend: who drives over its edge falls
+  if (!ground.is_smooth(before, half_length_m, half_width_m) ||
+      !ground.is_smooth(b.pose, half_length_m, half_width_m))
+    return;
+  b.velocity_m_s = behind_bend(b.velocity_m_s, was, is);
+  if (body >= robots()) velocity_changed(body);
+}
+
 /// After a tick's plane motion robots, and objects that lie on the ground, are as high as the ground.
 void Motion::follow_ground() {
   for (int i = 0; i < static_cast<int>(bodies_.size()); ++i) {
@@ -40,8 +70,13 @@ void Motion::follow_ground() {
       if (support_[b] != kOnFloor) continue;
       const double z = floor_m(i);
       if (z == bodies_[b].z_m) continue;
-      // over an edge it falls
-      if (z < bodies_[b].z_m - kLedgeM) {
+      // over an edge it falls, down a slope it follows
+      const Pose2& now = bodies_[b].pose;
+      const double base = 0.5 * desc_.solids[b]->bound_m, way = length(Vec2{now.x_m, now.y_m} - before_[b]),
+                   steep =
+                       length(desc_.ground->footing({before_[b].x, before_[b].y, now.heading_rad}, base, base)
+                                  .slope);
+      if (z < bodies_[b].z_m - kLedgeM - steep * way) {
         support_[b] = kInAir;
         continue;
       }

@@ -99,6 +99,9 @@ void Motion::step(Clicks end, const std::vector<int>& active, const RimCourse* r
       for (const Candidate* c = neighbours.begin(r); c != neighbours.end(r); ++c)
         if (c->moving && c->index < robots() && near(c->index) == Near::Nothing) bring(c->index, end);
     step_plane(neighbours);
+  }
+  if (loose_moves_ && sloping_ && desc_.ground->has_ramps()) follow_bends(active, loose_too);
+  if (loose_too) {
     if (has_heights_) step_heights();
   }
   if (sloping_ && desc_.ground->has_ramps()) follow_ground();

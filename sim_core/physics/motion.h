@@ -208,6 +208,8 @@ class Motion {
   void fly(int body);
   Landing landing_of(int body);
   void follow_ground();
+  void follow_bends(const std::vector<int>& active, bool loose_too);
+  void follow_bend(int body, double half_length_m, double half_width_m);
   double floor_m(int body) const;
   Vec2 slope_under(int body) const;
   bool blocked_at(int body, double z_m, Below& by) const;

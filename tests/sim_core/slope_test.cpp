@@ -212,6 +212,60 @@ TEST(Slope, loose_objects_slide_or_hold_and_rise) {
   EXPECT_NEAR(slides->state(1).z_m, (slides->pose(1).x_m + 0.5) * std::tan(sim::radians(20)), 1e-6);
 }
 
+// Without friction a ball rolls as high as it came from, whatever bends lie between: 512 Hz is the usual tick, at
+// 96 Hz a ball goes 9 mm in one. docs/limits.md says what remains.
+TEST(Slope, a_ball_that_rolls_over_bends_keeps_its_energy) {
+  struct Case {
+    double down_deg, up_deg;
+    int hz;
+    double within;
+  };
+  for (const Case& c :
+       {Case{30, 5, 512, 0.02}, Case{5, 30, 512, 0.02}, Case{20, 20, 512, 0.02}, Case{40, 10, 512, 0.02},
+        Case{10, 40, 512, 0.02}, Case{30, 5, 2048, 0.005}, Case{30, 5, 96, 0.1}, Case{5, 30, 96, 0.1}}) {
+    // the ramp down ends at x = -0.5, the one up begins at 0.5; the ball begins 0.15 m up the first one
+    auto s = cruising(
+        world_of("twinpuck = 1\n[world]\nphysics_hz = " + std::to_string(c.hz) +
+                 "\n[[ramp]]\nposition = [-0.7, 0]\nsize = [0.4, 0.3]\nheading = 180\nangle = " +
+                 std::to_string(c.down_deg) +
+                 "\n[[ramp]]\nposition = [1.1, 0]\nsize = [1.2, 0.3]\nangle = " + std::to_string(c.up_deg) +
+                 "\n[[ball]]\nradius = 0.02\nposition = [-0.65, 0]\nmovable = true\nrolling_friction = 0\n"
+                 "[[robot]]\nposition = [0, 1.5]\n"),
+        0, 0);
+    double farthest = 0;
+    for (int tick = 0; tick < 8 * c.hz; ++tick) {
+      s->step();
+      farthest = std::max(farthest, s->pose(1).x_m);
+    }
+    const double from = 0.15 * std::tan(sim::radians(c.down_deg)),
+                 to = (farthest - 0.5) * std::tan(sim::radians(c.up_deg));
+    EXPECT_NEAR(to / from, 1, c.within) << c.down_deg << " " << c.up_deg << " " << c.hz;
+  }
+}
+
+TEST(Slope, a_box_that_slides_off_a_ramp_keeps_its_speed_along_the_floor) {
+  // without friction 0.15 m of a ramp of 30 degrees are 0.0866 m of height: sqrt(2 g h) = 1.3035 m/s
+  auto s = cruising(
+      world_of("twinpuck = 1\n[[ramp]]\nposition = [-0.7, 0]\nsize = [0.4, 0.3]\nheading = 180\nangle = 30\n"
+               "[[box]]\nsize = [0.04, 0.04, 0.04]\nposition = [-0.65, 0]\nmovable = true\nfriction = 0\n"
+               "[[robot]]\nposition = [0, 1.5]\n"),
+      0, 0);
+  for (int tick = 0; tick < 3 * 512 && s->pose(1).x_m < 0; ++tick) s->step();
+  EXPECT_NEAR(s->state(1).velocity_m_s.x, std::sqrt(2 * kG * 0.15 * std::tan(sim::radians(30))), 0.03);
+}
+
+TEST(Slope, a_bend_keeps_the_speed_along_the_surface) {
+  for (const auto& [before, after] :
+       {std::pair(sim::Vec2{-0.577, 0}, sim::Vec2{0, 0}), std::pair(sim::Vec2{0, 0}, sim::Vec2{0.3, 0.2}),
+        std::pair(sim::Vec2{-0.1, 0.4}, sim::Vec2{0.5, -0.1})}) {
+    const sim::Vec2 v{0.7, 0.2}, w = sim::behind_bend(v, before, after);
+    const auto square = [](sim::Vec2 plan, sim::Vec2 slope) {
+      return dot(plan, plan) + dot(slope, plan) * dot(slope, plan);
+    };
+    EXPECT_NEAR(square(w, after), square(v, before), 1e-12);
+  }
+}
+
 TEST(TrueMotion, a_blow_lasts_five_milliseconds_and_takes_all_the_speed) {
   for (int hz : {96, 512, 1024}) {
     // 0.1 m/s against a wall whose face is 0.05 m before the robot's
