@@ -24,6 +24,7 @@ using namespace llvm::dspic_elf;
 
 constexpr std::uint32_t kRamBegin = 0x0800, kRamEnd = 0x2800, kYBegin = 0x1800, kNearEnd = 0x2000;
 constexpr std::uint32_t kLeastStack = 1024;  // bytes that gaps leave
+constexpr std::uint32_t kLeastOfAll = 16;    // bytes of stack without which XC16 does not link
 constexpr std::uint32_t kCodeBegin = 0x0100, kPageUnits = 0x8000, kEepromBegin = 0x7FF000,
                         kEepromEnd = 0x800000;
 
@@ -57,7 +58,9 @@ class Space {
     }
     return false;
   }
+  /// Empty where nothing is free.
   std::pair<std::uint32_t, std::uint32_t> largest() const {
+    if (free_.empty()) return {0, 0};
     return *std::max_element(free_.begin(), free_.end(),
                              [](auto& a, auto& b) { return a.second - a.first < b.second - b.first; });
   }
@@ -89,6 +92,33 @@ std::string largest_of(const Program& program, Kind kind) {
   for (std::size_t i = 0; i < std::min(all.size(), kShown); ++i)
     text += (i ? ", " : "") + readable(*all[i]) + " " + std::to_string(all[i]->size);
   return text;
+}
+
+/// Does the linker make a heap? Asked before the first placing, which defines where it lies.
+enum class Heap { None, Made };
+Heap heap_of(const Program& program) {
+  const auto asked = program.globals.find("__heap");
+  return asked == program.globals.end() || asked->second->is_defined ? Heap::None : Heap::Made;
+}
+
+/// " for f(), g()": who calls the heap's functions.
+std::string askers_of_heap(const Program& program) {
+  const auto is_heap = [](const std::string& name) {
+    return name == "_malloc" || name == "_calloc" || name == "_realloc";
+  };
+  std::set<std::string> own;  // sections of the heap's functions
+  for (const auto& [name, symbol] : program.globals)
+    if (is_heap(name) && symbol->section) own.insert(symbol->section->name);
+  std::string text;
+  constexpr int kShown = 3;
+  int shown = 0;
+  for (const Section& s : program.sections) {
+    if (!s.used || s.kind != Kind::Code || own.count(s.name)) continue;
+    const bool asks = std::any_of(s.relocations.begin(), s.relocations.end(),
+                                  [&](const Relocation& r) { return is_heap(r.symbol->name); });
+    if (asks && ++shown <= kShown) text += (shown > 1 ? ", " : " for ") + readable(s) + "()";
+  }
+  return text + (shown > kShown ? " and others" : "");
 }
 
 /// A common variable becomes a section like any other.
@@ -141,7 +171,7 @@ std::set<const Section*> place_registers(Program& program, Space& ram) {
 }
 
 /// `y_last`: what must lie in Y memory is at its end, not its beginning. `gap`: bytes behind each variable.
-void place_ram(Program& program, const Options& options, bool y_last, unsigned gap) {
+void place_ram(Program& program, const Options& options, Heap heap, bool y_last, unsigned gap) {
   // One place for each variable; with a gap behind it as long as there is room.
   Space ram(kRamBegin, kRamEnd);
   const auto place = [&](Section& s, Range r, std::uint32_t align) {
@@ -174,27 +204,38 @@ void place_ram(Program& program, const Options& options, bool y_last, unsigned g
   }
   each([](const Section&) { return true; }, [&](Section& s) { program.ram_bytes += s.size; });
   // The heap, if somebody asks for it, and the stack takes the largest gap that is left.
-  if (program.globals.count("__heap") && !program.globals["__heap"]->is_defined) {
+  if (heap != Heap::None) {
+    const auto [begin, end] = ram.largest();
     if (!ram.take(options.heap_bytes, 2, kRamBegin, kRamEnd, at))
-      program.errors.push_back("RAM: no room for the heap");
+      program.errors.push_back("RAM: no room for the heap: got " +
+                               std::to_string(end - std::min((begin + 1) & ~1u, end)) +
+                               " bytes that variables leave in one piece, expected at least " +
+                               std::to_string(options.heap_bytes) + askers_of_heap(program) +
+                               "; largest: " + largest_of(program, Kind::Ram));
     program.define("__heap", at);
     program.define("__eheap", at + options.heap_bytes);
     program.ram_bytes += options.heap_bytes;
   }
   std::tie(program.stack_begin, program.stack_end) = ram.largest();
-  program.stack_begin = (program.stack_begin + 1) & ~1u;
+  program.stack_begin = std::min((program.stack_begin + 1) & ~1u, program.stack_end);
+  if (const std::uint32_t left = program.stack_end - program.stack_begin; left < kLeastOfAll)
+    program.errors.push_back(
+        "RAM: no room for the stack: got " + std::to_string(left) + " bytes that variables" +
+        (heap == Heap::None ? "" : " and the heap of " + std::to_string(options.heap_bytes) + " bytes") +
+        " leave in one piece, expected at least " + std::to_string(kLeastOfAll) +
+        "; largest: " + largest_of(program, Kind::Ram));
 }
 
 /// A large array may need the room on both sides of where Y memory begins.
-void place_ram(Program& program, const Options& options, unsigned gap) {
+void place_ram(Program& program, const Options& options, Heap heap, unsigned gap) {
   const std::size_t errors = program.errors.size();
   const auto bytes = program.ram_bytes;
-  place_ram(program, options, false, gap);
+  place_ram(program, options, heap, false, gap);
   if (program.errors.size() == errors) return;
   std::vector<std::string> first(program.errors.begin() + std::ptrdiff_t(errors), program.errors.end());
   program.errors.resize(errors);
   program.ram_bytes = bytes;
-  place_ram(program, options, true, gap);
+  place_ram(program, options, heap, true, gap);
   if (program.errors.size() == errors) return;
   program.errors.resize(errors);
   program.errors.insert(program.errors.end(), first.begin(), first.end());
@@ -202,15 +243,16 @@ void place_ram(Program& program, const Options& options, unsigned gap) {
 
 /// Gaps are left out where they take the room of variables, or of the stack.
 void place_ram(Program& program, const Options& options) {
+  const Heap heap = heap_of(program);
   const std::size_t errors = program.errors.size();
   const auto bytes = program.ram_bytes;
   if (options.gap_bytes > 0) {
-    place_ram(program, options, options.gap_bytes);
+    place_ram(program, options, heap, options.gap_bytes);
     if (program.errors.size() == errors && program.stack_end - program.stack_begin >= kLeastStack) return;
     program.errors.resize(errors);
     program.ram_bytes = bytes;
   }
-  place_ram(program, options, 0u);
+  place_ram(program, options, heap, 0u);
 }
 
 /// Data that must be set before main(): a table entry each (fill_dinit() in fill.cpp).

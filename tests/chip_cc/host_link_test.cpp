@@ -85,6 +85,68 @@ Pair program(const std::string& text, const std::string& other = "") {
   return pair;
 }
 
+/// What both HALs say of a program with an array of `bytes`, errors and warnings; "": nothing.
+std::string said_of(const std::string& head, const std::string& body, unsigned bytes, bool sanitize = false) {
+  const fs::path folder = workplace() / "sizes";
+  fs::create_directories(folder);
+  std::ofstream(folder / "main.c") << head << "char b[" << bytes << "];\nint main(void) { " << body
+                                   << " b[0] = 1; while (1); }\n";
+  std::string first;
+  for (const char* hal : {"sim", "dspic"}) {
+    cc::BuildOptions options;
+    options.source_dir = folder;
+    options.cache_dir = workplace() / "cache";
+    options.hal = hal;
+    options.output = workplace() / (hal + std::string("-sizes.elf"));
+    options.sanitize = sanitize;
+    const cc::BuildResult result = cc::build_image(options);
+    std::string said;
+    for (const auto* list : {&result.errors, &result.warnings})
+      for (const std::string& line : *list) said += line.substr(0, line.find("; largest:")) + "\n";
+    if (result.ok) said += "left " + std::to_string(result.ram_bytes) + "\n";
+    if (hal == std::string("sim"))
+      first = said;
+    else
+      EXPECT_EQ(said, first) << bytes;
+  }
+  return first;
+}
+
+// 8192 bytes of RAM: what variables leave holds the heap of 512 bytes, if anybody asks for it, and 16 of stack
+TEST(HeapAndStack, have_room_of_their_own_or_nothing_is_linked) {
+  const std::string agenda = "#include <motor_led/advance_one_timer/e_agenda.h>\nvoid f(void) {}\n",
+                    heap = "#include <stdlib.h>\n";
+  struct Case {
+    const char* what;
+    std::string head, body;
+    unsigned bytes;
+    const char* says;
+  };
+  const Case cases[] = {
+      {"nothing_of_a_heap", "", "", 8176, "left 8176"},
+      {"no_stack", "", "", 8178,
+       "no room for the stack: got 14 bytes that variables leave in one piece, "
+       "expected at least 16"},
+      {"nothing_left", "", "", 8192, "no room for the stack: got 0 bytes"},
+      {"malloc_with_room", heap, "char *p = malloc(10); p[0] = 1;", 7600, "left 8113"},
+      {"malloc_without_stack", heap, "char *p = malloc(10); p[0] = 1;", 7670,
+       "no room for the stack: got 8 bytes that variables and the heap of 512 bytes leave in one piece"},
+      {"malloc_without_room", heap, "char *p = malloc(10); p[0] = 1;", 7700,
+       "no room for the heap: got 490 bytes that variables leave in one piece, expected at least 512 for "
+       "main()"},
+      {"agenda_with_room", agenda, "e_activate_agenda(f, 10);", 7500, "left 8019"},
+      {"agenda_without_room", agenda, "e_activate_agenda(f, 10);", 7750,
+       "no room for the heap: got 434 bytes that variables leave in one piece, expected at least 512 for "
+       "e_activate_agenda()"},
+  };
+  for (const Case& c : cases)
+    EXPECT_NE(said_of(c.head, c.body, c.bytes).find(c.says), std::string::npos)
+        << c.what << ": " << said_of(c.head, c.body, c.bytes);
+  // of an image to be checked the gaps behind variables go first
+  EXPECT_NE(said_of(heap, "char *p = malloc(10); p[0] = 1;", 7700, true).find("no room for the heap"),
+            std::string::npos);
+}
+
 /// The host's function at a program address; -1: none.
 int host_function(const FirmwareFile& file, std::uint32_t address) {
   const auto word = file.words.find(address), next = file.words.find(address + 2);
