@@ -128,6 +128,7 @@ void Report::thin() {
 }
 
 void Report::sample() {
+  if (trace_) trace_->keep_last(kMostTraced);
   if (twin_.simulation().now() < next_) return;
   hear();
   look();

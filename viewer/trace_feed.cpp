@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "hal_sim/trace/timeline_writer.h"
 
@@ -35,6 +36,19 @@ TraceFeed::TraceFeed(twin::Twin& twin, int robot, const std::vector<std::string>
   trace_ = std::make_unique<trace::RobotTrace>(mind.board(), mind.runner(), std::move(found), true);
 }
 
+void TraceFeed::keep_last(std::size_t most) {
+  const auto cut = [&](auto& all) {
+    if (all.size() <= 2 * most) return;  // seldom, for the rest is moved
+    const std::size_t old = all.size() - most;
+    all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(old));
+    forgotten_ += old;
+  };
+  cut(trace_->spans());
+  cut(trace_->changes());
+}
+
+std::size_t TraceFeed::kept() const { return trace_->spans().size() + trace_->changes().size(); }
+
 Json TraceFeed::take(std::size_t most) {
   auto& mind = twin_.mind(robot_);
   const auto& clock = mind.board().clock();
@@ -43,8 +57,8 @@ Json TraceFeed::take(std::size_t most) {
   for (const trace::Signal& s : trace_->signals()) names.push_back({s.name, s.width});
   auto& taken = trace_->spans();
   auto& changed = trace_->changes();
-  const std::size_t lost =
-      (taken.size() > most ? taken.size() - most : 0) + (changed.size() > most ? changed.size() - most : 0);
+  const std::size_t lost = std::exchange(forgotten_, 0) + (taken.size() > most ? taken.size() - most : 0) +
+                           (changed.size() > most ? changed.size() - most : 0);
   for (std::size_t i = taken.size() - std::min(taken.size(), most); i < taken.size(); ++i) {
     const trace::Span& s = taken[i];
     std::string known;

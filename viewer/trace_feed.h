@@ -21,6 +21,11 @@ class TraceFeed {
 
   /// What happened since the last call, times in s; of many spans, or changes, only the last `most`.
   nlohmann::json take(std::size_t most);
+  /// Forgets what is older than the last `most` spans, and changes: whoever takes late keeps no more than twice
+  /// as many.
+  void keep_last(std::size_t most);
+  /// Spans and changes that take() would find.
+  std::size_t kept() const;
   /// Robot and signals, for whoever must make another of it.
   int robot() const { return robot_; }
   const std::vector<std::string>& asked() const { return asked_; }
@@ -31,6 +36,7 @@ class TraceFeed {
   std::vector<std::string> asked_;
   std::unique_ptr<trace::RobotTrace> trace_;
   std::map<std::uintptr_t, std::string> functions_;
+  std::size_t forgotten_ = 0;  // spans and changes since the last take()
 };
 
 }  // namespace viewer

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // A run as one file: what it holds is the run, and writing it changes nothing.
+#include <malloc.h>
 #include <zlib.h>
 
 #include "hal_sim/twin/world_file.h"
 #include "tests/viewer/page_client.h"
 #include "twinpuck_paths.h"
 #include "viewer/report.h"
+#include "viewer/trace_feed.h"
 
 namespace {
 
@@ -153,6 +155,38 @@ TEST_F(Report, of_a_long_run_has_its_frames_farther_apart) {
   double time_s;
   std::memcpy(&time_s, all[1000].data() + 8, sizeof time_s);
   EXPECT_NEAR(time_s, 40, 0.0021);
+}
+
+// a line that sends without a pause changes some 70,000 times a second, 24 bytes each: all of them would be 30 MB
+TEST_F(Report, forgets_old_changes_of_a_line_that_never_rests) {
+  write("drive/main.c",
+        "#include <stdio.h>\n#include <uart/e_uart_char.h>\n"
+        "int main(void) { e_init_uart1(); for (;;) printf(\"hello\\n\"); }\n");
+  twin::Options options;
+  options.world_folder = folder_.string();
+  const auto open = [&] {
+    return twin::Twin::open(std::move(*twin::load_world(path("world.toml")).world), options, problems_);
+  };
+  twin_ = open();
+  {
+    viewer::Report report(path("run.html"), *twin_, path("page"), true);
+    const auto begin = mallinfo2().uordblks;
+    while (twin_->simulation().now() < sim::from_seconds(20)) {
+      twin_->simulation().step();
+      report.sample();
+    }
+    EXPECT_LT(mallinfo2().uordblks, begin + (15u << 20));
+  }
+  twin_ = open();
+  viewer::TraceFeed feed(*twin_, 0, {"TX1"});
+  while (twin_->simulation().now() < sim::from_seconds(1)) {
+    twin_->simulation().step();
+    feed.keep_last(1000);
+    ASSERT_LE(feed.kept(), 4000u);
+  }
+  const Json trace = feed.take(1000);
+  EXPECT_EQ(trace.at("changes").size(), 1000u);
+  EXPECT_GT(trace.at("lost"), 30000);
 }
 
 TEST_F(Report, without_a_bundled_page_is_refused) {
