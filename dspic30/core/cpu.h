@@ -50,9 +50,9 @@ class Cpu final : public DataSpace {
   }
   DSPIC_JUMP const Decoded* offset(const Decoded* from, std::int32_t words) {
     const std::ptrdiff_t index = from - code_ + words;
-    return index >= 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
+    return index > 0 && index < static_cast<std::ptrdiff_t>(kFlashWords)
                ? arrive(code_ + index)
-               : jump(static_cast<unsigned>(2 * index) & 0x7FFFFE, from);
+               : jump(pointed(static_cast<unsigned>(2 * index) & 0x7FFFFE, from), from);
   }
   /// Back to where an interrupt cut the program: as jump(), but nothing begins there.
   const Decoded* jump_back(unsigned address, const Decoded* from);
@@ -76,7 +76,7 @@ class Cpu final : public DataSpace {
     if (is_decoded(d)) cpu.count_jump(d);
     return d;
   }
-  /// Of a register or the stack: where it leads. A null pointer is told.
+  /// Where a call, jump or return at `from` leads. Address 0 is told.
   unsigned pointed(unsigned address, const Decoded* from) {
     if (address == 0) tell_null_pointer(address_of(from));
     return address;

@@ -34,7 +34,9 @@ const Decoded* branch(Cpu& cpu, const Decoded* d) { return cpu.offset(d, d->imm)
 const Decoded* branch_register(Cpu& cpu, const Decoded* d) {
   return cpu.offset(d, 1 + sign_extend(cpu.w[d->s], 16));
 }
-const Decoded* go_to(Cpu& cpu, const Decoded* d) { return cpu.jump(static_cast<unsigned>(d->imm), d); }
+const Decoded* go_to(Cpu& cpu, const Decoded* d) {
+  return cpu.jump(cpu.pointed(static_cast<unsigned>(d->imm), d), d);
+}
 const Decoded* go_to_register(Cpu& cpu, const Decoded* d) {
   return cpu.jump(cpu.pointed(cpu.w[d->s] & 0xFFFE, d), d);
 }
@@ -42,7 +44,7 @@ const Decoded* go_to_register(Cpu& cpu, const Decoded* d) {
 const Decoded* call(Cpu& cpu, const Decoded* d) {
   const unsigned back = cpu.address_of(d) + 4;
   cpu.push_address(back);
-  return cpu.call_to(static_cast<unsigned>(d->imm), d, back);
+  return cpu.call_to(cpu.pointed(static_cast<unsigned>(d->imm), d), d, back);
 }
 const Decoded* call_register(Cpu& cpu, const Decoded* d) {
   cpu.push_address(cpu.address_of(d) + 2);
@@ -51,7 +53,7 @@ const Decoded* call_register(Cpu& cpu, const Decoded* d) {
 const Decoded* call_relative(Cpu& cpu, const Decoded* d) {
   const unsigned here = cpu.address_of(d), back = here + 2;
   cpu.push_address(back);
-  return cpu.call_to((here + 2 * static_cast<unsigned>(d->imm)) & 0x7FFFFE, d, back);
+  return cpu.call_to(cpu.pointed((here + 2 * static_cast<unsigned>(d->imm)) & 0x7FFFFE, d), d, back);
 }
 const Decoded* call_relative_register(Cpu& cpu, const Decoded* d) {
   cpu.push_address(cpu.address_of(d) + 2);

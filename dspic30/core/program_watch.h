@@ -11,8 +11,7 @@ class ProgramWatch {
   virtual ~ProgramWatch() = default;
   /// An instruction led to a trap.
   virtual void trapped(const TrapRecord& trap) = 0;
-  /// A call, jump or return at `from` took address 0 from a register or the stack: the program begins anew,
-  /// and nothing is reset.
+  /// A call, jump or return at `from` leads to address 0: the program begins anew, and nothing is reset.
   virtual void went_to_reset_vector(unsigned from) = 0;
   /// The function at `address`, which was asked for (Processor::tell_calls), begins; its arguments are in W0
   /// and behind, the return address lies on the stack.

@@ -102,7 +102,11 @@ bool Scanner::add_piece(std::ptrdiff_t begin, std::ptrdiff_t longest, int frame,
     const Run plain = cpu_.is_decoded(d) && !is_routine ? cpu_.table().plain(d) : nullptr;
     item.is_host = plain == &call_host;
     item.is_told = plain && cpu_.table().tells(d);
-    const bool is_known = plain && (item.is_host || plain == function_of(item.word)) &&
+    // what leads to address 0 is told where it stands
+    const bool leads_to_zero = dspic::translate::has(*row, Operand::Target)   ? d->imm == 0
+                               : dspic::translate::has(*row, Operand::Branch) ? d - cpu_.code() + d->imm == 0
+                                                                              : false;
+    const bool is_known = plain && !leads_to_zero && (item.is_host || plain == function_of(item.word)) &&
                           !(item.is_told && (item.is_host || ends_a_stretch(row->id)));
     if (!is_known && (items.size() == first || place >= reach)) return false;
     bool ends = ends_a_stretch(row->id) && !item.is_host;

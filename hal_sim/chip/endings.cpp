@@ -98,13 +98,16 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
 
 Ending Endings::of_null_pointer(unsigned from) const {
   const dspic::Row* row = dspic::find_row(program_.read(from));
-  const bool returned = row && (row->id == dspic::Insn::Return || row->id == dspic::Insn::Retlw_lit10_Wn);
-  return {0, "Reset",
-          returned ? "a return to address 0: something has overwritten the stack; the program begins anew, "
-                     "and nothing is reset"
-                   : "a call through a null pointer leads to address 0: the program begins anew, and nothing "
-                     "is reset",
-          places_.own(from)};
+  const auto is = [row](auto... ids) { return row && ((row->id == ids) || ...); };
+  using dspic::Insn;
+  const char* const why =
+      is(Insn::Return, Insn::Retlw_lit10_Wn) ? "a return to address 0: something has overwritten the stack;"
+      : is(Insn::Call_Expr, Insn::Rcall_Expr)
+          ? "a call of address 0, where no function lies (a weak one that nobody defines?):"
+      : row && (row->has(dspic::Operand::Target) || row->has(dspic::Operand::Branch))
+          ? "a jump to address 0:"
+          : "a call through a null pointer leads to address 0:";
+  return {0, "Reset", std::string(why) + " the program begins anew, and nothing is reset", places_.own(from)};
 }
 
 // --- RESET
@@ -223,9 +226,14 @@ Ending Endings::of_interrupt(int vector, unsigned place) const {
   const std::string name = dspic::vector_name(vector), wanted = places_.handler_name(vector);
   Ending ending{host::kTrapInterrupt, name, "", place};
   if (vector < dspic::kFirstIrqVector) ending.kind = kind_of(static_cast<Trap>(vector));
-  ending.message = (vector < dspic::kFirstIrqVector ? "the trap " + name + " came"
-                                                    : "the interrupt of " + name + " is enabled") +
-                   ", but the program has no " + wanted + "(), so the processor resets";
+  ending.message = vector < dspic::kFirstIrqVector ? "the trap " + name + " came"
+                                                   : "the interrupt of " + name + " is enabled";
+  if (file_.code.function_named(wanted) && !places_.has_handler(vector)) {
+    ending.message += ", but its vector no longer leads to " + wanted +
+                      "(): program memory was erased or written there (NVMCON), so the processor resets";
+    return ending;
+  }
+  ending.message += ", but the program has no " + wanted + "(), so the processor resets";
   const auto [meant, is_new] = meant_.emplace(vector, "");
   if (is_new) meant->second = handler_like(wanted);
   if (!meant->second.empty()) ending.message += "; is " + meant->second + "() meant for it?";

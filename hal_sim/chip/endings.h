@@ -4,7 +4,7 @@
 //   a RESET in the default handler    an interrupt, or a trap, that has no handler
 //   a RESET behind the start-up code's call of main()    main() has returned
 //   a reset of the chip               watchdog, illegal opcode, trap in a trap
-//   address 0 by a pointer            a call through a null pointer; nothing is reset
+//   address 0 by a call or a jump     a null pointer, or a weak function that is not there; nothing is reset
 //
 // Any other RESET is the program's own wish. Recognised by structure, so it holds for images of others as
 // well: XC16's default handler and start-up code, with or without symbols. docs/controllers.md says the same.
@@ -38,7 +38,7 @@ class Endings final {
   std::optional<Ending> of_reset(dspic::ResetKind kind) const;
   /// exit() with a failure, where a function of the host does that.
   Ending of_giving_up() const;
-  /// The instruction at `from` took address 0 for a function's.
+  /// The instruction at `from` leads to address 0.
   Ending of_null_pointer(unsigned from) const;
 
  private:
