@@ -10,6 +10,8 @@ int ChipInterrupts::pending(Cycle now) {
   return parts_.interrupts.pending(now, cpu_level());
 }
 
+int ChipInterrupts::next(Cycle now) const { return parts_.interrupts.pending(now, cpu_level()); }
+
 InterruptEntry ChipInterrupts::enter(int vector, Cycle now) { return parts_.interrupts.enter(vector, now); }
 Cycle ChipInterrupts::leave(Cycle now) { return parts_.interrupts.leave(now); }
 

@@ -17,6 +17,8 @@ class ChipInterrupts {
   /// Vector to serve at the instruction boundary before cycle `now`; kNoVector if none. A flag set in cycle f
   /// is seen from the boundary f + 1 on. Highest priority above the CPU's level, lowest vector among equals.
   int pending(Cycle now);
+  /// The same for who only looks: by what has happened up to now.
+  int next(Cycle now) const;
   /// The handler of `vector` starts at the boundary before `now`: raises the CPU level,
   /// remembers the old one.
   InterruptEntry enter(int vector, Cycle now);

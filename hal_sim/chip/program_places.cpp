@@ -204,15 +204,32 @@ int ProgramPlaces::open_vector() const {
   return chip_.device().peek(kInttregAddress, chip_.latest()) & kVectorMask;
 }
 
+/// Of a handler that is about to begin, or has just begun, while `here` is what it cuts off: its vector.
+int ProgramPlaces::beginning_vector(unsigned here) const {
+  constexpr dspic::Cycle kEntry = 8;  // the end of a handler and the instruction behind it are over by then
+  const auto& interrupts = chip_.device().interrupts();
+  const int open = open_vector();
+  if (open == dspic::kNoVector) return interrupts.next(std::max(chip_.latest(), processor_.now()) + kEntry);
+  // its frame is the stack's last, and leads back to what stood behind the instruction
+  constexpr unsigned kLongestInsn = 4;
+  const unsigned stack = processor_.w(15),
+                 back = (stack_word(stack - 2) & 0x7F) << 16 | (stack_word(stack - 4) & 0xFFFE);
+  return back >= here && back - here <= kLongestInsn && !call_before(back) ? open : dspic::kNoVector;
+}
+
 std::string ProgramPlaces::who_runs() const {
   const unsigned here = processor_.pc_of_access(), own_code = own(here);
   const int vector = open_vector();
   if (dspic::is_host_place(own_code)) return "; meanwhile handlers of the library ran";
-  std::string text = "; meanwhile " + text_of(own_code) + " ran";
-  if (vector == dspic::kNoVector) return text + " with the interrupt masked";
-  const auto* function = file_.code.function_at(own_code);
-  const bool is_handler = function && function->begin == handler(vector);
-  return text + (is_handler ? "" : ", called by the handler of " + std::string(dspic::vector_name(vector)));
+  if (const int next = beginning_vector(here); next != dspic::kNoVector)
+    return has_handler(next) && is_own(handler(next))
+               ? "; meanwhile " + text_of(handler(next)) + " ran"
+               : "; meanwhile the handler of " + std::string(dspic::vector_name(next)) + " ran";
+  const std::string text = "; meanwhile " + text_of(own_code) + " ran";
+  if (is_handler_code(own_code)) return text;
+  return text + (vector == dspic::kNoVector
+                     ? " with the interrupt masked"
+                     : ", called by the handler of " + std::string(dspic::vector_name(vector)));
 }
 
 }  // namespace chip

@@ -58,6 +58,7 @@ class ProgramPlaces final {
 
  private:
   bool has_alternate_table() const;
+  int beginning_vector(unsigned here) const;
   /// The return address that ends below `top` of the stack; 0: what lies there is none.
   unsigned stack_address(unsigned top) const;
   unsigned last_jump(unsigned call, unsigned to) const;
