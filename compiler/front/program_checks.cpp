@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "program_checks.h"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <string>
@@ -74,8 +77,26 @@ constexpr Range kRanges[] = {
     {"e_get_ambient_light", 0, 0, 7, "sensor", kReturns0},
     {"e_set_speed_left", 0, -1000, 1000, "speed", kTakesNearest},
     {"e_set_speed_right", 0, -1000, 1000, "speed", kTakesNearest},
-    {"e_set_speed", 0, -1000, 1000, "speed", "the library leaves the speed as it is"},
 };
+
+/// What e_set_speed() does with two speeds whose magnitudes are together too large; empty: they are not. The
+/// library adds in 16 bits, where what goes beyond them becomes negative, and passes.
+std::string after_both_speeds(std::int64_t linear, std::int64_t angular) {
+  constexpr std::int64_t kMostSpeed = 1000;
+  const std::int64_t all = std::abs(linear) + std::abs(angular);
+  if (all <= kMostSpeed) return "";
+  const auto in_16_bits = [](std::int64_t n) { return std::int64_t(std::int16_t(n)); };
+  const auto wheel = [&](std::int64_t n) {
+    return std::to_string(std::clamp(in_16_bits(n), -kMostSpeed, kMostSpeed));
+  };
+  const std::int64_t seen = in_16_bits(all);
+  return "got speeds " + std::to_string(linear) + " and " + std::to_string(angular) +
+         ", expected magnitudes of together at most " + std::to_string(kMostSpeed) + "; " +
+         (seen > kMostSpeed
+              ? "the library leaves the speed as it is"
+              : "in 16 bits their sum is " + std::to_string(seen) + ", so the library sets " +
+                    wheel(linear - angular) + " left and " + wheel(linear + angular) + " right");
+}
 
 bool blocks(StringRef name) {
   for (const char* slow :
@@ -194,12 +215,24 @@ class Checker : public RecursiveASTVisitor<Checker> {
     const StringRef name = f->getName();
     if (name == "e_activate_agenda" && call->getNumArgs() > 0) note_agenda(call->getArg(0));
     if (f->getDefinition()) return true;  // the program's own
+    const auto number = [&](unsigned n, std::int64_t& got) {
+      const Expr* argument = call->getArg(n)->IgnoreParenImpCasts();
+      Expr::EvalResult value;
+      if (argument->isValueDependent() || !argument->EvaluateAsInt(value, context_)) return false;
+      got = value.Val.getInt().getExtValue();
+      return true;
+    };
+    std::int64_t got = 0, angular = 0;
+    if (name == "e_set_speed" && call->getNumArgs() == 2 && number(0, got)) {
+      // of the second one that is known only as the program runs, 0 is taken
+      number(1, angular);
+      if (const std::string wrong = after_both_speeds(got, angular); !wrong.empty())
+        warn(call->getArg(0)->getBeginLoc(), "e_set_speed(): " + wrong);
+    }
     for (const Range& range : kRanges) {
       if (name != range.function || call->getNumArgs() <= range.argument) continue;
       const Expr* argument = call->getArg(range.argument)->IgnoreParenImpCasts();
-      Expr::EvalResult value;
-      if (argument->isValueDependent() || !argument->EvaluateAsInt(value, context_)) continue;
-      const std::int64_t got = value.Val.getInt().getExtValue();
+      if (!number(range.argument, got)) continue;
       if (got >= range.least && got <= range.most) continue;
       warn(argument->getBeginLoc(),
            (name + "(): got " + range.what + " " + std::to_string(got) + ", expected " +

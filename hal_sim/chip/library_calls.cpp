@@ -144,13 +144,22 @@ void LibraryCalls::entered(unsigned address) {
     case Function::SpeedRight:
       return set_speed(site, 1, signed_w(0));
     case Function::Speed: {
-      const int all = std::abs(signed_w(0)) + std::abs(signed_w(1));
-      if (all > kMaxSpeed)
-        note("speed out of range", "e_set_speed()",
-             "got " + std::to_string(signed_w(0)) + " and " + std::to_string(signed_w(1)) +
-                 " steps/s, expected magnitudes of together at most " + std::to_string(kMaxSpeed) +
-                 "; the library leaves the speed as it is",
-             "the motors are not faster");
+      const int linear = signed_w(0), angular = signed_w(1), all = std::abs(linear) + std::abs(angular);
+      if (all <= kMaxSpeed) return;
+      // the library adds in 16 bits: what goes beyond them becomes negative, and passes
+      const auto in_16_bits = [](int n) { return static_cast<int>(static_cast<std::int16_t>(n)); };
+      const auto wheel = [&](int n) {
+        return std::to_string(std::clamp(in_16_bits(n), -kMaxSpeed, kMaxSpeed));
+      };
+      const int seen = in_16_bits(all);
+      note("speed out of range", "e_set_speed()",
+           "got " + std::to_string(linear) + " and " + std::to_string(angular) +
+               " steps/s, expected magnitudes of together at most " + std::to_string(kMaxSpeed) +
+               (seen > kMaxSpeed
+                    ? "; the library leaves the speed as it is"
+                    : "; in 16 bits their sum is " + std::to_string(seen) + ", so the library sets " +
+                          wheel(linear - angular) + " left and " + wheel(linear + angular) + " right"),
+           "the motors are not faster");
       return;
     }
     case Function::Proximity:
@@ -183,7 +192,9 @@ void LibraryCalls::entered(unsigned address) {
 void LibraryCalls::set_speed(const Site& site, int wheel, int speed) {
   Wheel& w = wheels_[static_cast<std::size_t>(wheel)];
   const Cycle now = processor_.now();
-  if (speed > kMaxSpeed || speed < -kMaxSpeed)
+  // what e_set_speed() passes on is told of that
+  if ((speed > kMaxSpeed || speed < -kMaxSpeed) &&
+      places_.place_of(places_.caller()).function != "e_set_speed")
     note(std::string("speed out of range ") + (wheel == 0 ? "left" : "right"),
          std::string(site.known->name) + "()",
          "got " + std::to_string(speed) + " steps/s, expected -" + std::to_string(kMaxSpeed) + " to " +
