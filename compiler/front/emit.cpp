@@ -2,6 +2,8 @@
 // The last stage for the chip: names as the linker knows them, then the code generator.
 #include <unistd.h>
 
+#include <set>
+
 #include "chip.h"
 #include "dspic30/llvm/target.h"
 #include "llvm/Analysis/TargetLibraryInfo.h"
@@ -86,6 +88,12 @@ class LateMistakes : public DiagnosticHandler {
                          : d.getKind() == SourceMgr::DK_Warning ? "warning"
                                                                 : "note";
       has_failed_ |= d.getKind() == SourceMgr::DK_Error;
+      // of code that is nobody's text: told once, however often it stands there
+      if (!d.getLoc().isValid() && d.getLineContents().empty()) {
+        if (told_of_code_.insert(d.getMessage().str()).second)
+          errs() << unit_.options.input << ": " << kind << ": " << d.getMessage() << "\n";
+        return true;
+      }
       end_after_many(unit_.options.input, told_);
       errs() << place(of_parser->getLocCookie(), &d) << ": " << kind << ": " << d.getMessage()
              << "; in asm(\"" << shortened(d.getLineContents().trim()) << "\")\n";
@@ -137,6 +145,7 @@ class LateMistakes : public DiagnosticHandler {
   const Unit& unit_;
   bool& has_failed_;
   unsigned told_ = 0;
+  std::set<std::string> told_of_code_;
 };
 
 std::unique_ptr<TargetMachine> make_machine(const Options& o) {

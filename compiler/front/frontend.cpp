@@ -5,6 +5,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <utility>
 
 #include "chip.h"
 #include "clang/AST/ASTConsumer.h"
@@ -386,11 +387,12 @@ void place_assembler(llvm::Module& module, const SourceManager& sources, Facts& 
       }
 }
 
+constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
+
 /// One attempt in one standard of C; `declarations` go in front of the file. Messages go to `out`.
 std::unique_ptr<llvm::Module> attempt(const Options& options, llvm::LLVMContext& context, Facts& facts,
                                       const std::string& standard, const std::string& declarations,
                                       llvm::raw_ostream& out) {
-  constexpr const char* kDeclarations = "/twinpuck-forward-declarations.h";
   IntrusiveRefCntPtr<DiagnosticOptions> diagnostic_options = new DiagnosticOptions;
   auto* printer = new TextDiagnosticPrinter(out, &*diagnostic_options);
   printer->setPrefix(options.input);  // of the options: no line has them
@@ -443,16 +445,22 @@ std::unique_ptr<llvm::Module> attempts(const Options& options, llvm::LLVMContext
                                        const std::string& standard, std::string& messages) {
   llvm::raw_string_ostream said(messages);
   facts = Facts();
+  auto source = llvm::MemoryBuffer::getFile(options.input);
+  if (!source) {
+    messages = options.input + ": cannot read: " + source.getError().message() + "\n";
+    return nullptr;
+  }
   auto module = attempt(options, context, facts, standard, "", said);
   said.flush();
   if (module) return module;
-  auto source = llvm::MemoryBuffer::getFile(options.input);
-  const std::string declarations = source ? forward_declarations(messages, (*source)->getBuffer().str()) : "";
+  const std::string declarations = forward_declarations(messages, (*source)->getBuffer().str());
   if (declarations.empty()) return nullptr;
-  messages.clear();
+  const std::string without = std::exchange(messages, "");
   facts = Facts();
   module = attempt(options, context, facts, standard, declarations, said);
   said.flush();
+  // the program's own lines, not ours, say what is wrong
+  if (!module && messages.find(kDeclarations) != std::string::npos) messages = without;
   return module;
 }
 

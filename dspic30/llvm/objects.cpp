@@ -37,6 +37,17 @@ class ElfWriter : public MCELFObjectTargetWriter {
   }
 };
 
+/// Of code without text the function is named, by its section.
+std::string too_far(const MCFixup& fixup, const MCValue& target) {
+  const MCSymbolRefExpr* to = target.getSymA();
+  if (fixup.getLoc().isValid() || !to || !to->getSymbol().isInSection())
+    return "branch of more than 32767 words";
+  const StringRef section = to->getSymbol().getSection().getName();
+  return (section.substr(section.rfind("._") + 2) +
+          "(): got a branch of more than 32767 words, expected one within them; make several functions of it")
+      .str();
+}
+
 class ObjectBackend : public MCAsmBackend {
  public:
   ObjectBackend() : MCAsmBackend(support::little) {}
@@ -56,7 +67,7 @@ class ObjectBackend : public MCAsmBackend {
     const unsigned kind = fixup.getTargetKind();
     return kind >= FirstTargetFixupKind && !kFixups[kind - FirstTargetFixupKind].is_relative();
   }
-  void applyFixup(const MCAssembler& assembler, const MCFixup& fixup, const MCValue&,
+  void applyFixup(const MCAssembler& assembler, const MCFixup& fixup, const MCValue& target,
                   MutableArrayRef<char> data, uint64_t value, bool resolved,
                   const MCSubtargetInfo*) const override {
     if (!resolved) return;
@@ -77,8 +88,7 @@ class ObjectBackend : public MCAsmBackend {
       case DSPICFix::DoEnd: {
         constexpr int64_t kWord = dspic_elf::kWordOctets;
         const int64_t words = (int64_t(value) - kWord) / kWord;  // from the next instruction
-        if (!isInt<16>(words))
-          assembler.getContext().reportError(fixup.getLoc(), "branch of more than 32767 words");
+        if (!isInt<16>(words)) assembler.getContext().reportError(fixup.getLoc(), too_far(fixup, target));
         value = words & 0xFFFF;
         break;
       }
