@@ -135,8 +135,7 @@ std::vector<std::string> RunOutputs::written() const {
 void RunOutputs::finish(const Summary& summary, std::vector<std::string>& problems) {
   const auto& a = arguments_;
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
-  if (images_ && images_->failed())
-    problems.push_back(images_->folder() + ": --save-images: a picture cannot be written");
+  if (images_ && images_->failed()) problems.push_back(images_->error());
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
   if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
   if (auto* coverage = run_.coverage()) coverage->finish(problems);

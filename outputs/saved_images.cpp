@@ -16,11 +16,19 @@ bool SavedImages::open(twin::Twin& twin, std::vector<std::string>& problems) {
     const std::string file = output_file(folder_, twin.world(), r);
     camera->on_picture = [this, file](const board::CameraPicture& picture) {
       const std::string path = fmt::format("{}_{:06}.png", file, picture.number);
-      if (!sim::write_png(path, picture.columns, picture.rows, board::decode_picture(picture)).empty())
-        failed_ = true;
+      const std::string wrong =
+          sim::write_png(path, picture.columns, picture.rows, board::decode_picture(picture));
+      if (wrong.empty()) return;
+      const std::lock_guard<std::mutex> held(writing_);
+      if (!failed_.exchange(true)) first_ = wrong;
     };
   }
   return true;
+}
+
+std::string SavedImages::error() const {
+  const std::lock_guard<std::mutex> held(writing_);
+  return folder_ + ": --save-images: " + first_;
 }
 
 }  // namespace outputs

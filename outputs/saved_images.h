@@ -3,6 +3,7 @@
 // FOLDER/ROBOT_000001.png, and so on. Rows and columns as in the buffer.
 #pragma once
 #include <atomic>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -19,11 +20,15 @@ class SavedImages {
   bool open(twin::Twin& twin, std::vector<std::string>& problems);
   /// A file could not be written.
   bool failed() const { return failed_; }
+  /// The first one: "FOLDER: --save-images: FILE: cannot be written: reason".
+  std::string error() const;
   const std::string& folder() const { return folder_; }
 
  private:
   std::string folder_;
   std::atomic<bool> failed_{false};
+  mutable std::mutex writing_;  // robots take pictures on several threads
+  std::string first_;
 };
 
 }  // namespace outputs

@@ -131,7 +131,13 @@ int build(cc::BuildOptions options, bool counts_lines) {
   complain(result.warnings);
   complain(result.notes);
   complain(result.errors);
-  if (!result.ok) return kTestFailed;
+  if (!result.ok) {
+    const bool is_unwritten =
+        std::any_of(result.errors.begin(), result.errors.end(), [](const std::string& error) {
+          return error.find(", expected a file that can be written") != std::string::npos;
+        });
+    return is_unwritten ? kBadInput : kTestFailed;
+  }
   std::cout << fmt::format("{}: {} files compiled, {} unchanged, {:.2f} s\n{}", options.output.string(),
                            result.compiled, result.reused, result.seconds, result.size_report);
   return kPass;

@@ -16,6 +16,7 @@
 
 #include "compiler/projects/program_files.h"
 #include "hal_sim/twin/firmware_store.h"
+#include "sim_core/base/output_file.h"
 #include "tools/command_line.h"
 #include "tools/templates.h"
 #include "tools/verbs.h"
@@ -85,11 +86,17 @@ bool write_made(const fs::path& folder, const TemplateFile& file) {
   std::error_code wrong;
   fs::create_directories(path.parent_path(), wrong);
   // a link is not followed: what it leads to may be anybody's
-  if (!wrong && fs::is_symlink(path, wrong)) fs::remove(path, wrong);
-  std::ofstream out(path);
-  out << file.text;
-  if (out.flush()) return true;
-  complain({path.string() + ": cannot be written" + (wrong ? ": " + wrong.message() : "")});
+  std::error_code none;
+  if (!wrong && fs::is_symlink(path, none)) fs::remove(path, wrong);
+  if (!wrong) {
+    sim::OutputFile out(path.string());
+    out.append(file.text);
+    out.close();
+    if (out.error().empty()) return true;
+    complain({out.error()});
+    return false;
+  }
+  complain({path.string() + ": cannot be written: " + wrong.message()});
   return false;
 }
 
@@ -141,8 +148,13 @@ int make(const std::string& where, bool supervisor, bool force) {
   const auto files = read_templates(supervisor ? "supervisor" : "project", name, problems);
   complain(problems);
   if (!problems.empty()) return kBadInput;
+  const bool is_new = !is_taken(folder);
   for (const TemplateFile& file : files) {
-    if (!write_made(folder, file)) return kBadInput;
+    if (!write_made(folder, file)) {
+      std::error_code none;
+      if (is_new) fs::remove_all(folder, none);  // half a program helps nobody
+      return kBadInput;
+    }
     names.push_back(file.name);
   }
   const fs::path shown = fs::path(where).lexically_normal();

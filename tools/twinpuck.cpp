@@ -9,6 +9,7 @@
 #include <iostream>
 #include <iterator>
 #include <string_view>
+#include <system_error>
 
 #include "install/cache_bound.h"
 #include "tools/command_line.h"
@@ -63,6 +64,12 @@ int call(int argc, char** argv) {
     if (!is_verb || verb.name == called) verb.add(app, exit_code);
   add_help(app);
   try {
+    std::error_code gone;
+    if (const auto here = std::filesystem::current_path(gone); is_verb && here.empty()) {
+      complain({"current folder: got " + gone.message() +
+                ", expected one that is there; was it deleted? change to another one"});
+      return kBadInput;
+    }
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);

@@ -106,7 +106,12 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   constexpr const char* kGapBytes = "4";
   if (o.sanitize) argv.insert(argv.end(), {"--gap", kGapBytes});
   const auto run = run_process(argv);
-  sort_messages(with_hints(run.output), result, run.status != 0);
+  // people know the file that they named, not the one that becomes it
+  std::string said = run.output;
+  const std::string hidden = (half / "").string(), known = (output.parent_path() / "").string();
+  for (std::size_t at = 0; (at = said.find(hidden, at)) != std::string::npos; at += known.size())
+    said.replace(at, hidden.size(), known);
+  sort_messages(with_hints(said), result, run.status != 0);
   if (run.status > kBySignal)
     result.errors.push_back(o.source_dir.string() + ": link: " + crash_words(run.status - kBySignal));
   if (const std::size_t at = run.output.find("flash "); run.status == 0 && at != std::string::npos) {

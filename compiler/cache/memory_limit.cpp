@@ -42,6 +42,11 @@ void limit_own_memory(const std::string& what) {
   };
   last_words().of_memory = words("memory", kMostToolBytes);
   last_words().of_file = words("output", kMostToolFileBytes);
+  rlimit shells{};
+  if (getrlimit(RLIMIT_FSIZE, &shells) == 0 && shells.rlim_cur < kMostToolFileBytes)
+    last_words().of_file = what + ": output: got File too large (the shell's limit is " +
+                           std::to_string(shells.rlim_cur) +
+                           " bytes, ulimit -f), expected a file that can be written\n";
   bound(RLIMIT_FSIZE, kMostToolFileBytes);
   signal(SIGXFSZ, [](int) { say_and_end(last_words().of_file); });
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -246,10 +246,13 @@ CompileOutcome compile(const CompileJob& job, const fs::path& compiler, const st
     inputs.take(outcome.object);
     const bool has_texts = (outcome.messages.empty() || write_text(files.messages(), outcome.messages)) &&
                            (!job.has_facts || write_text(files.facts(), outcome.facts));
+    errno = 0;
     fs::rename(half, outcome.object, ec);
     if (ec || !has_texts || !write_text(base + ".deps", lines)) {
       outcome.ok = false;
-      outcome.messages += outcome.object.string() + ": cannot write the object; is the disk full?\n";
+      const int why = ec ? ec.value() : errno ? errno : ENOSPC;
+      outcome.messages += outcome.object.string() + ": output: got " + std::strerror(why) +
+                          ", expected a file that can be written\n";
     }
   } else if (result.status != 1) {
     outcome.messages +=

@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "sim_core/base/output_file.h"
 #include "sim_core/base/utf8.h"
 
 namespace sim {
@@ -69,11 +70,27 @@ bool ends_with(const std::string& path, const char* ending) {
   return path.size() > e.size() && path.compare(path.size() - e.size(), e.size(), e) == 0;
 }
 
+cairo_status_t append_bytes(void* text, const unsigned char* data, unsigned length) {
+  static_cast<std::string*>(text)->append(reinterpret_cast<const char*>(data), length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// cairo itself says no more of a full disk than that an error happened
+std::string write_drawn(const std::string& path, cairo_status_t status, const std::string& bytes) {
+  if (status != CAIRO_STATUS_SUCCESS)
+    return fmt::format("{}: cannot be written: {}", path, cairo_status_to_string(status));
+  OutputFile file(path);
+  file.append(bytes);
+  file.close();
+  return file.error();
+}
+
 std::string write_drawing(const std::string& path, double width_px, double height_px,
                           const std::function<void(cairo_t*)>& draw) {
   const bool svg = ends_with(path, ".svg");
+  std::string bytes;
   cairo_surface_t* surface =
-      svg ? cairo_svg_surface_create(path.c_str(), width_px, height_px)
+      svg ? cairo_svg_surface_create_for_stream(append_bytes, &bytes, width_px, height_px)
           : cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(std::ceil(width_px)),
                                        static_cast<int>(std::ceil(height_px)));
   cairo_t* cr = cairo_create(surface);
@@ -82,13 +99,12 @@ std::string write_drawing(const std::string& path, double width_px, double heigh
   draw(cr);
   cairo_status_t status = cairo_status(cr);
   cairo_destroy(cr);
-  if (status == CAIRO_STATUS_SUCCESS && !svg) status = cairo_surface_write_to_png(surface, path.c_str());
+  if (status == CAIRO_STATUS_SUCCESS && !svg)
+    status = cairo_surface_write_to_png_stream(surface, append_bytes, &bytes);
   cairo_surface_finish(surface);
   if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface);
   cairo_surface_destroy(surface);
-  return status == CAIRO_STATUS_SUCCESS
-             ? std::string()
-             : fmt::format("{}: cannot be written: {}", path, cairo_status_to_string(status));
+  return write_drawn(path, status, bytes);
 }
 
 void draw_text(cairo_t* cr, const std::string& text, double x, double y, double size_px, bool bold) {

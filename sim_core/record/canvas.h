@@ -35,6 +35,11 @@ class Canvas {
   cairo_t* cr_;
 };
 
+/// For cairo's streams: adds to the std::string at `text`.
+cairo_status_t append_bytes(void* text, const unsigned char* data, unsigned length);
+/// Writes what cairo has drawn with that success. Empty, or "PATH: cannot be written: reason".
+std::string write_drawn(const std::string& path, cairo_status_t status, const std::string& bytes);
+
 /// Draws into a file: PNG or SVG by its ending. Returns an empty string, or "FILE: what is wrong".
 std::string write_drawing(const std::string& path, double width_px, double height_px,
                           const std::function<void(cairo_t*)>& draw);

@@ -4,6 +4,7 @@
 #include <cairo.h>
 
 #include "sim_core/base/check.h"
+#include "sim_core/record/canvas.h"
 
 namespace sim {
 
@@ -11,6 +12,7 @@ std::string write_png(const std::string& path, int width, int height, const std:
   CHECK(rgb.size() == 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
         "three bytes a pixel");
   cairo_surface_t* image = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
+  std::string bytes;
   cairo_status_t status = cairo_surface_status(image);
   if (status == CAIRO_STATUS_SUCCESS) {
     unsigned char* pixels = cairo_image_surface_get_data(image);
@@ -23,11 +25,10 @@ std::string write_png(const std::string& path, int width, int height, const std:
             static_cast<std::uint32_t>(from[0]) << 16 | static_cast<std::uint32_t>(from[1]) << 8 | from[2];
     }
     cairo_surface_mark_dirty(image);
-    status = cairo_surface_write_to_png(image, path.c_str());
+    status = cairo_surface_write_to_png_stream(image, append_bytes, &bytes);
   }
   cairo_surface_destroy(image);
-  return status == CAIRO_STATUS_SUCCESS ? std::string()
-                                        : path + ": cannot be written: " + cairo_status_to_string(status);
+  return write_drawn(path, status, bytes);
 }
 
 }  // namespace sim

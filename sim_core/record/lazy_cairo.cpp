@@ -20,7 +20,7 @@
   X(cairo, cairo_status) X(cairo, cairo_status_to_string) X(cairo, cairo_stroke) \
   X(cairo, cairo_stroke_preserve) X(cairo, cairo_surface_destroy) X(cairo, cairo_surface_finish) \
   X(cairo, cairo_surface_flush) X(cairo, cairo_surface_mark_dirty) X(cairo, cairo_surface_status) \
-  X(cairo, cairo_surface_write_to_png) X(cairo, cairo_svg_surface_create) \
+  X(cairo, cairo_surface_write_to_png_stream) X(cairo, cairo_svg_surface_create_for_stream) \
   X(cairo, cairo_text_extents) X(cairo, cairo_text_path) X(cairo, cairo_translate)
 // clang-format on
 
