@@ -255,7 +255,7 @@ const Mutation kMutations[] = {
      "i < 30000; i++) { Nop(); Nop(); Nop(); Nop(); }",
      long_pulse("14.3") + missed("T1", "_T1Interrupt() (main.c:26) ran")},
     {"converter_flag_never_cleared", &kScan, "IFS0bits.ADIF = 0;\n  frames++;", "frames++;",
-     not_cleared("ADC", "IFS0.ADIF") + missed("ADC", "main() (main.c:25) ran with the interrupt masked")},
+     not_cleared("ADC", "IFS0.ADIF") + missed("ADC", "_ADCInterrupt() (main.c:11) ran")},
     {"wrong_divisor", &kSerial, "U1BRG = 7;", "U1BRG = 8;",
      "U1BRG: baud rate error: U1BRG = 8 gives 102400 baud, -11.1 % from the nearest usual rate, 115200; "
      "UxBRG = FCY / (16 "
