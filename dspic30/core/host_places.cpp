@@ -32,7 +32,7 @@ __attribute__((noinline)) void follow_changed_host(Cpu& cpu, Cycle ahead) {
   cpu.host_followed = true;
   cpu.now += ahead;
   cpu.settle();
-  cpu.clocks.correct(cpu.now, cpu.host->take_owed_q32());
+  cpu.clocks.correct(cpu.host->take_owed_q32());
   cpu.clocks.set_share(cpu.host->share_q32());
   cpu.host_due = cpu.host_comes ? cpu.host->due() : kNever;
   cpu.deadline = cpu.clocks.program_at(std::min({cpu.stop_at, cpu.pause_at, cpu.host_due}));

@@ -312,7 +312,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     if (handler.missed_at == 0)
       handler.source = is_held(h) ? cpu.host->source_event(static_cast<int>(h), cpu.now) : kNever;
   }
-  cpu.clocks.correct(cpu.now, cpu.host->take_owed_q32());
+  cpu.clocks.correct(cpu.host->take_owed_q32());
   cpu.clocks.set_share(cpu.host->share_q32());
   // held off by its level alone it wakes the processor all the same
   cpu.host_comes = irqs_[0] >= 0 && interrupts.sources().enabled(irqs_[0]);

@@ -5,8 +5,10 @@
 //   true = settled + x + floor((x * stolen + rest) / 2^32),   x: cycles of the program since settled
 //
 // The rest is carried on, so settling now and later is the same as settling later: nothing depends on when. Where
-// more was taken than handlers took, it is negative, and nothing is taken until that is even.
+// more was taken than handlers took, it is negative, and nothing is taken until that is even; what was taken too
+// little is taken twice as fast. Neither clock ever jumps.
 #pragma once
+#include <algorithm>
 #include <cstdint>
 
 #include "dspic30/memory/cycle.h"
@@ -28,21 +30,19 @@ class TwoClocks {
       return;
     }
     const Wide sum = Wide{now - settled_} * stolen_q32_ + rest_;
-    const Cycle taken = whole(sum);
-    rest_ = static_cast<std::int64_t>(sum - (Wide{taken} << 32));
+    const Cycle of_share = whole(sum), of_extra = std::min(now - settled_, extra_),
+                taken = of_share + of_extra;
+    rest_ = static_cast<std::int64_t>(sum - (Wide{of_share} << 32));
+    extra_ -= of_extra;
     taken_ += taken;
     now += taken;
     settled_ = now;
   }
   /// So many cycles of 2^-32 were taken too little by now, behind settle(); negative: too much.
-  void correct(Cycle& now, std::int64_t cycles_q32) {
-    if (cycles_q32 == 0) return;
-    rest_ += cycles_q32;
-    const Cycle taken = whole(rest_);
-    rest_ -= taken << 32;
-    taken_ += taken;
-    now += taken;
-    settled_ = now;
+  void correct(std::int64_t cycles_q32) {
+    rest_ += cycles_q32 + (extra_ << 32);
+    extra_ = whole(rest_);
+    rest_ -= extra_ << 32;
   }
   /// `share_q32`: of each true cycle, as a fraction of 2^32. Behind settle(). Handlers that take all leave
   /// the program an instruction now and then: it has a hundredth at least.
@@ -60,7 +60,7 @@ class TwoClocks {
   void reset(Cycle now) {
     settled_ = now;
     stolen_q32_ = 0;
-    rest_ = 0;
+    rest_ = extra_ = 0;
   }
   /// Cycles of the program so far when its clock shows `now`: true ones without what was taken.
   Cycle own_cycles(Cycle now) const { return now - taken_; }
@@ -69,9 +69,15 @@ class TwoClocks {
   using Wide = __int128;
   static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
   static Cycle whole(Wide sum) { return sum < 0 ? 0 : static_cast<Cycle>(sum >> 32); }
-  Cycle stolen(Cycle own) const { return whole(Wide{own} * stolen_q32_ + rest_); }
+  Cycle stolen(Cycle own) const { return whole(Wide{own} * stolen_q32_ + rest_) + std::min(own, extra_); }
   /// The program's time from settled_ on.
   Cycle first_at(Cycle wanted) const {
+    if (extra_ > 0) {
+      if (wanted > extra_ + extra_ + whole(Wide{extra_} * stolen_q32_ + rest_))
+        return settled_ + own_at(wanted - extra_, static_cast<std::uint64_t>(rest_));
+      const Wide each = Wide{2 * kOne} + stolen_q32_, lacks = (Wide{wanted} << 32) - rest_;
+      return settled_ + (lacks <= 0 ? 0 : static_cast<Cycle>((lacks + each - 1) / each));
+    }
     if (rest_ >= 0) return settled_ + own_at(wanted, static_cast<std::uint64_t>(rest_));
     const auto owed = static_cast<std::uint64_t>(-rest_);
     const auto even =
@@ -96,6 +102,7 @@ class TwoClocks {
   }
 
   Cycle settled_ = 0, taken_ = 0;
+  Cycle extra_ = 0;  // what was taken too little: of each cycle another one, until that is even
   std::uint64_t stolen_q32_ = 0;
   std::int64_t rest_ = 0;
   // the last share that was not 0, what it leaves of a true cycle, and what it takes beside one that is left

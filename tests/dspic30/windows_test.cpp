@@ -434,18 +434,19 @@ TEST(TwoClocks, make_good_what_was_taken_too_much_or_too_little) {
   constexpr std::uint64_t kHalf = std::uint64_t{1} << 31;
   constexpr std::int64_t kCycle = std::int64_t{1} << 32;
   struct Row {
-    std::int64_t owed;                      // cycles
-    Cycle now, at_3, at_12, at_30, at_300;  // true times: at once, and behind so many cycles of the program
+    std::int64_t owed;                 // cycles
+    Cycle at_3, at_12, at_30, at_300;  // true times behind so many cycles of the program
   };
-  for (const Row& row : {Row{0, 1000, 1006, 1024, 1060, 1600}, Row{8, 1008, 1014, 1032, 1068, 1608},
-                         // too much: the program has it all until that is even
-                         Row{-4, 1000, 1003, 1020, 1056, 1596}, Row{-50, 1000, 1003, 1012, 1030, 1550}}) {
+  // too little: of each cycle another one; too much: the program has it all; until that is even
+  for (const Row& row :
+       {Row{0, 1006, 1024, 1060, 1600}, Row{8, 1009, 1032, 1068, 1608}, Row{100, 1009, 1036, 1090, 1700},
+        Row{-4, 1003, 1020, 1056, 1596}, Row{-50, 1003, 1012, 1030, 1550}}) {
     dspic::TwoClocks clocks;
     Cycle now = 1000;
     clocks.settle(now);
-    clocks.correct(now, row.owed * kCycle);
+    clocks.correct(row.owed * kCycle);
     clocks.set_share(kHalf);
-    EXPECT_EQ(now, row.now) << row.owed;
+    EXPECT_EQ(clocks.true_at(now), now) << row.owed;
     const Cycle own = clocks.own_cycles(now);
     for (const auto& [after, at] :
          {std::pair{3, row.at_3}, {12, row.at_12}, {30, row.at_30}, {300, row.at_300}}) {

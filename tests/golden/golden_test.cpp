@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "4a5c3f35222c49ef"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "e42ca1a102a6f09e"},
-                                         Pinned{"push", "worlds/push.toml", 10, "5debde68d2675145"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "d0921b425ca70924"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "535f69a240aaed0d"},
+                                         Pinned{"push", "worlds/push.toml", 10, "0a12fd8f532fbf0e"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "94026a9f9e9d22b6"}),
+                                                "664e9f446f388859"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
