@@ -145,22 +145,25 @@ void LibraryCalls::entered(unsigned address) {
       return set_speed(site, 1, signed_w(0));
     case Function::Speed: {
       const int linear = signed_w(0), angular = signed_w(1), all = std::abs(linear) + std::abs(angular);
-      if (all <= kMaxSpeed) return;
       // the library adds in 16 bits: what goes beyond them becomes negative, and passes
-      const auto in_16_bits = [](int n) { return static_cast<int>(static_cast<std::int16_t>(n)); };
-      const auto wheel = [&](int n) {
-        return std::to_string(std::clamp(in_16_bits(n), -kMaxSpeed, kMaxSpeed));
+      const auto set = [](int n) {
+        return std::clamp(static_cast<int>(static_cast<std::int16_t>(n)), -kMaxSpeed, kMaxSpeed);
       };
-      const int seen = in_16_bits(all);
-      note("speed out of range", "e_set_speed()",
-           "got " + std::to_string(linear) + " and " + std::to_string(angular) +
-               " steps/s, expected magnitudes of together at most " + std::to_string(kMaxSpeed) +
-               (seen > kMaxSpeed
-                    ? "; the library leaves the speed as it is"
-                    : "; in 16 bits their sum is " + std::to_string(seen) + ", so the library sets " +
-                          wheel(linear - angular) + " left and " + wheel(linear + angular) + " right"),
-           "the motors are not faster");
-      return;
+      const int left = set(linear - angular), right = set(linear + angular),
+                seen = static_cast<std::int16_t>(all);
+      if (all > kMaxSpeed)
+        note("speed out of range", "e_set_speed()",
+             "got " + std::to_string(linear) + " and " + std::to_string(angular) +
+                 " steps/s, expected magnitudes of together at most " + std::to_string(kMaxSpeed) +
+                 (seen > kMaxSpeed
+                      ? "; the library leaves the speed as it is"
+                      : "; in 16 bits their sum is " + std::to_string(seen) + ", so the library sets " +
+                            std::to_string(left) + " left and " + std::to_string(right) + " right"),
+             "the motors are not faster");
+      // where the library's own code runs, it calls the functions of both wheels
+      if (seen > kMaxSpeed || !dspic::is_host_place(address)) return;
+      set_speed(site, 0, left);
+      return set_speed(site, 1, right);
     }
     case Function::Proximity:
       index("sensor", board_.selector() == drivers::kGumstixPosition ? kGumstixProximity : kProximity,

@@ -77,6 +77,34 @@ int main(void) { int i; e_init_port(); e_init_motors(); e_start_agendas_processi
   EXPECT_EQ(once.diagnoses_text() + turns.diagnoses_text(), "");
 }
 
+// under either HAL, whether the library's code calls the functions of both wheels or not
+TEST_F(Misuse, what_e_set_speed_sets_is_told_of_both_wheels) {
+  Robot& busy = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  while (1) e_set_speed(400, 100); })");
+  Robot& held = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  e_set_speed(300, 0); IEC0bits.T2IE = 0; while (1); })")
+                    .at(0.5, 0);
+  Robot& refused = add_robot_with_source(std::string(kHead) + R"(
+int main(void) { e_init_port(); e_init_motors(); e_start_agendas_processing();
+  e_set_speed(900, 200); while (1); })")
+                       .at(-0.5, 0);
+  run_for(12);
+  EXPECT_TRUE(
+      wording::reads(busy.diagnoses_text(),
+                     "e_set_speed_left(): wheel slow: got 300 steps/s, …e_set_speed_right(): wheel slow: got "
+                     "500 steps/s, …"))
+      << busy.diagnoses_text();
+  EXPECT_TRUE(wording::reads(held.diagnoses_text(),
+                             "e_set_speed_left(): wheel stands: the left wheel was given 300 steps/s, …"
+                             "e_set_speed_right(): wheel stands: the right wheel was given 300 steps/s, …"))
+      << held.diagnoses_text();
+  EXPECT_TRUE(
+      wording::reads(refused.diagnoses_text(), "e_set_speed(): speed out of range: got 900 and 200 …"))
+      << refused.diagnoses_text();
+}
+
 // what the robot does not do is no success here: neither ever switches its LED on
 TEST_F(Misuse, a_scan_that_is_held_off_and_agendas_beyond_the_heap_come_to_nothing) {
   Robot& held = add_robot_with_source(std::string(kHead) + R"(
