@@ -171,6 +171,9 @@ Budgets::Verdict Budgets::judge(const Budget& budget, const chip::ProfileReport&
       got = by_code->second;
       unit = " cycles, by its code";
     }
+  } else if (budget.of == Of::Interrupt &&
+             std::count(report.by_heart.begin(), report.by_heart.end(), budget.name)) {
+    missing = "is known by heart and not measured; use --hal dspic";
   } else if (budget.of == Of::Interrupt) {
     missing = "was never served";
     for (const auto& i : report.interrupts) {

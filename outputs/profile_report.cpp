@@ -2,6 +2,7 @@
 #include "outputs/profile_report.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -122,6 +123,10 @@ std::string to_text(const std::string& robot, const chip::ProfileReport& r) {
                        i.cycles.count, least_to_most(i.cycles), i.latency.min, i.latency.mean(),
                        i.latency.max, i.latency.max - i.latency.min, us(static_cast<double>(i.period.min)),
                        us(static_cast<double>(i.period.max)), i.merged, i.missed);
+  if (!r.by_heart.empty())
+    out += fmt::format(
+        "{}: known by heart; only ticks that call a function are listed, --hal dspic measures all\n",
+        fmt::join(r.by_heart, ", "));
   if (!r.waits.empty())
     out += fmt::format("\n{:<44} {:>8} {:>10} {:>8}  {}\n", "busy wait", "times", "longest", "share", "kind");
   for (std::size_t i = 0; i < r.waits.size() && i < kMostWaits; ++i) {
@@ -147,6 +152,7 @@ std::string to_json(const std::vector<Profiles::Named>& profiles) {
     j["slept"] = r.slept;
     j["waited"] = r.waited;
     j["in_handlers"] = r.in_handlers;
+    j["by_heart"] = r.by_heart;
     j["turn"] = json_of(r.turn);
     j["turn"]["place"] = r.turn_place;
     j["stack"] = {{"bytes", r.stack_bytes},

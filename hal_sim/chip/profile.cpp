@@ -444,6 +444,9 @@ ProfileReport Profile::report() const {
   report.slept = slept_;
   report.waited = from_ < 0 ? 0 : processor_.idle(to_) - idle_before_ - slept_;
   report.in_handlers = in_handlers_;
+  for (int irq = 0; irq < 64; ++irq)
+    if (served_by_heart_ >> irq & 1)
+      report.by_heart.push_back(dspic::vector_name(dspic::kFirstIrqVector + irq));
   // Functions, with who called the longest of their calls, and where they stand in the source.
   if (const FunctionTally& own = functions_.back(); own.own > 0)
     report.functions.push_back({name_of(handler_by_heart_), "", own.cycles, own.own, "", false});

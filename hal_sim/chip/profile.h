@@ -54,7 +54,7 @@ struct ProfileReport {
     Spread cycles;        ///< a wait, from the first round that changed nothing
     bool counts = false;  ///< a delay loop; else it polls
   };
-  Cycle from = 0, to = 0;  ///< what was seen
+  Cycle from = 0, to = 0;       ///< what was seen
   Cycle slept = 0, waited = 0;  ///< as the run's load counts them
   Cycle in_handlers = 0;
   Spread turn;  ///< of the main loop; count 0: none was found
@@ -66,6 +66,7 @@ struct ProfileReport {
   std::string stack_path;  ///< "main > drive | T2 > control_tick"
   std::vector<Function> functions;
   std::vector<Interrupt> interrupts;
+  std::vector<std::string> by_heart;  ///< of these hal_sim knows the handlers: charged, but not measured
   std::vector<Wait> waits;
 
   /// Share of the time spent neither asleep nor waiting, 0 to 1.

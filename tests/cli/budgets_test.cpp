@@ -26,6 +26,7 @@ chip::ProfileReport report() {
   t2.merged = 3;
   t2.missed = 5;
   r.interrupts = {t2};
+  r.by_heart = {"ADC"};
   return r;
 }
 
@@ -46,6 +47,8 @@ mean_us = 7
 max_cycles = 1
 [function.never]
 max_cycles = 1
+[interrupt.ADC]
+max_cycles = 1000
 [interrupt.T1]
 max_cycles = 1
 [interrupt.T2]
@@ -82,6 +85,7 @@ mean_turn_us = 68
             "pass  control: mean 100 of 103 cycles\n"
             "FAIL  endless: max: it never returned\n"
             "FAIL  never: max: it was never called\n"
+            "FAIL  ADC: max: it is known by heart and not measured; use --hal dspic\n"
             "FAIL  T1: max: it was never served\n"
             "pass  T2: max 120 of 120 cycles\n"
             "pass  T2: max_jitter 10 of 10 cycles\n"
