@@ -114,7 +114,6 @@ struct Program {
   std::vector<std::string> errors, warnings;
   std::string unread;  ///< an archive of a format that is not read, for what stays undefined
   std::vector<std::pair<Symbol, Symbol>> twice;    ///< two definitions of one name, the first one first
-  std::vector<std::pair<Symbol, Symbol>> owners;   ///< of one vector, of two modules of the library
   std::map<std::string, std::string> sources;      ///< of Options
   std::string moved_from, moved_to;                ///< of Options
   std::map<std::uint32_t, std::uint32_t> words;    ///< the image: program address to word

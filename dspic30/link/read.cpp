@@ -300,8 +300,6 @@ class Reader {
     };
     if (strength(own) == 3 && strength(*known) == 3) {
       program_.twice.emplace_back(*known, own);
-    } else if (strength(own) == 1 && strength(*known) == 1 && are_owners(*known, own)) {
-      program_.owners.emplace_back(*known, own);
     } else if (own.is_common && known->is_common) {
       known->size = std::max(known->size, own.size);
       known->align = std::max(known->align, own.align);
@@ -310,15 +308,6 @@ class Reader {
       *known = own;
     }
     return known;
-  }
-
-  /// Two modules of the library with a handler of one vector. A project's copy of a module is no other module.
-  static bool are_owners(const Symbol& one, const Symbol& other) {
-    const auto stem = [](const Symbol& s) {
-      const std::string file = s.from.substr(s.from.find_last_of("/(") + 1);
-      return file.substr(0, file.rfind('.'));
-    };
-    return is_handler(other.name) && !one.is_program && !other.is_program && stem(one) != stem(other);
   }
 
   bool read_vendor_relocations(const Member& member, const Elf& elf, const Elf::Elf_Shdr& header,
@@ -371,12 +360,6 @@ void define_registers(Program& program) {
 
 /// What the robot's linker calls a multiple definition.
 void tell_of_twice(Program& program) {
-  for (const auto& [first, second] : program.owners)
-    program.errors.push_back(
-        second.from + ": error: " + in_c(second.name) +
-        "(): got a second handler of this interrupt, expected one; the first is in " + first.from +
-        ": the robot's linker refuses two; call only one of these drivers, or take a form "
-        "of one that has another timer");
   if (program.twice.empty()) return;
   const Whereabouts places(program);
   for (const auto& [first, second] : program.twice)

@@ -147,8 +147,8 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
        kStart + "_main: btsc RCON, #SWR\n1: bra 1b\n" + kTimer + "2: bra 2b\n" + kDefault +
            "__T1Interrupt: reset\n",
        nullptr, ""},
-      {"a jump to the start by its address",
-       kStart + "_main: btsc RCON, #SWR\n1: bra 1b\n bset RCON, #SWR\n goto 0\n" + kDefault, nullptr, ""},
+      {"a jump to the start by its address", kStart + "_main: goto 0\n" + kDefault, "Reset",
+       "a jump to address 0: the program begins anew, and nothing is reset"},
       {"a trap with a handler that ends it",
        kStart + "_main: clr w2\n mov #5, w0\n repeat #17\n div.s w0, w2\n1: bra 1b\n" + kDefault +
            "__MathError: clr INTCON1\n mov #7, w2\n retfie\n",

@@ -223,7 +223,7 @@ const HostileProgram kHostile[] = {
     {"agenda_wild", MAIN("start(); e_activate_agenda((void (*)(void))0x1234, 10);")},
     {"agenda_host", MAIN("start(); e_activate_agenda(e_init_motors, 10);"), false},
     {"agenda_set_speed", MAIN("start(); e_activate_agenda((void (*)(void))e_set_speed_left, 1);"), false},
-    {"agenda_init_scan", MAIN("start(); e_activate_agenda((void (*)(void))e_init_ad_scan, 100);")},
+    {"agenda_init_scan", MAIN("start(); e_activate_agenda((void (*)(void))e_init_ad_scan, 100);"), false},
     {"agenda_main", MAIN("start(); e_activate_agenda((void (*)(void))main, 10);")},
     {"agenda_run_motor",
      MAIN("start(); { void run_left_motor(void); e_activate_agenda(run_left_motor, 1); "

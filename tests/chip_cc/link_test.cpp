@@ -365,34 +365,6 @@ TEST_F(Built, part_of_a_driver_beside_the_rest_of_the_librarys_is_refused) {
   }
 }
 
-// both are whole objects on the robot, so nothing lets one of the two handlers go
-TEST_F(Built, two_drivers_of_the_library_with_one_handler_are_refused) {
-  const std::string camera = "e_poxxxx_launch_capture(picture); while (!e_poxxxx_is_img_ready());";
-  struct Case {
-    const char* motors;
-    std::string calls;
-    std::vector<std::string> expected;  // none: builds
-  };
-  const std::string refuses =
-      "(): got a second handler of this interrupt, expected one; the first is in library(";
-  for (const Case& c : {
-           Case{"motor_led/e_motors.h",
-                "e_init_motors(); " + camera,
-                {"_T4Interrupt" + refuses, "_T5Interrupt" + refuses, "library(e_motors.c)",
-                 "library(e_timers.c)", "take a form of one that has another timer"}},
-           Case{"motor_led/e_motors.h", "e_init_motors();", {}},
-           Case{"motor_led/advance_one_timer/e_motors.h", "e_init_motors(); " + camera, {}},
-       })
-    for (const char* hal : {"sim", "dspic"}) {
-      file("main.c", std::string("#include <") + c.motors +
-                         ">\n#include <camera/fast_2_timer/e_poxxxx.h>\nchar picture[900];\n"
-                         "int main(void) { " +
-                         c.calls + " for (;;) ; }\n");
-      const std::string told = build(c.expected.empty(), hal);
-      for (const std::string& part : c.expected) EXPECT_TRUE(has(told, part)) << part << "\n" << told;
-    }
-}
-
 std::uint32_t vector_word(const dspic::FirmwareFile& image, unsigned irq, bool is_alternate = false) {
   return image.words.at((is_alternate ? 0x84 : 0x04) + 2 * (8 + irq));
 }
