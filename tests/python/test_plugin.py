@@ -161,7 +161,7 @@ def test_coverage_and_sanitize(mine, command):
     assert command("test", "--sanitize", cwd=folder).returncode == 1
 
 
-def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path):
+def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path, tmp_path_factory):
     """Programs are built side by side by many processes, each once or more, and nothing is in another one's way."""
     import threading
 
@@ -172,7 +172,8 @@ def test_two_shells_and_four_cores_share_a_cache(mine, command, tmp_path):
             "    w.run(0.05)\n    assert w.robots[0].variable('n') == n % 5\n")
     folder = mine(text)
     done = []
-    environment = {"XDG_CACHE_HOME": str(tmp_path / "cache")}
+    # not below the tests: pytest looks for them in each folder, also in those that come and go while it does
+    environment = {"XDG_CACHE_HOME": str(tmp_path_factory.mktemp("cache"))}
     shells = [threading.Thread(target=lambda: done.append(command("test", "-q", "-n", 4, cwd=folder, env=environment)))
               for _ in range(2)]
     for shell in shells:
