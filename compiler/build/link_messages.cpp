@@ -83,12 +83,10 @@ bool is_of_dsp_library(const std::string& name) {
 std::string hint_for(const std::string& name) {
   if (is_only_declared(name))
     return "the e-puck library declares this function and defines it nowhere, so the robot's linker refuses "
-           "it, "
-           "too";
+           "it, too";
   if (is_of_dsp_library(name))
     return "it is a function of Microchip's signal-processing library: put XC16's libdsp-elf.a into the "
-           "folder, or "
-           "write it";
+           "folder, or write it";
   if (is_of_webots(name))
     return "a controller runs on the robot and has not this function of Webots; docs/webots.md lists what "
            "there "

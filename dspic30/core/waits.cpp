@@ -235,9 +235,9 @@ void Waits::look(Cpu& cpu) {
       break;
     }
     if (cpu.repeating) continue;  // the window cuts it
+    // A round begins where it is in no function that it calls: those may be answered by heart.
     if (cpu.w[15] < outermost_) {
-      begin_round(
-          cpu);  // a round begins where it is in no function that it calls: those may be answered by heart
+      begin_round(cpu);
     } else if (behind_.first) {
       if (goes_elsewhere(cpu)) begin_round(cpu);
     } else if (cpu.watched_until <= cpu.true_now()) {

@@ -444,7 +444,7 @@ ProfileReport Profile::report() const {
   report.slept = slept_;
   report.waited = from_ < 0 ? 0 : processor_.idle(to_) - idle_before_ - slept_;
   report.in_handlers = in_handlers_;
-  for (int irq = 0; irq < 64; ++irq)
+  for (int irq = 0; irq < dspic::kIrqs; ++irq)
     if (served_by_heart_ >> irq & 1)
       report.by_heart.push_back(dspic::vector_name(dspic::kFirstIrqVector + irq));
   // Functions, with who called the longest of their calls, and where they stand in the source.

@@ -49,11 +49,10 @@ class AgendaMotor {
   /// `forward` as the Stepper's.
   explicit AgendaMotor(int forward) : forward_(forward) {}
 
-  AgendaCount count;                           ///< its node; count.active stays false while no node exists
-  int phase = 0;                               ///< the driver's idea of the rotor
-  bool phase_on = false;                       ///< power save: the next firing switches the coils off
-  std::int64_t commanded = 0;                  ///< steps counted by the driver, not wrapped
-  std::int64_t stepped = 0, switched_off = 0;  ///< firings, of either kind
+  AgendaCount count;           ///< its node; count.active stays false while no node exists
+  int phase = 0;               ///< the driver's idea of the rotor
+  bool phase_on = false;       ///< power save: the next firing switches the coils off
+  std::int64_t commanded = 0;  ///< steps counted by the driver, not wrapped
 
   /// Would it step on as before with that speed? Its coils alone are off until the next step, to which the
   /// rotor has come as far as it would.
@@ -78,14 +77,12 @@ class AgendaMotor {
     if (phase_on && saves_power()) {
       stepper.set_coils_only(0);
       phase_on = false;
-      ++switched_off;
       if (speed_ == 0) return false;
       set_cycle(step_ticks_ - kPowerSaveTicks);
       return true;
     }
     const int direction = step_direction();
     commanded += direction;
-    ++stepped;
     phase = (phase + direction * forward_) & 3;
     stepper.energise(board::kPhaseCoils[phase], at);
     if (saves_power()) {
@@ -173,8 +170,6 @@ class AgendaMotor {
       const int direction = step_direction(), turned = direction * forward_;
       const std::int64_t last_step = before_first + steps * period;
       commanded += steps * direction;
-      stepped += steps;
-      if (saves_power()) switched_off += phase_on ? steps : steps - 1;
       phase = static_cast<int>((phase + steps * turned) & 3);
       const auto step_at = [&](int back) { return line.cycle_of(last_step - back * period); };
       stepper.turn(steps, direction, step_at(0), steps > 1 ? step_at(1) : 0, steps > 2 ? step_at(2) : 0,

@@ -2,6 +2,7 @@
 #include "hal_sim/drivers/agenda_shares.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -68,8 +69,8 @@ void AgendaShares::count_firings(board::Wheel wheel, Cycle at) {
   const auto i = static_cast<std::size_t>(wheel);
   const AgendaMotor& m = motors_.of(wheel);
   counted_from_[i] = ticks_.is_running() && !ticks_.is_held() ? at : kNever;
-  stepped_[i] = m.stepped;
-  switched_off_[i] = m.switched_off;
+  commanded_[i] = m.commanded;
+  phase_on_[i] = m.phase_on;
 }
 
 void AgendaShares::settle_firings(board::Wheel wheel, Cycle at) {
@@ -79,7 +80,8 @@ void AgendaShares::settle_firings(board::Wheel wheel, Cycle at) {
   if (from == kNever || took > kLongest || !ticks_.is_running() || ticks_.is_held()) return;
   if (known_ != kAll) find();
   const AgendaMotor& m = motors_.of(wheel);
-  const std::int64_t steps = m.stepped - stepped_[i], offs = m.switched_off - switched_off_[i];
+  // one way with one speed; in power save a step and its end come by turns
+  const std::int64_t steps = std::abs(m.commanded - commanded_[i]), offs = steps + phase_on_[i] - m.phase_on;
   const Cycle due =
       m.saves_power() ? steps * costs_->motor_half + offs * costs_->motor_off : steps * costs_->motor_step;
   owed_q32_ += static_cast<std::int64_t>(due) * static_cast<std::int64_t>(kAllTicks) -

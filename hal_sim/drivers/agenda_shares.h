@@ -94,7 +94,8 @@ class AgendaShares {
   mutable std::uint64_t tick_share_q32_ = 0, calling_share_q32_ = 0, motor_share_q32_[2] = {0, 0};
   mutable Cycle tick_cycles_ = 0;
   Cycle counted_from_[2] = {kNever, kNever};
-  std::int64_t stepped_[2] = {0, 0}, switched_off_[2] = {0, 0};  // then
+  std::int64_t commanded_[2] = {0, 0};  // then
+  bool phase_on_[2] = {false, false};   // likewise
   mutable std::int64_t owed_q32_ = 0;
 };
 

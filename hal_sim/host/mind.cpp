@@ -53,15 +53,14 @@ void FirmwareMind::run_until(const sim::Scene& scene, sim::Clicks end) {
   const Cycle start = now();
   tell_asked(start);
   if (start >= board_horizon_) board_.exchange(start);
+  const Cycle until = cycle_at(end);
   if (runner_) {
     runner_->begin_window(start);
-    runner_->run_until(
-        cycle_at(end));  // who looks while a debugger holds it up looks at its begin, not ahead
+    runner_->run_until(until);
   }
-  now_ = cycle_at(end);
-  if (!runner_) return set_idle_until(find_idle_until());
-  tell_asked(now_);
-  if (runner_->turns() != turns_) {
+  now_ = until;  // who looks while a debugger holds the program up looks at the window's begin, not ahead
+  if (runner_) tell_asked(now_);
+  if (runner_ && runner_->turns() != turns_) {
     turns_ = runner_->turns();
     if (!runner_->hashes_events()) hash_ = board_.state_hash(now_) ^ runner_->hash() * 0xD6E8FEB86659FD93u;
   }
