@@ -225,7 +225,7 @@ std::string ProgramPlaces::who_runs() const {
     return has_handler(next) && is_own(handler(next))
                ? "; meanwhile " + text_of(handler(next)) + " ran"
                : "; meanwhile the handler of " + std::string(dspic::vector_name(next)) + " ran";
-  const std::string text = "; meanwhile " + text_of(own_code) + " ran";
+  std::string text = "; meanwhile " + text_of(own_code) + " ran";
   if (is_handler_code(own_code)) return text;
   return text + (vector == dspic::kNoVector
                      ? " with the interrupt masked"
