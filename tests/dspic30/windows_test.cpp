@@ -39,7 +39,7 @@ class Library final : public dspic::HostCalls {
       case 4:
         cpu.note_effect();
         percent_ = percent_ == 30 ? 7 : 30;
-        owed_q32_ += std::int64_t{percent_ == 30 ? -420 : 250} << 32;
+        owed_q32_ += (percent_ == 30 ? -420 : 250) * (std::int64_t{1} << 32);
         cpu.host_changed();
         return HostResult::done(21);
       default:
