@@ -42,6 +42,18 @@ bool can_write(const std::string& path, const char* option, std::vector<std::str
   return false;
 }
 
+bool write_file(const std::string& path, std::string_view text, const char* option,
+                std::vector<std::string>& problems) {
+  if (path.empty()) return true;
+  errno = 0;
+  std::ofstream out(path, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  if (out) return true;
+  problems.push_back(path + ": " + option + ": cannot be written: " + std::strerror(errno ? errno : EIO));
+  return false;
+}
+
 std::string output_file(const std::string& folder, const sim::WorldDesc& world, int robot) {
   std::string name = world.robots[static_cast<std::size_t>(robot)].name;
   if (name.find('/') != std::string::npos || name[0] == '.') {

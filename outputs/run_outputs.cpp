@@ -2,9 +2,6 @@
 #include "outputs/run_outputs.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <iostream>
 
 #include "install/places.h"
@@ -13,22 +10,6 @@
 #include "viewer/report.h"
 
 namespace outputs {
-
-namespace {
-
-// the whole text or an error; a file that could not be finished is named
-bool write_text(const std::string& path, const std::string& text, const char* option,
-                std::vector<std::string>& problems) {
-  std::ofstream out(path, std::ios::binary | std::ios::trunc);
-  errno = 0;
-  out << text;
-  out.close();
-  if (out) return true;
-  problems.push_back(path + ": " + option + ": cannot be written: " + std::strerror(errno ? errno : EIO));
-  return false;
-}
-
-}  // namespace
 
 std::vector<std::string> without_lost(std::vector<std::string> files,
                                       const std::vector<std::string>& problems) {
@@ -137,7 +118,7 @@ void RunOutputs::finish(const Summary& summary, std::vector<std::string>& proble
   if (recorder_ && !recorder_->flush()) problems.push_back(recorder_->error());
   if (images_ && images_->failed()) problems.push_back(images_->error());
   if (sound_ && !sound_->error().empty()) problems.push_back(sound_->error());
-  if (!a.summary.empty()) write_text(a.summary, to_json(summary), "--summary", problems);
+  write_file(a.summary, to_json(summary), "--summary", problems);
   if (auto* coverage = run_.coverage()) coverage->finish(problems);
   for (int r = 0; r < twin_.robots(); ++r)
     for (int port = 1; port <= 2; ++port)

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <iterator>
 
@@ -114,10 +113,9 @@ int assemble(const std::string& name, const std::string& output) {
   }
   dspic::FirmwareFile file;
   file.words = image.program;
-  std::ofstream out(output, std::ios::binary);
-  if (!(out << dspic::to_hex(file)).flush()) {
-    complain({output + ": -o: cannot be written"});
-    return kBadInput;
+  if (!outputs::write_file(output, dspic::to_hex(file), "-o", problems)) {
+    complain(problems);
+    return kInvalidRun;
   }
   std::cout << fmt::format("{}: {} words\n", output, image.program.size());
   return kPass;

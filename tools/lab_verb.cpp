@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 
@@ -19,6 +18,7 @@
 #include "outputs/output_folder.h"
 #include "sim_core/base/did_you_mean.h"
 #include "sim_core/base/file_uses.h"
+#include "sim_core/base/output_file.h"
 #include "tools/command_line.h"
 #include "tools/lab_replay.h"
 #include "tools/printable.h"
@@ -59,17 +59,6 @@ std::vector<const lab::Exercise*> choose(const std::vector<lab::Exercise>& all,
   return chosen;
 }
 
-/// A file that is written at the end; it is opened before anything runs.
-bool write_file(const std::string& file, const char* option, const std::string& text,
-                std::vector<std::string>& problems) {
-  if (file.empty()) return true;
-  std::ofstream out(file, std::ios::trunc | std::ios::binary);
-  out << text;
-  if (out.flush()) return true;
-  problems.push_back(file + ": " + option + ": cannot be written");
-  return false;
-}
-
 /// What a command needs besides, to do the same run again.
 std::string options_text(const LabArguments& a) {
   std::string text;
@@ -83,10 +72,9 @@ std::string options_text(const LabArguments& a) {
 void write_tables(const LabArguments& a, const lab::Class& all, std::vector<std::string>& problems) {
   std::error_code none;
   const std::string name = fs::weakly_canonical(a.mine, none).filename().string();  // of "." too
-  if (!a.html.empty())
-    write_file(a.html, "--html", lab::class_html(all, a.mine.empty() ? "The lab" : "The lab: " + name),
-               problems);
-  if (!a.junit.empty()) write_file(a.junit, "--junitxml", lab::class_junit(all), problems);
+  outputs::write_file(a.html, lab::class_html(all, a.mine.empty() ? "The lab" : "The lab: " + name), "--html",
+                      problems);
+  outputs::write_file(a.junit, lab::class_junit(all), "--junitxml", problems);
 }
 
 /// Somebody has ended it before all was tried.
@@ -120,8 +108,8 @@ int judge_class(const LabArguments& a, const std::vector<const lab::Exercise*>& 
   guard.finishing();
   std::cout << '\n' << lab::class_notes(all);
   std::vector<std::string> problems;
-  if (!a.csv.empty()) write_file(a.csv, "--csv", lab::class_csv(all), problems);
-  if (!a.runs.empty()) write_file(a.runs, "--runs", lab::class_runs_csv(all), problems);
+  outputs::write_file(a.csv, lab::class_csv(all), "--csv", problems);
+  outputs::write_file(a.runs, lab::class_runs_csv(all), "--runs", problems);
   write_tables(a, all, problems);
   complain(problems);
   if (end_asked() != 0) return told_end();
@@ -146,16 +134,16 @@ void draw_plots(const std::string& file, const lab::Cell& cell, std::vector<std:
 int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& chosen,
               const lab::Programs& programs) {
   std::vector<std::string> problems;
-  std::ofstream csv;
+  std::unique_ptr<sim::OutputFile> csv;
   const std::string runs = !a.csv.empty() ? a.csv : a.runs;
   const char* const runs_option = !a.csv.empty() ? "--csv" : "--runs";
   if (!runs.empty()) {
-    csv.open(runs, std::ios::trunc);
-    if (!csv) {
-      complain({runs + ": " + runs_option + ": cannot be written"});
+    csv = std::make_unique<sim::OutputFile>(runs, runs_option);
+    csv->append_lines(lab::csv_header());
+    if (!csv->error().empty()) {
+      complain({csv->error()});
       return kBadInput;
     }
-    csv << lab::csv_header();
   }
   lab::Class all;
   all.exercises = chosen;
@@ -175,7 +163,7 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
       break;
     }
     for (const lab::StepResult& step : cell.steps)
-      if (csv.is_open()) csv << lab::csv_rows(e->id, step) << std::flush;
+      if (csv) csv->append_lines(lab::csv_rows(e->id, step));
     draw_plots(a.plot, cell, problems);
     ++(cell.verdict == lab::Verdict::None   ? missing
        : lab::is_failure(cell.verdict)      ? failed
@@ -195,8 +183,7 @@ int judge_one(const LabArguments& a, const std::vector<const lab::Exercise*>& ch
   }
   guard.finishing();
   all.students.push_back(std::move(one));
-  csv.flush();
-  if (csv.is_open() && !csv) problems.push_back(runs + ": " + runs_option + ": cannot be written");
+  if (csv && !csv->error().empty()) problems.push_back(csv->error());
   write_tables(a, all, problems);
   complain(problems);
   if (end_asked() != 0) return told_end();

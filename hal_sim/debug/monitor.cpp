@@ -182,6 +182,8 @@ std::string Monitor::trace(const std::string& rest) {
     const Stop stop = session_.run(Plan::AnyInstruction, idle_);
     if (stop.why != Stop::Why::Step) break;
   }
+  out.close();
+  if (!out) return fmt::format("trace: {}: cannot be written\n", name) + where();
   return fmt::format("{} instructions in {}\n", n, name) + where();
 }
 

@@ -2,6 +2,7 @@
 #include "sim_core/base/output_file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -9,9 +10,9 @@
 
 namespace sim {
 
-OutputFile::OutputFile(const std::string& path, const std::string& option)
+OutputFile::OutputFile(const std::string& path, const std::string& option, bool keeps)
     : where_(option.empty() ? path : path + ": " + option) {
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | (keeps ? 0 : O_TRUNC) | O_CLOEXEC, 0666);
   if (file_ < 0) fail(std::strerror(errno));
   has_places_ = file_ >= 0 && ::lseek(file_, 0, SEEK_CUR) >= 0;
 }
@@ -50,6 +51,13 @@ void OutputFile::append(std::string_view records, std::string_view end) {
     const bool cut = ::ftruncate(file_, size_) == 0;
     if (cut && !end.empty() && ::pwrite(file_, end.data(), end.size(), size_) < 0) fail("its end is lost");
   }
+}
+
+void OutputFile::clear() {
+  size_ = 0;
+  struct stat info {};
+  if (file_ < 0 || ::fstat(file_, &info) != 0 || !S_ISREG(info.st_mode)) return;
+  if (::ftruncate(file_, 0) != 0) fail(std::strerror(errno));
 }
 
 void OutputFile::close() {

@@ -12,7 +12,8 @@ namespace sim {
 class OutputFile {
  public:
   /// `option`: what the file was asked for with, for messages: "--vcd"; empty: nothing is said about it.
-  explicit OutputFile(const std::string& path, const std::string& option = "");
+  /// `keeps`: what is in the file stays until clear().
+  explicit OutputFile(const std::string& path, const std::string& option = "", bool keeps = false);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -31,6 +32,8 @@ class OutputFile {
   std::int64_t size() const { return size_; }
   /// Cuts off or goes on: where append() writes from now on.
   void set_size(std::int64_t size) { size_ = size; }
+  /// What was in the file before goes; nothing for a pipe or a device.
+  void clear();
   void close();
   void fail(const std::string& reason);
   /// "PATH: OPTION: cannot be written: reason", or empty.
