@@ -273,7 +273,6 @@ TEST_P(DebugExpressions, mistakes_are_named) {
       {"goto 1e15", "goto: got '1e15', expected a time such as 1.5s, or a cycle"},
       {"trace", "trace: got '', expected a file that can be written"},
       {"trace /nonexistent/x 3", "trace: got '/nonexistent/x', expected a file that can be written"},
-      {"trace /dev/full 3", "trace: /dev/full: cannot be written"},
       {"trace t.txt 0", "trace: got '0', expected a number of instructions from 1 to 10000000"},
       {"trace t.txt 3x", "trace: got '3x', expected a number of instructions from 1 to 10000000"},
       {"trace t.txt 99999999999",

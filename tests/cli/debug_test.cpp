@@ -113,6 +113,7 @@ TEST_P(Debug, a_trace_has_an_instruction_a_line) {
     ++lines;
   }
   EXPECT_EQ(lines, 50);
+  expect_in_order(debug("trace /dev/full 50\n"), {"trace: /dev/full: cannot be written", "cycle"});
 }
 
 /// What a command answered: the lines between it and the next prompt.
