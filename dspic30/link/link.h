@@ -87,6 +87,7 @@ struct Relocation {
 struct Section {
   std::string name;
   std::string from;  ///< its module
+  int module = 0;    ///< the same, of all that were read
   Kind kind = Kind::Ram;
   std::uint32_t flags = 0;  ///< memory_spaces.h
   std::uint32_t size = 0, align = 1;
@@ -114,6 +115,7 @@ struct Program {
   std::vector<std::string> errors, warnings;
   std::string unread;  ///< an archive of a format that is not read, for what stays undefined
   std::vector<std::pair<Symbol, Symbol>> twice;    ///< two definitions of one name, the first one first
+  std::vector<std::pair<Symbol, Symbol>> rivals;   ///< the same of the library's handlers: of two drivers
   std::map<std::string, std::string> sources;      ///< of Options
   std::string moved_from, moved_to;                ///< of Options
   std::map<std::uint32_t, std::uint32_t> words;    ///< the image: program address to word

@@ -8,6 +8,8 @@
 //
 // Order within a kind is that of the inputs, so the same inputs give the same image.
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "dspic30/link/link.h"
 #include "dspic30/link/memory_spaces.h"
@@ -396,25 +398,63 @@ bool is_handler(const std::string& name) {
   return false;
 }
 
+/// Of several drivers with one handler it is that one's which the program calls, of whose module something else
+/// is used; two of those are what the robot's linker calls a multiple definition.
+static void choose_handlers(Program& program) {
+  std::set<int> used;
+  for (const Section& s : program.sections)
+    if (s.used && s.kind != Kind::Debug) used.insert(s.module);
+  std::map<std::string, std::vector<const Symbol*>> all;
+  for (const auto& [first, second] : program.rivals) {
+    auto& those = all[first.name];
+    if (those.empty()) those.push_back(&first);
+    those.push_back(&second);
+  }
+  for (auto& [name, those] : all) {
+    const Symbol* chosen = nullptr;
+    for (const Symbol* s : those) {
+      if (!used.count(s->section->module)) continue;
+      if (chosen)
+        program.errors.push_back(
+            s->from + ": error: " + in_c(name) +
+            "(): got a second handler of this interrupt, expected one; the first is in " + chosen->from +
+            ": the robot's linker refuses two; call functions of one of these drivers only, or take a form "
+            "of "
+            "one that has another timer");
+      else
+        chosen = s;
+    }
+    if (chosen) *program.global(name) = *chosen;
+  }
+}
+
 // as XC16 does, all of the program's own variables stay: somebody may look at them, or set them
 void keep_used(Program& program) {
   place_commons(program);
+  std::set<std::string> rivals;
+  for (const auto& [first, second] : program.rivals) rivals.insert(first.name);
   std::vector<Section*> todo;
   const auto keep = [&](Section* s) {
     if (s && !s->used) s->used = true, todo.push_back(s);
   };
   keep(program.global("__reset")->section);
   for (auto& [name, symbol] : program.globals)
-    if (is_handler(name) || name == "__DefaultInterrupt" ||
+    if ((is_handler(name) && !rivals.count(name)) || name == "__DefaultInterrupt" ||
         (symbol->section && symbol->section->kind == Kind::Configuration))
       keep(symbol->section);
   for (Section& s : program.sections)
     if (s.kind == Kind::Eeprom || (s.kind == Kind::Ram && s.is_program)) keep(&s);
-  while (!todo.empty()) {
-    Section* s = todo.back();
-    todo.pop_back();
-    for (const Relocation& r : s->relocations) keep(r.symbol->section);
-  }
+  const auto keep_all = [&] {
+    while (!todo.empty()) {
+      Section* s = todo.back();
+      todo.pop_back();
+      for (const Relocation& r : s->relocations) keep(r.symbol->section);
+    }
+  };
+  keep_all();
+  choose_handlers(program);
+  for (const std::string& name : rivals) keep(program.global(name)->section);
+  keep_all();
   // debugging information of what stays; of what goes its addresses are 0
   for (Section& s : program.sections) s.used |= s.kind == Kind::Debug;
 }

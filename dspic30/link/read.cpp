@@ -197,6 +197,7 @@ class Reader {
     std::vector<Section*> sections(headers->size(), nullptr);
     const Elf::Elf_Shdr* table = nullptr;
     const bool is_vendors = is_of_vendor(member, elf);
+    ++modules_;
     name_by_source(member, is_vendors);
     if (!member.is_of_archive) of_program_.insert(member.name);
     // Sections that reach the chip, and our debugging information; a vendor's is not read.
@@ -212,6 +213,7 @@ class Reader {
       Section& s = program_.sections.emplace_back();
       s.name = name->str();
       s.from = member.name;
+      s.module = modules_;
       s.is_hal = member.is_hal;
       s.is_program = !member.is_of_library;
       s.kind = kind_of(h, *name);
@@ -300,6 +302,8 @@ class Reader {
     };
     if (strength(own) == 3 && strength(*known) == 3) {
       program_.twice.emplace_back(*known, own);
+    } else if (strength(own) == 1 && strength(*known) == 1 && are_rivals(*known, own)) {
+      program_.rivals.emplace_back(*known, own);
     } else if (own.is_common && known->is_common) {
       known->size = std::max(known->size, own.size);
       known->align = std::max(known->align, own.align);
@@ -308,6 +312,15 @@ class Reader {
       *known = own;
     }
     return known;
+  }
+
+  /// Two modules of the library with a handler of one vector. A project's copy of a module is no other module.
+  static bool are_rivals(const Symbol& one, const Symbol& other) {
+    const auto stem = [](const Symbol& s) {
+      const std::string file = s.from.substr(s.from.find_last_of("/(") + 1);
+      return file.substr(0, file.rfind('.'));
+    };
+    return is_handler(other.name) && one.section && other.section && stem(one) != stem(other);
   }
 
   bool read_vendor_relocations(const Member& member, const Elf& elf, const Elf::Elf_Shdr& header,
@@ -346,6 +359,7 @@ class Reader {
 
   Program& program_;
   std::set<std::string> of_program_;  // modules outside of archives
+  int modules_ = 0;
   std::vector<std::unique_ptr<MemoryBuffer>> buffers_;
   std::vector<std::unique_ptr<object::Archive>> archives_;
 };

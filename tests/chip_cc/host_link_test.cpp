@@ -412,19 +412,31 @@ TEST(TwoHals, copy_of_a_driver_is_the_programs) {
   expect_same_places(pair, "copy");
 }
 
-// a driver of the library that takes the same timer is a conflict as ever, and the agenda is the chip's
+// the agenda beside the fast agenda: the robot's linker refuses the second handler, and so do both HALs
 TEST(TwoHals, library_driver_on_the_same_timer) {
-  const Pair pair = program(
-      "#include <motor_led/advance_one_timer/e_motors.h>\n"
-      "#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>\n"
-      "void f(void) {}\n"
-      "int main(void) { e_init_motors(); e_set_speed_left(1); e_configure_timer(1); "
-      "e_activate_agenda(f, 10); for (;;) ; }\n");
-  EXPECT_TRUE(wording::reads(
-      pair.notes(), "agenda: the chip's own driver, since library(e_agenda_fast.c) has _T2Interrupt()"));
-  EXPECT_FALSE(is_filled(pair.sim, "e_set_speed_left"));
-  EXPECT_EQ(pair.of_sim.conflicts, pair.of_dspic.conflicts);
-  expect_same_places(pair, "fast agenda");
+  const fs::path folder = workplace() / "two-agendas";
+  fs::create_directories(folder);
+  std::ofstream(folder / "main.c")
+      << "#include <motor_led/advance_one_timer/e_motors.h>\n"
+         "#include <motor_led/advance_one_timer/fast_agenda/e_agenda_fast.h>\n"
+         "void f(void) {}\n"
+         "int main(void) { e_init_motors(); e_set_speed_left(1); e_configure_timer(1); "
+         "e_activate_agenda(f, 10); for (;;) ; }\n";
+  cc::BuildOptions options;
+  options.source_dir = folder;
+  options.cache_dir = workplace() / "cache";
+  for (const char* hal : {"sim", "dspic"}) {
+    options.hal = hal;
+    options.output = workplace() / "two-agendas.elf";
+    const cc::BuildResult result = cc::build_image(options);
+    std::string errors;
+    for (const std::string& error : result.errors) errors += error + "\n";
+    EXPECT_FALSE(result.ok) << hal;
+    EXPECT_NE(errors.find("_T2Interrupt(): got a second handler of this interrupt"), std::string::npos)
+        << errors;
+    EXPECT_NE(errors.find("e_agenda_fast.c"), std::string::npos) << errors;
+    EXPECT_NE(errors.find("e_agenda.c"), std::string::npos) << errors;
+  }
 }
 
 // more code than a RCALL reaches: calls go by handles, which lead to the function's place

@@ -365,6 +365,48 @@ TEST_F(Built, part_of_a_driver_beside_the_rest_of_the_librarys_is_refused) {
   }
 }
 
+// both are whole objects on the robot, so nothing lets one of the two handlers go; a driver of which nothing is
+// called is no driver, whatever its settings' file asks for
+TEST_F(Built, two_drivers_of_the_library_with_one_handler_are_refused) {
+  const std::string fast = "e_poxxxx_launch_capture(picture); while (!e_poxxxx_is_img_ready());",
+                    slow =
+                        "e_po3030k_config_cam(0, 0, 160, 160, 8, 8, GREY_SCALE_MODE); "
+                        "e_po3030k_launch_capture(picture); while (!e_po3030k_is_img_ready());";
+  struct Case {
+    const char *motors, *camera;
+    std::string calls;
+    std::vector<std::string> expected;  // none: builds
+  };
+  for (const Case& c : {
+           Case{"motor_led/e_motors.h",
+                "fast_2_timer/e_poxxxx.h",
+                "e_init_motors(); " + fast,
+                {"error: _T5Interrupt(): got a second handler of this interrupt, expected one; the first is "
+                 "in "
+                 "library(",
+                 "library(e_motors.c)", "library(e_timers.c)", "take a form of one that has another timer"}},
+           Case{"motor_led/e_motors.h",
+                "slow_3_timer/e_po3030k.h",
+                "e_init_motors(); " + slow,
+                {"_T4Interrupt(): got a second", "_T5Interrupt(): got a second"}},
+           Case{"motor_led/e_motors.h", "fast_2_timer/e_poxxxx.h", "e_init_motors();", {}},
+           Case{"motor_led/advance_one_timer/e_motors.h",
+                "fast_2_timer/e_poxxxx.h",
+                "e_init_motors(); " + fast,
+                {}},
+           Case{"motor_led/advance_one_timer/e_motors.h",
+                "slow_3_timer/e_po3030k.h",
+                "e_init_motors(); " + slow,
+                {}},
+       })
+    for (const char* hal : {"sim", "dspic"}) {
+      file("main.c", std::string("#include <") + c.motors + ">\n#include <camera/" + c.camera +
+                         ">\nchar picture[900];\nint main(void) { " + c.calls + " for (;;) ; }\n");
+      const std::string told = build(c.expected.empty(), hal);
+      for (const std::string& part : c.expected) EXPECT_TRUE(has(told, part)) << part << "\n" << told;
+    }
+}
+
 std::uint32_t vector_word(const dspic::FirmwareFile& image, unsigned irq, bool is_alternate = false) {
   return image.words.at((is_alternate ? 0x84 : 0x04) + 2 * (8 + irq));
 }
