@@ -63,8 +63,10 @@ void Waits::begin_here(Cpu& cpu) {
     if (of_head->memory.are_as_read(cpu.ram.data())) {
       comes_round_ = of_head;
       left_ = of_head->took;
-    } else if (is_passed(cpu, *of_head, look_began_)) {
-      return;
+    } else {
+      at_head_ = true;
+      look_head_ = cpu.next;
+      if (is_passed(cpu, *of_head, look_began_)) return;
     }
   }
   state_ = State::Looking;
