@@ -97,7 +97,7 @@ void Cpu::run_each() {
   if (memory_check && (written & kAllWritten) == kAllWritten) return run_checked();
   while (now < deadline) {
     const Decoded* const d = at = next;
-    if (heads.has_any() && heads.has(d) && stops_at(d)) return;
+    if (heads.has(d) && stops_at(d)) return;
     const Decoded* following = looked_at(d)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);

@@ -10,6 +10,7 @@ void WaitHeads::add(const Decoded* d) {
   const std::ptrdiff_t place = d - code_;
   if (heads_.empty()) heads_.resize(kFewest);
   while (!free_slot(place) && heads_.size() < kMost) widen();
+  some_ |= std::uint64_t{1} << (place & 63);
   put({0, static_cast<std::int32_t>(place), kFirstPause, 0});
 }
 

@@ -14,11 +14,13 @@ namespace dspic {
 
 class WaitHeads {
  public:
-  bool has_any() const { return !heads_.empty(); }
-  bool has(const Decoded* d) const { return find(d) != nullptr; }
+  bool has(const Decoded* d) const { return (some_ >> ((d - code_) & 63) & 1) != 0 && find(d); }
   /// From now on one is here.
   void add(const Decoded* d);
-  void forget() { heads_.clear(); }
+  void forget() {
+    heads_.clear();
+    some_ = 0;
+  }
   /// The program goes on in other words, alike and in the same order; `code` is the first. `mark` is called for
   /// each head there.
   template <class Mark>
@@ -87,6 +89,7 @@ class WaitHeads {
   }
 
   const Decoded* code_ = nullptr;
+  std::uint64_t some_ = 0;   // a bit for each place with a head, by its lowest bits: others need no search
   std::vector<Head> heads_;  // a power of two, or none
 };
 

@@ -242,11 +242,11 @@ void Waits::look(Cpu& cpu) {
       begin_round(cpu);
     } else if (behind_.first) {
       if (goes_elsewhere(cpu)) begin_round(cpu);
-    } else if (cpu.watched_until <= cpu.true_now()) {
+    } else if (cpu.watched_until < kNever && cpu.watched_until <= cpu.true_now()) {
       fail(cpu);
     } else if (cpu.next == round.first) {
       end_round(cpu);
-    } else if (!is_turned_ && cpu.heads.has_any() && cpu.heads.has(cpu.next)) {
+    } else if (!is_turned_ && cpu.heads.has(cpu.next)) {
       is_turned_ = true;  // so that a wait has one head, wherever in it the look began
       begin_here(cpu);
       if (comes_round_) break;

@@ -81,13 +81,13 @@ std::string parse_floor_image(std::string_view bytes, FloorDesc& floor) {
     cairo_surface_flush(flat);
     floor.image_width = width;
     floor.image_height = height;
-    floor.image_rgb.clear();
+    floor.image_rgb.resize(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    std::uint8_t* to = floor.image_rgb.data();
     for (int y = 0; y < height; ++y) {
       const auto* row = reinterpret_cast<const std::uint32_t*>(
           cairo_image_surface_get_data(flat) + static_cast<long>(y) * cairo_image_surface_get_stride(flat));
-      for (int x = 0; x < width; ++x) {
-        for (int shift : {16, 8, 0}) floor.image_rgb.push_back(static_cast<std::uint8_t>(row[x] >> shift));
-      }
+      for (int x = 0; x < width; ++x)
+        for (int shift = 16; shift >= 0; shift -= 8) *to++ = static_cast<std::uint8_t>(row[x] >> shift);
     }
     cairo_surface_destroy(flat);
   }
