@@ -29,10 +29,11 @@ class TwoClocks {
       settled_ = now;
       return;
     }
-    const Wide sum = Wide{now - settled_} * stolen_q32_ + rest_;
-    const Cycle of_share = whole(sum), of_extra = std::min(now - settled_, extra_),
+    const Cycle own = now - settled_, of_share = taken_by_share(own), of_extra = std::min(own, extra_),
                 taken = of_share + of_extra;
-    rest_ = static_cast<std::int64_t>(sum - (Wide{of_share} << 32));
+    // what is left fits, and so the product may go round
+    rest_ += static_cast<std::int64_t>(static_cast<std::uint64_t>(own) * stolen_q32_ -
+                                       (static_cast<std::uint64_t>(of_share) << 32));
     extra_ -= of_extra;
     taken_ += taken;
     now += taken;
@@ -69,7 +70,14 @@ class TwoClocks {
   using Wide = __int128;
   static constexpr std::uint64_t kOne = std::uint64_t{1} << 32;
   static Cycle whole(Wide sum) { return sum < 0 ? 0 : static_cast<Cycle>(sum >> 32); }
-  Cycle stolen(Cycle own) const { return whole(Wide{own} * stolen_q32_ + rest_) + std::min(own, extra_); }
+  Cycle taken_by_share(Cycle own) const {
+    // as is nearly always, all fits into 64 bits: at most 99 times what the program has
+    constexpr Cycle kSoon = 1 << 24;
+    if (own >= kSoon) return whole(Wide{own} * stolen_q32_ + rest_);
+    const std::int64_t sum = own * static_cast<std::int64_t>(stolen_q32_) + rest_;
+    return sum < 0 ? 0 : sum >> 32;
+  }
+  Cycle stolen(Cycle own) const { return taken_by_share(own) + std::min(own, extra_); }
   /// The program's time from settled_ on.
   Cycle first_at(Cycle wanted) const {
     if (extra_ > 0) {

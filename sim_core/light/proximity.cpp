@@ -317,15 +317,22 @@ std::vector<double> optics_reach_m(const ProximityOptics& optics) {
   return reach_m;
 }
 
+/// `at` of a whole quantum. (A function of its own: half of all calls need not come here, and it keeps much.)
+__attribute__((noinline)) static ProximityResponse sense_around(const Scene& scene, int robot,
+                                                                const SensorOptics& s, Clicks at,
+                                                                bool sees_ground) {
+  const Surroundings& around = surroundings(scene, robot, at);
+  if (!sees_ground && around.items.empty()) return s.nothing;
+  RayEnd ends[kMostRays];
+  return shoot(scene, robot, s, around, ends) ? respond(s, ends) : s.nothing;
+}
+
 ProximityResponse sense_proximity(const Scene& scene, int robot, int sensor, Clicks at) {
   const SensorOptics& s = optics_of(scene, robot, sensor);
   const bool sees_ground = s.meets_floor || scene.layout().ground.has_ramps();
   at = quantised(at);
   if (!sees_ground && !scene.neighbours().may_see(robot, at)) return s.nothing;
-  const Surroundings& around = surroundings(scene, robot, at);
-  if (!sees_ground && around.items.empty()) return s.nothing;
-  RayEnd ends[kMostRays];
-  return shoot(scene, robot, s, around, ends) ? respond(s, ends) : s.nothing;
+  return sense_around(scene, robot, s, at, sees_ground);
 }
 
 FlatWall::FlatWall(const ProximityConfig& config, const Surface& surface)
