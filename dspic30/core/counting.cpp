@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "dspic30/core/cpu.h"
+#include "dspic30/core/semantics.h"
 
 namespace dspic {
 
@@ -458,10 +459,26 @@ class CountProof {
     return result;
   }
 
+  /// A function of the host's that has no effect: what it is given and reads stays, and so its answer does, up to
+  /// where the look is over anyway.
+  bool asks_host() {
+    constexpr unsigned kArguments = 4, kScratch = 8;
+    for (unsigned n = 0; n < kArguments; ++n) stays(of_register(n));
+    for (unsigned n = kArguments; n < kScratch; ++n)
+      if (written_ >> n & 1) stays(registers_[n]);
+    works_on_ram();
+    put_register(0, {});
+    return is_one_;
+  }
+
   bool follows(const CountStep& step) {
     const unsigned address = cpu_.address_of(step.at);
     // What cannot be followed ends the proof.
     if (address >= kFlashEnd || step.touched.count > step.touched.places.size()) return false;
+    if (cpu_.table().plain(step.at) == &call_host) {
+      step_ = &step;
+      return asks_host();
+    }
     const Row* const row = find_row(cpu_.program.read(address));
     if (!row) return false;
     const Fields f = fields_of(*row, cpu_.program.read(address));
@@ -549,13 +566,16 @@ class CountProof {
     return true;
   }
 
-  // what it takes stays, so what it gives stays
-  bool works_still() {
-    for (std::size_t i = 0; i < sources_count_; ++i) stays(sources_[i]);
+  void works_on_ram() {
     for (unsigned i = 0; i < step_->touched.count; ++i)
       if (const unsigned place = step_->touched.places[i]; !(place & 1)) stays(of_ram(place));
     for (unsigned i = 0; i < step_->touched.count; ++i)
       if (const unsigned place = step_->touched.places[i]; place & 1) put_ram(place & 0xFFFE, {});
+  }
+  // what it takes stays, so what it gives stays
+  bool works_still() {
+    for (std::size_t i = 0; i < sources_count_; ++i) stays(sources_[i]);
+    works_on_ram();
     for (unsigned n = 0; n < 16; ++n)
       if (step_->at->writes >> n & 1) put_register(n, {});
     if (to_register_ >= 0) put_register(static_cast<unsigned>(to_register_), {});

@@ -122,7 +122,8 @@ void HostLibrary::reset(Cycle at) {
   variables_.reset();
   heap_ = {};
   zero_steps_ = {};
-  walk_begins_ = false;
+  walk_begins_ = handler_holds_ = false;
+  owed_q32_ = 0;
   begin(at);
   note(~std::uint64_t{0}, at);
 }
@@ -183,6 +184,8 @@ std::uint64_t HostLibrary::share_q32() const {
 }
 
 void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
+  if (held_ >> handler & !held) settle_hold(handler, at);
+  if (held && handler == kScanHandler) scan_held_at_ = at;
   const auto bit = static_cast<std::uint8_t>(1u << handler);
   held_ = static_cast<std::uint8_t>(held ? held_ | bit : held_ & ~bit);
   if (handler == kAgendaHandler)
@@ -191,8 +194,28 @@ void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
     held ? scan().hold(at) : scan().release(at);
 }
 
+/// While a handler is held off its share is taken of nothing. Ticks that call a function keep the others away: what
+/// those take in all is due all the same. The converter's events come meanwhile: each that was not lost is charged
+/// by itself, and so too much or too little where handlers and events beat slowly.
+void HostLibrary::settle_hold(int handler, Cycle at) {
+  if (handler == kAgendaHandler) {
+    if (!std::exchange(handler_holds_, false)) return;
+    const Cycle took = at - handler_began_;
+    if (took < drivers::kAgendaTickCycles)
+      owed_q32_ += took * static_cast<std::int64_t>(agendas().shares().share_q32() -
+                                                    agendas().shares().calling_share_q32());
+    return;
+  }
+  const Cycle first = source_event(kScanHandler, scan_held_at_);
+  const bool has_come = first <= at;
+  if (has_come && source_event(kScanHandler, first) <= at) return;
+  owed_q32_ += (at - scan_held_at_) * static_cast<std::int64_t>(variables_.share_q32()) -
+               (has_come ? pending_cycles() << 32 : 0);
+}
+
 void HostLibrary::begin_handler(Cycle at) {
   handler_began_ = at;
+  handler_holds_ = true;
   agendas().begin(at);
   walk_begins_ = true;
 }

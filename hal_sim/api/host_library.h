@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <utility>
 
 #include "dspic30/core/cpu.h"
 #include "dspic30/core/host_calls.h"
@@ -63,7 +64,9 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint16_t peek(unsigned address, Cycle at) const override;
   Cycle due() const override;
   std::uint64_t share_q32() const override;
-  std::int64_t take_owed_q32() const override { return agendas().shares().take_owed_q32(); }
+  std::int64_t take_owed_q32() const override {
+    return std::exchange(owed_q32_, 0) + agendas().shares().take_owed_q32();
+  }
   void begin_handler(Cycle at) override;
   HandlerStep next_in_handler(Cycle at) override;
   void end_handler(Cycle at) override;
@@ -109,6 +112,7 @@ class HostLibrary final : public dspic::HostCalls {
   void effect(const Call& call);
   void follow_ticks(Cycle at);
   void changed(const Call& call);
+  void settle_hold(int handler, Cycle at);
 
   // --- agendas
   drivers::AgendaTimer& agendas() { return drivers_->agendas(); }
@@ -148,6 +152,9 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
   Cycle handler_began_ = 0;
+  bool handler_holds_ = false;  // the agendas', since then, and not yet let in again
+  Cycle scan_held_at_ = 0;
+  mutable std::int64_t owed_q32_ = 0;  // of take_owed_q32(), beside the agendas' own
 };
 
 }  // namespace api

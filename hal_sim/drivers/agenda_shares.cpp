@@ -20,28 +20,32 @@ AgendaShares::AgendaShares(const AgendaTicks& ticks, const AgendaList& list, con
 /// Ticks that call a function, of all, as a fraction of 2^32. Several agendas that fire at the same tick make
 /// it one: the sum of all is too many by those that two share, which is too few by those that three share ...
 std::uint64_t AgendaShares::calling_ticks_q32() const {
-  constexpr std::size_t kMost = 8;  // beyond that they are taken to meet nowhere
+  constexpr std::size_t kMost = 8;  // beyond that they are taken to meet the others as often as any tick does
   struct Rhythm {
     std::int64_t first, period;
+    /// Do all its ticks belong to the other as well?
+    bool is_in(const Rhythm& o) const { return period % o.period == 0 && (first - o.first) % o.period == 0; }
   };
   std::vector<Rhythm> rhythms;
-  std::int64_t calling = 0;
   // When each agenda fires first, and how often.
   for (const AgendaList::Node& node : list_.nodes()) {
     const AgendaCount& count = motors_.count_of(node);
     if (!motors_.needs_handler(node) || !count.counts()) continue;
     const bool runs = ticks_.is_calling() && node.serial == ticks_.walked();  // its counter will be 0
-    const std::int64_t first = count.tick + (runs ? count.cycle : count.ticks_to_fire());
-    if (rhythms.size() < kMost)
-      rhythms.push_back({first, count.cycle});
-    else
-      calling += static_cast<std::int64_t>(kAllTicks) / count.cycle;
+    const Rhythm own{count.tick + (runs ? count.cycle : count.ticks_to_fire()), count.cycle};
+    if (std::any_of(rhythms.begin(), rhythms.end(), [&](const Rhythm& r) { return own.is_in(r); })) continue;
+    rhythms.erase(
+        std::remove_if(rhythms.begin(), rhythms.end(), [&](const Rhythm& r) { return r.is_in(own); }),
+        rhythms.end());
+    rhythms.push_back(own);
   }
+  const std::size_t joined = std::min(rhythms.size(), kMost);
+  std::int64_t calling = 0;
   constexpr std::int64_t kNeverMeet = 1 << 20;  // a minute and more
   // For each choice of agendas: the ticks at which all of them fire, found by joining them one by one.
-  for (unsigned chosen = 1; chosen < 1u << rhythms.size(); ++chosen) {
+  for (unsigned chosen = 1; chosen < 1u << joined; ++chosen) {
     Rhythm all{0, 0};
-    for (std::size_t i = 0; i < rhythms.size() && all.period < kNeverMeet; ++i) {
+    for (std::size_t i = 0; i < joined && all.period < kNeverMeet; ++i) {
       if (!(chosen >> i & 1)) continue;
       Rhythm one = rhythms[i];
       if (all.period == 0) {
@@ -61,6 +65,8 @@ std::uint64_t AgendaShares::calling_ticks_q32() const {
     const std::int64_t part = static_cast<std::int64_t>(kAllTicks) / all.period;
     calling += __builtin_popcount(chosen) % 2 ? part : -part;
   }
+  for (std::size_t i = joined; i < rhythms.size(); ++i)
+    calling += (static_cast<std::int64_t>(kAllTicks) - calling) / rhythms[i].period;
   return static_cast<std::uint64_t>(
       std::clamp<std::int64_t>(calling, 0, static_cast<std::int64_t>(kAllTicks)));
 }

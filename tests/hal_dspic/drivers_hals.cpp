@@ -146,6 +146,98 @@ int main(void) {{
   expect_no_traps();
 }
 
+/// So many agendas of one period, and how often the first one comes in 300,000 rounds (hal_dspic's).
+struct Callbacks {
+  int agendas, period;
+  bool scans;
+  int times;
+};
+class Beside : public firmware_test::FirmwareTest,
+               public ::testing::WithParamInterface<std::tuple<const char*, Callbacks>> {
+ protected:
+  Beside() { options.hal = std::get<0>(GetParam()); }
+};
+constexpr Callbacks kCallbacks[] = {{1, 1, true, 1286}, {1, 2, true, 639},   {1, 10, true, 127},
+                                    {8, 3, false, 414}, {12, 7, false, 186}, {12, 1, false, 1493}};
+INSTANTIATE_TEST_SUITE_P(Drivers, Beside,
+                         ::testing::Combine(::testing::Values("sim", "dspic"),
+                                            ::testing::ValuesIn(kCallbacks)));
+
+// Ticks that call something, the others between them and the converter's frames take their time, however they fall
+// together.
+TEST_P(Beside, agendas_that_call_the_program_has_its_time) {
+  const Callbacks& row = std::get<1>(GetParam());
+  Robot& robot = add_robot_with_source(fmt::format(R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_init_port.h>
+#define F(k) static void f##k(void) {{ n##k++; }}
+volatile unsigned n0, n1, n2, n3, n4, n5, n6, n7, n8, n9, n10, n11, times[6], laps;
+F(0) F(1) F(2) F(3) F(4) F(5) F(6) F(7) F(8) F(9) F(10) F(11)
+static void (*const all[])(void) = {{f0, f1, f2, f3, f4, f5, f6, f7, f8, f9, f10, f11}};
+int main(void) {{
+  long i;
+  int k;
+  e_init_port();
+  e_init_motors();
+  e_start_agendas_processing();
+  if ({}) e_init_ad_scan(ALL_ADC);
+  for (k = 0; k < {}; k++) e_activate_agenda(all[k], {});
+  e_set_speed(300, 0);
+  while (laps < 6) {{
+    n0 = 0;
+    for (i = 0; i < 300000; i++) asm volatile("nop");
+    times[laps++] = n0;
+  }}
+  while (1);
+}}
+)",
+                                                   row.scans ? 1 : 0, row.agendas, row.period));
+  while (robot.variable("laps") < 6) run_for(0.1);
+  for (const std::int16_t times : robot.variables<std::int16_t>("times", 6))
+    EXPECT_NEAR(times, row.times, 1 + row.times / 250);
+  expect_no_traps();
+}
+
+// Whoever counts how often it has looked at what the library says waits all the same.
+class Polls : public firmware_test::FirmwareTest,
+              public ::testing::WithParamInterface<std::tuple<const char*, const char*>> {
+ protected:
+  Polls() { options.hal = std::get<0>(GetParam()); }
+};
+INSTANTIATE_TEST_SUITE_P(Drivers, Polls,
+                         ::testing::Combine(::testing::Values("sim", "dspic"),
+                                            ::testing::Values("while (e_get_steps_left() < 3000) n++;",
+                                                              "while (e_get_prox(0) < 3000) n++;",
+                                                              "while (e_get_steps_left() < n + 3000) m--;",
+                                                              "do m++; while (e_get_acc(0) > 0);")));
+
+TEST_P(Polls, that_count_are_no_load) {
+  add_robot_with_source(fmt::format(R"(
+#include <a_d/advance_ad_scan/e_acc.h>
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <a_d/advance_ad_scan/e_prox.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_init_port.h>
+int main(void) {{
+  long n = 0, m = 0;
+  e_init_port();
+  e_init_motors();
+  e_start_agendas_processing();
+  e_init_ad_scan(ALL_ADC);
+  e_set_speed_left(300);
+  {}
+  while (n + m) ;
+}}
+)",
+                                    std::get<1>(GetParam())));
+  run_for(4);
+  EXPECT_LT(twin().mind(0).runner()->cpu_load(), 0.25);
+  expect_no_traps();
+}
+
 // 57600 / 500 = 115: (115 + 1) x 256 cycles, 496.6 steps/s
 TEST_P(BothHals, timer_motors_step_at_their_periods) {
   Robot& robot = add_robot_with_source(R"(
