@@ -200,8 +200,10 @@ void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
 void HostLibrary::settle_hold(int handler, Cycle at) {
   if (handler == kAgendaHandler) {
     if (!std::exchange(handler_holds_, false)) return;
+    // those that come one by one, as it stays held off, are charged one by one
+    constexpr Cycle kAtOnce = 2 * kRetfieCycles;
     const Cycle took = at - handler_began_;
-    if (took < drivers::kAgendaTickCycles)
+    if (at - handler_ended_ <= kAtOnce && took < drivers::kAgendaTickCycles)
       owed_q32_ += took * static_cast<std::int64_t>(agendas().shares().share_q32() -
                                                     agendas().shares().calling_share_q32());
     return;
@@ -238,6 +240,7 @@ HandlerStep HostLibrary::next_in_handler(Cycle at) {
 }
 
 void HostLibrary::end_handler(Cycle at) {
+  handler_ended_ = at;
   agendas().finish(at);
   note(2, at);
 }

@@ -151,7 +151,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint64_t digest_ = 0;
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
-  Cycle handler_began_ = 0;
+  Cycle handler_began_ = 0, handler_ended_ = 0;
   bool handler_holds_ = false;  // the agendas', since then, and not yet let in again
   Cycle scan_held_at_ = 0;
   mutable std::int64_t owed_q32_ = 0;  // of take_owed_q32(), beside the agendas' own

@@ -424,6 +424,7 @@ void ChipRunner::run_watched(Cycle end) {
     step.pc = processor_->pc();
     step.slept = processor_->is_asleep();
     const int nesting = device().interrupts().nesting();
+    const std::int64_t begun = processor_->handlers_by_heart();
     const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
     // asleep it goes on to what may wake it, and from there by instructions again
     const Cycle until =
@@ -444,6 +445,8 @@ void ChipRunner::run_watched(Cycle end) {
         step.flagged = step.by_heart ? due : device().interrupts().flag_since(step.entered);
     }
     step.left = device().interrupts().nesting() < nesting;
+    step.served = !step.slept && processor_->handlers_by_heart() != begun && step.next == step.pc &&
+                  device().interrupts().nesting() == nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);
   }

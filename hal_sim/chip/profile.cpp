@@ -97,6 +97,10 @@ void Profile::after(const Step& step) {
     for (Frame& frame : here().frames) end_wait(frame.round);
     return;
   }
+  if (step.served) {
+    in_handlers_ += step.end - step.begin;
+    return;
+  }
   ++steps_;
   in_handlers_ += step.end - step.begin - took;  // the share of those by heart
   // A handler begins: its entry is its own time.

@@ -44,7 +44,7 @@ StepCounts::StepCounts(const dspic::FirmwareFile& file) {
 void StepCounts::after(const Step& step) {
   const std::size_t word = step.pc / 2;
   // a handler's entry puts the instruction off
-  if (step.slept || step.entered != dspic::kNoVector || word >= ran_.size()) return;
+  if (step.slept || step.served || step.entered != dspic::kNoVector || word >= ran_.size()) return;
   if (step.next == step.pc && !is_jump_[word]) return;
   ++ran_[word];
   if (step.next != step.pc + 2) ++jumped_[word];

@@ -9,7 +9,7 @@ namespace chip {
 using dspic::Cycle;
 
 /// What happened between two instruction boundaries: an instruction, an iteration of a REPEAT, the entry of a
-/// handler, or sleep.
+/// handler, one that calls nothing, or sleep.
 struct Step {
   Cycle begin = 0, end = 0;        ///< by the true clock
   Cycle took = 0;                  ///< of the program's own cycles: without the share of handlers by heart
@@ -18,6 +18,7 @@ struct Step {
   int entered = dspic::kNoVector;  ///< vector of the handler that begins
   Cycle flagged = -1;              ///< when its flag rose; -1: a trap's
   bool by_heart = false;           ///< it is the host's: the function that it calls first comes next
+  bool served = false;             ///< a handler of the host's, from its entry to its end, and no instruction
   bool left = false;               ///< RETFIE
   bool slept = false;
 };
