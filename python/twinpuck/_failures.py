@@ -2,6 +2,7 @@
 """What a failed test leaves: a folder of its own with a picture and a recording, and what is told of the run."""
 from __future__ import annotations
 
+import glob
 import hashlib
 import pathlib
 import re
@@ -28,10 +29,11 @@ def name_of(nodeid: str, number: int = 0) -> str:
     return name if number == 0 else f"{name}~{number + 1}"
 
 
-def clear(folder: pathlib.Path) -> None:
-    """Removes what failures of an earlier run have left in `folder`, and nothing else."""
-    for recording in folder.glob(f"*/{RECORDING}"):
-        if re.search(r"\.(py|toml)_", recording.parent.name) and not recording.parent.is_symlink():
+def clear(folder: pathlib.Path, nodeid: str) -> None:
+    """Removes what an earlier failure of this test has left in `folder`, and nothing else."""
+    name = name_of(nodeid)
+    for recording in folder.glob(f"{glob.escape(name)}*/{RECORDING}"):
+        if re.fullmatch(re.escape(name) + r"(~\d+)?", recording.parent.name) and not recording.parent.is_symlink():
             for file in (recording, recording.with_name(PICTURE)):
                 file.unlink(missing_ok=True)
             if not any(recording.parent.iterdir()):

@@ -15,6 +15,7 @@ class KeptWorld(World):
     __slots__ = ("_kept", "lost")
 
     def __init__(self, *arguments: typing.Any, **options: typing.Any) -> None:
+        __tracebackhide__ = True
         self._kept: typing.Any = None
         self.lost: list[str] | None = None  # takes outputs that are lost, a line each; None: close() raises OutputLost
         super().__init__(*arguments, **options)

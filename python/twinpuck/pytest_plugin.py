@@ -93,13 +93,10 @@ def wrong_options(config: pytest.Config) -> list[str]:
 
 
 @pytest.hookimpl(tryfirst=True)
-def pytest_runtestloop(session: pytest.Session) -> None:
-    """Tests are about to run: what failures of the last ones left goes."""
-    is_broken = session.testsfailed and not session.config.option.continue_on_collection_errors
-    if is_broken or session.config.option.collectonly or hasattr(session.config, "workerinput"):
-        return  # one process begins, not each of several
+def pytest_runtest_setup(item: pytest.Item) -> None:
+    """A test is about to run: what it left when it failed before goes. That of others stays, to be looked at."""
     try:
-        _failures.clear(failures_folder(session.config))
+        _failures.clear(failures_folder(item.config), item.nodeid)
     except OSError as wrong:
         raise pytest.UsageError(f"{wrong.filename}: --failures: got {wrong.strerror!r}, expected a file that can be "
                                 "removed") from None
@@ -236,6 +233,7 @@ def place_of(source: typing.Any, folder: pathlib.Path) -> typing.Any:
 def open_world(config: pytest.Config, folder: pathlib.Path, source: typing.Any, chosen: dict[str, typing.Any],
                firmware: typing.Any = None, **options: typing.Any) -> KeptWorld:
     """Opens a world for a test in `folder`, as the command line and the matrix (`chosen`) want it."""
+    __tracebackhide__ = True
     source = place_of(source, folder)
 
     def here(program: typing.Any) -> typing.Any:

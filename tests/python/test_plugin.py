@@ -252,22 +252,31 @@ def test_the_page_of_test_files_is_made_of_the_table():
         "run PYTHONPATH=build/python python3 -m twinpuck._declarative docs/testing.md"
 
 
-def test_only_what_failures_left_is_removed_and_only_when_tests_run(mine, command):
-    folder = mine("def test_dark(world):\n    assert 0\n", mine__txt="mine", **{"kept/run.inputs": "mine", "test_a.py_notes/notes.txt": "mine"})
-    left = folder / "test_mine.py_test_dark"
+def test_only_what_its_failure_left_is_removed_and_only_when_the_test_runs(mine, command):
+    folder = mine("def test_dark(world):\n    assert 0\ndef test_dark_too(world):\n    assert 0\n", mine__txt="mine",
+                  **{"kept/run.inputs": "mine", "test_a.py_notes/notes.txt": "mine"})
+    left, too = folder / "test_mine.py_test_dark", folder / "test_mine.py_test_dark_too"
     assert command("test", "--failures", ".", cwd=folder).returncode == 1
     assert {file.name for file in left.iterdir()} == {"picture.png", "run.inputs"}
     assert command("test", "--failures", ".", "--collect-only", cwd=folder).returncode == 0
-    assert (left / "run.inputs").exists()
     assert command("test", "--failures", ".", "-k", "nothing", cwd=folder).returncode == 5
-    assert not left.exists()
+    assert (left / "run.inputs").exists() and (too / "run.inputs").exists()
+    (folder / "test_mine.py").write_text("def test_dark(world):\n    pass\ndef test_dark_too(world):\n    pass\n")
+    assert command("test", "--failures", ".", "-k", "test_dark and not too", cwd=folder).returncode == 0
+    assert not left.exists() and (too / "run.inputs").exists(), "another test's stays"
+    # what somebody put beside ours stays
+    (too / "notes.txt").write_text("mine")
+    assert command("test", "--failures", ".", cwd=folder).returncode == 0
+    assert [file.name for file in too.iterdir()] == ["notes.txt"]
     for file in ("mine.txt", "kept/run.inputs", "test_a.py_notes/notes.txt", "main.c", "world.toml", "test_mine.py"):
         assert (folder / file).exists(), file
-    # what somebody put beside ours stays
-    assert command("test", "--failures", ".", cwd=folder).returncode == 1
-    (left / "notes.txt").write_text("mine")
-    command("test", "--failures", ".", "-k", "nothing", cwd=folder)
-    assert [file.name for file in left.iterdir()] == ["notes.txt"]
+
+
+# what pytest shows of the world that could not be made is no fault of its own
+def test_a_world_that_was_not_opened_can_be_shown(mine, command):
+    folder = mine("def test_dark(make_world):\n    make_world()\n", main__c="int main(void) { no }\n")
+    told = command("test", "-l", cwd=folder).stdout
+    assert "main.c:1" in told and "raised in repr" not in told and "_kept_world" not in told, told
 
 
 def test_each_failure_has_a_folder_of_its_own(mine, command):

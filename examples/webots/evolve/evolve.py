@@ -24,6 +24,9 @@ options.add_argument("--population", type=int, default=32)
 options.add_argument("--generations", type=int, default=20)
 options.add_argument("--seed", type=int, default=1)
 options = options.parse_args()
+BEST = os.path.join(HERE, "best.npy")
+if not os.access(BEST if os.path.exists(BEST) else HERE, os.W_OK):
+    sys.exit(f"evolve.py: {BEST}: got a place that cannot be written, expected one for the best weights; copy this folder")
 chance = numpy.random.default_rng(options.seed)
 
 # a simulation on every core; its candidate calls back
@@ -64,7 +67,7 @@ for generation in range(options.generations):
     scores = numpy.array(pool.map(judged, population, chunksize=1))
     order = scores.argsort()[::-1]
     print("generation %2d: best %.3f, mean %.3f" % (generation, scores[order[0]], scores.mean()), flush=True)
-    numpy.save(os.path.join(HERE, "best.npy"), population[order[0]].reshape(2, 9))
+    numpy.save(BEST, population[order[0]].reshape(2, 9))
     elite = population[order[:max(options.population // 4, 2)]]
     population = numpy.concatenate([elite[:2], children(elite, options.population - 2)])
 trials = options.population * options.generations
