@@ -381,7 +381,7 @@ void Processor::count_missed(std::size_t h) {
 /// The handler that calls the program. What it holds off is held from its first cycle on.
 void Processor::begin_handler() {
   Cpu& cpu = *cpu_;
-  ++begun_;
+  ++cpu.handlers_begun;
   waits_->cut(cpu, kFirstIrqVector + irqs_[0]);
   enter_handler(cpu);
   cpu.host_due = kNever;
@@ -405,7 +405,7 @@ void Processor::lose_until_cleared() {
 /// The handler that calls nothing was pending.
 void Processor::serve_pending(int vector) {
   Cpu& cpu = *cpu_;
-  ++begun_;
+  ++cpu.handlers_begun;
   Interrupts& interrupts = cpu.parts.interrupts;
   const int level = interrupts.cpu().level();
   waits_->cut(cpu, vector);

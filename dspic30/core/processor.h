@@ -52,8 +52,6 @@ class Processor {
   bool is_asleep() const;
   /// Cycles of the program so far: now() without the share of handlers known by heart.
   Cycle own_cycles() const;
-  /// Handlers known by heart that were begun one by one so far, beside those that are a share.
-  std::int64_t handlers_by_heart() const { return begun_; }
   /// Cycles of the program up to `at` in which it only waited: in Idle and Sleep, in waits (waits.h), in
   /// repeated NOPs, in functions of the host that wait. Exact, and the same however run() is called. `at` may
   /// be ahead of now() up to idle_until().
@@ -144,7 +142,6 @@ class Processor {
   std::array<ByHeart, 2> by_heart_;
   std::array<int, 2> irqs_{-1, -1};  // theirs; -1: there is none
   static constexpr unsigned kFlagsAt = 2, kByProgramAt = 4, kUnseen = ~0u;
-  std::int64_t begun_ = 0;   // handlers known by heart
   unsigned held_ = 3;        // handlers that the program holds off, or it is asleep, a bit each
   unsigned seen_ = kUnseen;  // handlers() when follow_host() looked last
 };

@@ -122,7 +122,8 @@ void HostLibrary::reset(Cycle at) {
   variables_.reset();
   heap_ = {};
   zero_steps_ = {};
-  walk_begins_ = handler_holds_ = false;
+  walk_begins_ = agendas_hold_ = false;
+  scan_held_at_ = -1;
   owed_q32_ = 0;
   begin(at);
   note(~std::uint64_t{0}, at);
@@ -185,7 +186,7 @@ std::uint64_t HostLibrary::share_q32() const {
 
 void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
   if (held_ >> handler & !held) settle_hold(handler, at);
-  if (held && handler == kScanHandler) scan_held_at_ = at;
+  if (held && handler == kScanHandler && handler_ended_ < handler_began_) scan_held_at_ = at;
   const auto bit = static_cast<std::uint8_t>(1u << handler);
   held_ = static_cast<std::uint8_t>(held ? held_ | bit : held_ & ~bit);
   if (handler == kAgendaHandler)
@@ -194,30 +195,31 @@ void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
     held ? scan().hold(at) : scan().release(at);
 }
 
-/// While a handler is held off its share is taken of nothing. Ticks that call a function keep the others away: what
-/// those take in all is due all the same. The converter's events come meanwhile: each that was not lost is charged
-/// by itself, and so too much or too little where handlers and events beat slowly.
+/// While the agendas' handler runs, no share is taken. Ticks that call a function keep the others away: what those take
+/// in all is due all the same. The converter's events come meanwhile, and are charged one by one unless they are
+/// lost: too much or too little where handlers and events beat slowly.
 void HostLibrary::settle_hold(int handler, Cycle at) {
+  // what stays held off, as if each event came for itself, is charged for itself
+  constexpr Cycle kAtOnce = 2 * kRetfieCycles;
+  const bool is_over = at - handler_ended_ <= kAtOnce;
   if (handler == kAgendaHandler) {
-    if (!std::exchange(handler_holds_, false)) return;
-    // those that come one by one, as it stays held off, are charged one by one
-    constexpr Cycle kAtOnce = 2 * kRetfieCycles;
     const Cycle took = at - handler_began_;
-    if (at - handler_ended_ <= kAtOnce && took < drivers::kAgendaTickCycles)
+    if (std::exchange(agendas_hold_, false) && is_over && took < drivers::kAgendaTickCycles)
       owed_q32_ += took * static_cast<std::int64_t>(agendas().shares().share_q32() -
                                                     agendas().shares().calling_share_q32());
     return;
   }
-  const Cycle first = source_event(kScanHandler, scan_held_at_);
+  if (std::exchange(scan_held_at_, -1) < 0 || !is_over) return;
+  const Cycle first = source_event(kScanHandler, handler_began_);
   const bool has_come = first <= at;
   if (has_come && source_event(kScanHandler, first) <= at) return;
-  owed_q32_ += (at - scan_held_at_) * static_cast<std::int64_t>(variables_.share_q32()) -
+  owed_q32_ += (at - handler_began_) * static_cast<std::int64_t>(variables_.share_q32()) -
                (has_come ? pending_cycles() << 32 : 0);
 }
 
 void HostLibrary::begin_handler(Cycle at) {
   handler_began_ = at;
-  handler_holds_ = true;
+  agendas_hold_ = true;
   agendas().begin(at);
   walk_begins_ = true;
 }

@@ -112,6 +112,7 @@ void ChipRunner::check_memory() {
 /// Which functions of the program entered() wants to hear of.
 void ChipRunner::tell_calls() {
   std::vector<std::uint32_t> addresses = image_->functions().addresses();
+  if ((start_ = goto_target(file_, 0)) != 0) addresses.push_back(start_);
   if (memory_)
     for (const std::uint32_t address : memory_->addresses()) addresses.push_back(address);
   processor_->tell_calls(this, std::move(addresses));
@@ -316,7 +317,12 @@ void ChipRunner::report(const Ending& ending, const std::vector<unsigned>& calle
     ++traps_.back().count;
 }
 
+void ChipRunner::came_to_start() {
+  if (const auto ending = endings_->of_start(start_, null_told_at_)) report(*ending);
+}
+
 void ChipRunner::went_to_reset_vector(unsigned from) {
+  null_told_at_ = processor_->now();
   report(endings_->of_null_pointer(from));
   if (memory_) memory_->restart();
   calls_->forget_starts();
@@ -424,7 +430,7 @@ void ChipRunner::run_watched(Cycle end) {
     step.pc = processor_->pc();
     step.slept = processor_->is_asleep();
     const int nesting = device().interrupts().nesting();
-    const std::int64_t begun = processor_->handlers_by_heart();
+    const std::int64_t begun = processor_->cpu().handlers_begun;
     const Cycle own = processor_->own_cycles(), due = library_ ? library_->due() : dspic::kNever;
     // asleep it goes on to what may wake it, and from there by instructions again
     const Cycle until =
@@ -445,7 +451,7 @@ void ChipRunner::run_watched(Cycle end) {
         step.flagged = step.by_heart ? due : device().interrupts().flag_since(step.entered);
     }
     step.left = device().interrupts().nesting() < nesting;
-    step.served = !step.slept && processor_->handlers_by_heart() != begun && step.next == step.pc &&
+    step.served = !step.slept && processor_->cpu().handlers_begun != begun && step.next == step.pc &&
                   device().interrupts().nesting() == nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);

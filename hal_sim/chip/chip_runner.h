@@ -114,7 +114,9 @@ class ChipRunner final : public host::Runner,
     endings_->note_trap(trap);
   }
   void went_to_reset_vector(unsigned from) override;
+  void came_to_start();
   void entered(unsigned address) override {
+    if (address == start_) return came_to_start();
     if (observer_ && !library_) follow_agendas(address);
     if (!memory_ || !memory_->entered(address)) calls_->entered(address);
   }
@@ -148,6 +150,8 @@ class ChipRunner final : public host::Runner,
   std::unique_ptr<ChipData> data_;
   std::unique_ptr<host::ChipView> view_;
   std::unique_ptr<MemoryReports> memory_;              // null: the image was not built to be checked
+  unsigned start_ = 0;                                 // where the reset vector leads; 0: not by a GOTO
+  Cycle null_told_at_ = -1;                            // a jump to address 0
   unsigned plain_from_ = dspic::Processor::kRamStart;  // plain RAM begins there
   std::vector<host::TrapReport> traps_;
   std::vector<StepWatch*> watches_;

@@ -110,6 +110,18 @@ Ending Endings::of_null_pointer(unsigned from) const {
   return {0, "Reset", std::string(why) + " the program begins anew, and nothing is reset", places_.own(from)};
 }
 
+std::optional<Ending> Endings::of_start(unsigned at, Cycle null_at) const {
+  constexpr Cycle kOnTheWay = 8;  // over the GOTO there
+  if (processor_.w(kStackPointer) == dspic::Processor::kRamStart ||
+      (null_at >= 0 && processor_.now() - null_at <= kOnTheWay))
+    return std::nullopt;
+  return Ending{
+      0, "Reset",
+      "the program came to its first instruction by a return, a call or a jump: the stack or a pointer "
+      "was overwritten; it begins anew, and nothing is reset",
+      places_.own(at)};
+}
+
 // --- RESET
 
 std::optional<Ending> Endings::of_instruction(unsigned at) const {
@@ -121,6 +133,12 @@ std::optional<Ending> Endings::of_instruction(unsigned at) const {
                          "the program has no " + places_.handler_name(vector) + "(), so the processor resets")
                : of_interrupt(vector, resets_at_once(vector, at) ? cut_off() : at);
   if (vector != dspic::kNoVector) return std::nullopt;
+  if (const auto* function = file_.code.function_at(at);
+      function && function->name == "_DefaultInterrupt" && !places_.is_own(at))
+    return Ending{0, "Reset",
+                  "the program came to _DefaultInterrupt() without an interrupt: the stack or a pointer was "
+                  "overwritten, so the processor resets",
+                  at};
   const unsigned main_at = called_main(at);
   if (main_at == 0) return std::nullopt;
   // its last line, where one is known

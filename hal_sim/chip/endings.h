@@ -40,6 +40,8 @@ class Endings final {
   Ending of_giving_up() const;
   /// The instruction at `from` leads to address 0.
   Ending of_null_pointer(unsigned from) const;
+  /// The program comes to its first instruction. None: behind a reset, or a jump to address 0 at `null_at`.
+  std::optional<Ending> of_start(unsigned at, Cycle null_at) const;
 
  private:
   std::optional<Ending> of_instruction(unsigned at) const;

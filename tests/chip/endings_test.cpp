@@ -149,6 +149,9 @@ TEST_F(Endings, resets_that_nobody_asked_for_are_told_with_vector_and_place) {
        nullptr, ""},
       {"a jump to the start by its address", kStart + "_main: goto 0\n" + kDefault, "Reset",
        "a jump to address 0: the program begins anew, and nothing is reset"},
+      {"a jump to the first instruction", kStart + "_main: goto __reset\n" + kDefault, "Reset",
+       "the program came to its first instruction by a return, a call or a jump: the stack or a pointer was "
+       "overwritten; it begins anew, and nothing is reset"},
       {"a trap with a handler that ends it",
        kStart + "_main: clr w2\n mov #5, w0\n repeat #17\n div.s w0, w2\n1: bra 1b\n" + kDefault +
            "__MathError: clr INTCON1\n mov #7, w2\n retfie\n",

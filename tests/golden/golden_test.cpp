@@ -32,11 +32,11 @@ TEST_P(Golden, run_repeats_to_the_last_bit) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, Golden,
-    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "1964faaa573eb145"},
-                                         Pinned{"swarm", "worlds/swarm.toml", 5, "19ce3bf522502af9"},
+    ::testing::Combine(::testing::Values(Pinned{"maze", "worlds/maze.toml", 20, "43d588541b95c132"},
+                                         Pinned{"swarm", "worlds/swarm.toml", 5, "69bba9f27f6a1e46"},
                                          Pinned{"push", "worlds/push.toml", 10, "0a12fd8f532fbf0e"},
                                          Pinned{"braitenberg_10", "bench/worlds/brait_10.toml", 5,
-                                                "018b0ab3aea3016a"}),
+                                                "ffa85167ed92f05d"}),
                        ::testing::Values(1, 3)),
     [](const auto& info) {
       return std::string(std::get<0>(info.param).name) + "_threads_" +
