@@ -41,6 +41,13 @@ class Look {
     for (const auto& [name, index] : driver.functions) add(name);
     for (const auto& [name, bytes] : driver.registers) add(name);
     for (const std::string& name : driver.owned) {
+      if (const std::size_t split = name.find('_'); split != std::string::npos) {
+        const SfrInfo* const r = sfr_named(name.substr(0, split));
+        for (const SfrField& field : r ? fields_of(*r) : std::vector<SfrField>{})
+          if (field.name == name.substr(split + 1))
+            flags_[{r->address, field.bit}] = r->name + ("." + field.name);
+        continue;
+      }
       for (const SfrInfo& r : kSfrRows)
         if (r.name == name) registers_[r.address] = name;
       for (const std::string& label : {name, "_" + name, "_" + name + "bits"})  // registers have no section
@@ -123,14 +130,55 @@ class Look {
     return "";
   }
 
+  static std::uint32_t word_at(const Section& s, std::uint32_t i) {
+    return i + kWordOctets <= s.bytes.size() ? s.bytes[i] | s.bytes[i + 1] << 8 | s.bytes[i + 2] << 16 : 0;
+  }
+  /// Is this constant put into Wn anywhere in the section?
+  static bool holds(const Section& s, unsigned n, unsigned constant) {
+    for (std::uint32_t i = 0; i < s.bytes.size(); i += kWordOctets) {
+      const Row* const row = find_row(word_at(s, i));
+      if (!row || row->id != Insn::Mov_lit16_Wnd) continue;
+      if (const Fields f = fields_of(*row, word_at(s, i)); f.d == n && f.k == constant) return true;
+    }
+    return false;
+  }
+
+  /// The driver's flag that an instruction of a section looks at, or one soon behind it that has its word: the flag is
+  /// the host's, and never rises. Empty: none.
+  std::string flag_tested(const Section& s, std::uint32_t at) const {
+    constexpr std::uint32_t kSoon = 3;  // instructions
+    const Row& row = *find_row(word_at(s, at));
+    const Fields f = fields_of(row, word_at(s, at));
+    if (row.id == Insn::Btst_f_bit || row.id == Insn::Btss_f_bit || row.id == Insn::Btsc_f_bit) {
+      const auto known = flags_.find({f.f & ~1u, static_cast<int>(f.b + 8 * (f.f & 1))});
+      return known == flags_.end() ? "" : known->second;
+    }
+    if (row.id != Insn::Mov_f_Wnd) return "";
+    for (const auto& [flag, name] : flags_)
+      for (std::uint32_t i = at + kWordOctets; flag.first == 2 * f.f && i <= at + kSoon * kWordOctets;
+           i += kWordOctets)
+        if (const Row* const next = find_row(word_at(s, i))) {
+          const Fields g = fields_of(*next, word_at(s, i));
+          const bool tests_bit = next->id == Insn::Btst_Ws_bit4 || next->id == Insn::Btss_Ws_bit4 ||
+                                 next->id == Insn::Btsc_Ws_bit4;
+          if ((next->id == Insn::And_lit10_Wn && g.d == f.d && (g.k >> flag.second & 1)) ||
+              (tests_bit && g.s == f.d && static_cast<int>(g.b) == flag.second) ||
+              (next->id == Insn::And_Wb_Ws_Wd && g.p == 0 && (g.w == f.d || g.s == f.d) &&
+               holds(s, g.w == f.d ? g.s : g.w, 1u << flag.second)))
+            return name;
+        }
+    return "";
+  }
+
   /// An instruction with a register's address in it, as compilers write them. Not seen: one
   /// that goes by a pointer.
   std::string of_code(const Section& s) const {
     if (s.kind != Kind::Code) return "";
     for (std::uint32_t i = 0; i + kWordOctets <= s.bytes.size(); i += kWordOctets) {
-      const std::uint32_t word = s.bytes[i] | s.bytes[i + 1] << 8 | s.bytes[i + 2] << 16;
+      const std::uint32_t word = word_at(s, i);
       const Row* row = find_row(word);
       if (!row) continue;
+      if (const std::string flag = flag_tested(s, i); !flag.empty()) return place(s, i) + " uses " + flag;
       for (const Operand kind : row->kinds) {
         if (kind != Operand::File && kind != Operand::FileWord && kind != Operand::FileBit) continue;
         const unsigned f = fields_of(*row, word).f, address = kind == Operand::FileWord ? 2 * f : f & ~1u;
@@ -161,7 +209,8 @@ class Look {
 
   const Program& program_;
   const HostDriver& driver_;
-  std::set<const Symbol*> known_, owned_;  // asked for membership only
+  std::map<std::pair<unsigned, int>, std::string> flags_;  // address and bit
+  std::set<const Symbol*> known_, owned_;                  // asked for membership only
   std::vector<const Symbol*> handlers_;
   std::map<unsigned, std::string> registers_;  // by address
   std::set<std::string> modules_;

@@ -35,7 +35,7 @@ struct HostDriver {
   /// Of other files, which only read its variables: filled with it where they are the library's.
   std::map<std::string, unsigned> shortcuts;
   std::vector<std::pair<std::string, unsigned>> registers;  ///< public variables, in order, and their bytes
-  std::set<std::string> owned;  ///< registers and handlers: "T2CON", "T2Interrupt"
+  std::set<std::string> owned;  ///< registers, flags, handlers: "T2CON", "IFS0_T2IF", "T2Interrupt"
 };
 
 struct Options {
