@@ -86,6 +86,16 @@ LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) : file_(file
   for (const char* name : {"run_left_motor", "run_right_motor"})
     if (const auto found = file.functions.find(name); found != file.functions.end())
       motors_.insert(found->second);
+  // a compiler may have put the other two into e_set_speed()
+  for (auto& [address, site] : sites_) {
+    if (site.known->function != Function::Speed) continue;
+    site.is_whole = true;
+    const auto* const function = file.code.function_at(address);
+    for (unsigned a = address; function && a < function->end; a += 2)
+      if (const auto called = sites_.find(call_target(file, a));
+          called != sites_.end() && called->second.known->function == Function::SpeedLeft)
+        site.is_whole = false;
+  }
   for (const auto& [address, site] : sites_) {
     if (!dspic::is_host_place(address)) addresses_.push_back(address);
     const std::size_t slot = slot_of(address);
@@ -160,8 +170,7 @@ void LibraryCalls::entered(unsigned address) {
                       : "; in 16 bits their sum is " + std::to_string(seen) + ", so the library sets " +
                             std::to_string(left) + " left and " + std::to_string(right) + " right"),
              "the motors are not faster");
-      // where the library's own code runs, it calls the functions of both wheels
-      if (seen > kMaxSpeed || !dspic::is_host_place(address)) return;
+      if (seen > kMaxSpeed || !site.is_whole) return;
       set_speed(site, 0, left);
       return set_speed(site, 1, right);
     }

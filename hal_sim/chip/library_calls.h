@@ -52,7 +52,8 @@ class LibraryCalls final {
   static const Known kKnown[];
   struct Site {
     const Known* known = nullptr;
-    std::string prefix;  // of the form of the driver
+    std::string prefix;     // of the form of the driver
+    bool is_whole = false;  // e_set_speed() calls no function for each wheel
   };
   struct Wheel {
     int speed = 0;           // steps/s, as asked for

@@ -180,15 +180,8 @@ void Profile::call(const Step& step, bool by_register) {
 
 /// The function of the host that the CALL or RCALL at `pc` leads to; 0: none.
 int Profile::host_function_called(unsigned pc) const {
-  const auto word = file_.words.find(pc);
-  const dspic::Row* row = word == file_.words.end() ? nullptr : dspic::find_row(word->second);
-  if (!row) return 0;
-  const dspic::Fields f = dspic::fields_of(*row, word->second);
-  unsigned to = (pc + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
-  if (row->id == dspic::Insn::Call_Expr) {
-    const auto second = file_.words.find(pc + 2);
-    to = ((second == file_.words.end() ? 0 : second->second) & 0x7F) << 16 | f.n << 1;
-  }
+  unsigned to = call_target(file_, pc);
+  if (to == 0) return 0;
   if (!dspic::is_host_place(to)) to = goto_target(file_, to);
   return dspic::is_host_place(to) ? function_of(to) : 0;
 }

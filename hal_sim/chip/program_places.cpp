@@ -174,6 +174,16 @@ unsigned goto_target(const dspic::FirmwareFile& file, unsigned address) {
   return (high->second & kHigh) << 16 | (low->second & 0xFFFE);
 }
 
+unsigned call_target(const dspic::FirmwareFile& file, unsigned address) {
+  const auto word = file.words.find(address), second = file.words.find(address + 2);
+  const dspic::Row* const row = word == file.words.end() ? nullptr : dspic::find_row(word->second);
+  if (!row || (row->id != dspic::Insn::Rcall_Expr && row->id != dspic::Insn::Call_Expr)) return 0;
+  const dspic::Fields f = dspic::fields_of(*row, word->second);
+  if (row->id == dspic::Insn::Call_Expr)
+    return ((second == file.words.end() ? 0 : second->second) & 0x7F) << 16 | f.n << 1;
+  return (address + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+}
+
 unsigned ProgramPlaces::caller() const {
   const unsigned stack = processor_.w(15);
   return call_before((stack_word(stack - 2) & 0x7F) << 16 | stack_word(stack - 4));
