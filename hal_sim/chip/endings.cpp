@@ -18,6 +18,7 @@ constexpr std::uint32_t kNop = 0x000000, kHalt = 0xDA4000;  // the second one st
 constexpr std::uint32_t kReturn = 0x060000, kSetsLimit = 0x880100;  // MOV Wn, SPLIM [chip C4]
 constexpr unsigned kLongestStart = 0x400;  // bytes of program counter: of a start-up code
 constexpr unsigned kStackPointer = 15;
+constexpr Cycle kEntry = 100;  // more than lies between an instruction and the default handler's RESET
 constexpr const char* kGaveUp = "abort(), or exit() with a failure, resets the processor";
 
 bool does_nothing(std::uint32_t word) { return word == kNop || word == kHalt; }
@@ -46,17 +47,21 @@ bool is_vector(const std::string& function) {
 void Endings::note_trap(const dspic::TrapRecord& record) {
   const Trap trap = record.trap;
   const unsigned from = record.pc;
-  if ((chip_.device().peek(kIntcon1, chip_.latest()) & kTrapFlags) != 0) return;
+  // one leads to the next, unless the program's own handler of the first one goes wrong itself
+  const int open = places_.open_vector();
+  const bool is_in_own =
+      open != dspic::kNoVector && open < dspic::kFirstIrqVector && places_.has_handler(open);
+  if ((chip_.device().peek(kIntcon1, chip_.latest()) & kTrapFlags) != 0 && !is_in_own) return;
   // what a stack does that has outgrown its limit, or RAM, fails in more ways than one
   const unsigned stack = processor_.w(kStackPointer),
                  limit = chip_.device().peek(kStackLimit, chip_.latest());
   const bool overflows =
       trap == Trap::StackError || (trap == Trap::AddressError && limit != 0 && stack > limit);
-  noted_ = {record, places_.own(from), overflows, dspic::kNoVector};
+  noted_ = {record, places_.own(from), overflows,
+            trap == Trap::StackError && stack < dspic::Processor::kRamStart, dspic::kNoVector};
   // a vector that holds no address leads nowhere
-  const int vector = places_.open_vector();
-  if (vector == dspic::kNoVector || places_.handler(vector) != from || file_.words.count(from)) return;
-  noted_.missing = vector;
+  if (open == dspic::kNoVector || places_.handler(open) != from || file_.words.count(from)) return;
+  noted_.missing = open;
   noted_.place = cut_off();
 }
 
@@ -75,7 +80,7 @@ std::optional<Ending> Endings::of_reset(dspic::ResetKind kind) const {
     case dspic::ResetKind::TrapConflict:
       if (noted_.missing != dspic::kNoVector) return of_interrupt(noted_.missing, noted_.place);
       return of_trap(noted_.record.trap,
-                     "a second trap came before the first one's handler, so the processor resets");
+                     "a second trap came before the first one's handler, so the processor resets", true);
     case dspic::ResetKind::IllegalOpcode: {
       // the chip takes all for an illegal opcode; what stands there tells them apart
       const std::uint32_t word = program_.read(here);
@@ -130,7 +135,8 @@ std::optional<Ending> Endings::of_instruction(unsigned at) const {
   if (vector != dspic::kNoVector && is_default_handler(vector, at))
     return vector < dspic::kFirstIrqVector
                ? of_trap(static_cast<Trap>(vector),
-                         "the program has no " + places_.handler_name(vector) + "(), so the processor resets")
+                         "the program has no " + places_.handler_name(vector) + "(), so the processor resets",
+                         processor_.now() - noted_.record.at <= kEntry)
                : of_interrupt(vector, resets_at_once(vector, at) ? cut_off() : at);
   if (vector != dspic::kNoVector) return std::nullopt;
   if (const auto* function = file_.code.function_at(at);
@@ -201,28 +207,33 @@ unsigned Endings::called_main(unsigned reset_at) const {
   return 0;
 }
 
-Ending Endings::of_trap(Trap trap, const std::string& then) const {
+/// `is_of_noted`: the trap that was noted last may have led here; else the program set its flag.
+Ending Endings::of_trap(Trap trap, const std::string& then, bool is_of_noted) const {
   Ending ending{kind_of(trap), dspic::vector_name(static_cast<int>(trap)), "", processor_.pc()};
   // a stack that has gone beyond RAM is an address error as well, whose handler comes first
-  const bool is_noted = noted_.record.trap == trap || (noted_.overflows && trap == Trap::AddressError);
+  const bool is_noted = is_of_noted && noted_.place != 0 &&
+                        (noted_.record.trap == trap || (noted_.overflows && trap == Trap::AddressError));
   if (is_noted) {
     ending.place = noted_.place;
     if (noted_.overflows) trap = Trap::StackError;
     ending.kind = kind_of(trap);
+  } else if (places_.open_vector() != dspic::kNoVector) {
+    ending.place = cut_off();
   }
   const host::Place place = places_.place_of(ending.place);
   switch (trap) {
     case Trap::StackError:
-      ending.message = "stack overflow in " +
-                       (place.function == "?" ? places_.text_of(ending.place) : place.function + "()");
+      ending.message =
+          std::string(is_noted && noted_.underflows ? "stack underflow in " : "stack overflow in ") +
+          (place.function == "?" ? places_.text_of(ending.place) : place.function + "()");
       break;
     case Trap::MathError:
       ending.message = "division by zero, or an overflow of an accumulator";
       break;
     case Trap::AddressError:
-      ending.message = is_noted && noted_.record.touch
-                           ? text_of(*noted_.record.touch)
-                           : "an access to an address that is not there, or to a word at an odd one";
+      ending.message = is_noted && noted_.record.touch ? text_of(*noted_.record.touch)
+                       : !is_noted                     ? "its flag in INTCON1 was set by the program"
+                                   : "an access to an address that is not there, or to a word at an odd one";
       break;
     default:
       ending.message = "the oscillator failed";

@@ -49,7 +49,7 @@ class Endings final {
   bool is_default_handler(int vector, unsigned reset_at) const;
   bool resets_at_once(int vector, unsigned reset_at) const;
   unsigned called_main(unsigned reset_at) const;
-  Ending of_trap(dspic::Trap trap, const std::string& then) const;
+  Ending of_trap(dspic::Trap trap, const std::string& then, bool is_of_noted) const;
   Ending of_interrupt(int vector, unsigned place) const;
   std::string handler_like(const std::string& wanted) const;
   unsigned cut_off() const;
@@ -64,8 +64,9 @@ class Endings final {
   struct Noted {
     dspic::TrapRecord record;
     unsigned place = 0;
-    bool overflows = false;  // it is the stack that went too far
-    int missing = -1;        // the vector that led nowhere
+    bool overflows = false;   // it is the stack that went too far
+    bool underflows = false;  // ... or came below RAM
+    int missing = -1;         // the vector that led nowhere
   } noted_;
 };
 
