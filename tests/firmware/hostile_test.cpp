@@ -214,7 +214,7 @@ const Hostile kPrograms[] = {
      "int main(void) {\n SquareMagnitudeCplx(30000, few, out); /* HERE */\n while (1); }"},
     {"transform_of_nothing", "a word at the odd address 0x010d is read",
      "int main(void) {\n FFTComplexIP(8, nowhere, (fractcomplex *)nowhere, 0); /* HERE */\n while (1); }"},
-    {"jump_out_of_nowhere", "stack overflow",
+    {"jump_out_of_nowhere", "stack underflow",
      "jmp_buf never_set;\n"
      "int main(void) {\n longjmp(never_set, 1);\n }"},
     {"assertion", "an assert() failed", "int main(void) {\n assert(zero); /* HERE */\n while (1); }"},

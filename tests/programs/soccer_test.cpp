@@ -76,6 +76,7 @@ TEST_F(SoccerTest, a_ball_over_the_line_beside_the_goal_is_none) {
 }
 
 TEST_F(SoccerTest, the_score_of_a_match_is_the_number_of_times_the_ball_came_in) {
+  world.seed = 3;  // of six seeds, two have a single goal in ten minutes
   be_quiet();
   std::pair<int, int> seen{0, 0};
   bool inside = false;
