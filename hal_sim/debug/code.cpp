@@ -220,7 +220,8 @@ void Code::follow(const dspic::CodeMap::Function& function) {
     } else {
       depth.bytes += growth(*i);
     }
-    if (i->target && !i->is_call()) open.emplace_back(*i->target, depth);
+    // a routine within a function, as assembler text has them, begins with its caller's address alone
+    if (i->target) open.emplace_back(*i->target, i->is_call() ? Depth{} : depth);
     if (i->goes_on) open.emplace_back(i->next(), depth);
     if (i->is_skip())
       if (const auto skipped = at(i->next())) open.emplace_back(skipped->next(), depth);

@@ -343,7 +343,8 @@ bool Session::is_step_over(Cycle at) {
     case Plan::NextInstruction:
       return !is_deeper;
     case Plan::Finish:
-      return here.nesting < from_.nesting || here.base < from_.base;
+      // 0: where the caller's frame is not known, it has not returned
+      return here.nesting < from_.nesting || (here.base != 0 && here.base < from_.base);
     case Plan::Line:
     case Plan::NextLine: {
       if (plan_ == Plan::NextLine && is_deeper) return false;
