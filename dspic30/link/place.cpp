@@ -418,9 +418,8 @@ static void choose_handlers(Program& program) {
         program.errors.push_back(
             s->from + ": error: " + in_c(name) +
             "(): got a second handler of this interrupt, expected one; the first is in " + chosen->from +
-            ": the robot's linker refuses two; call functions of one of these drivers only, or take a form "
-            "of "
-            "one that has another timer");
+            ": the robot's linker refuses two; call functions of one of these drivers only, or take a "
+            "form of one that has another timer");
       else
         chosen = s;
     }

@@ -56,6 +56,9 @@ class BluetoothModule final : public UartEnd, public sim::LinkPort {
   std::string name() const override { return computer_ ? computer_->name() : ""; }
   std::string error() const override { return computer_ ? computer_->error() : ""; }
 
+  void begin() override {
+    if (computer_) computer_->begin();
+  }
   void begin_again() override;
 
   // --- the air, between ticks

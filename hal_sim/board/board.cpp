@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "hal_sim/board/board.h"
 
+#include <utility>
+
 #include "hal_sim/board/camera.h"
 #include "hal_sim/board/lsm330.h"
 #include "sim_core/base/hash.h"
@@ -60,6 +62,9 @@ void Board::begin_again(sim::Clicks now, Cycle at) {
 }
 
 void Board::exchange(Cycle at) {
+  if (!std::exchange(has_run_, true))
+    for (const Uart& uart : uarts_)
+      if (uart.end()) uart.end()->begin();
   if (is_any_used_) {
     for (Uart& uart : uarts_) {
       uart.exchange(at);

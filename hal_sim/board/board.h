@@ -108,6 +108,7 @@ class Board : public Specimen {
 
  private:
   // what every run looks at, together
+  bool has_run_ = false;
   bool is_any_used_ = false;  // of the devices below and the parts; until then nobody looks at them
   bool has_wire_news_ = false;
   Pins pins_;

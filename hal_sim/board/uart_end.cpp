@@ -30,13 +30,12 @@ class FileEnd : public UartEnd {
     error = this->error();
     return error.empty();
   }
+  void begin() override { out_->clear(); }  // not before: something else may be refused
   void deliver(const std::uint8_t* bytes, const Cycle*, std::size_t count) override {
-    begin();
     // after the first error the robot goes on; further bytes are lost
     if (out_->error().empty()) out_->append({reinterpret_cast<const char*>(bytes), count});
   }
   std::size_t collect(std::uint8_t* bytes, std::size_t room, Cycle) override {
-    begin();
     if (!in_.valid()) return 0;
     const ssize_t got = ::read(in_.get(), bytes, room);
     return got > 0 ? static_cast<std::size_t>(got) : 0;
@@ -45,12 +44,6 @@ class FileEnd : public UartEnd {
   std::string error() const override { return out_->error().empty() ? "" : "file:" + out_->error(); }
 
  private:
-  // what there is already stays as it is until the robot runs: something else may be refused before
-  void begin() {
-    if (has_begun_) return;
-    has_begun_ = true;
-    out_->clear();
-  }
   bool open_input(const std::string& in, std::string& error) {
     in_.reset(::open(in.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY));
     struct stat info {};
@@ -66,7 +59,6 @@ class FileEnd : public UartEnd {
   std::unique_ptr<sim::OutputFile> out_;
   Descriptor in_;
   std::string path_;
-  bool has_begun_ = false;
 };
 
 }  // namespace

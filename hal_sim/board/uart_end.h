@@ -28,6 +28,9 @@ class UartEnd {
   /// The line was held low for longer than a byte; over at cycle `at`. Nothing, on most lines.
   virtual void on_break(Cycle /*at*/) {}
 
+  /// The robot runs for the first time: what an earlier run has left may go.
+  virtual void begin() {}
+
   /// The robot begins as when it was first switched on. Nothing, for ends that are no part of it.
   virtual void begin_again() {}
 
