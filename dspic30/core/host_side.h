@@ -24,12 +24,11 @@ class HostSide {
   Cycle stop_at = kNever;      ///< true time: `deadline` but for that handler and for looks
   Cycle soonest = kNever;      ///< ... and whatever the end of run()
   Cycle pause_at = kNever;     ///< ... when a look for a wait comes
-  std::int64_t writes_seen = 0;  ///< to interrupt registers, when Processor::run() looked last
-  bool host_again = false;       ///< the function of the host that stands there has been called already
-  int host_handlers = 0;         ///< handlers known by heart under way, or left by a jump
-  std::int64_t handlers_begun =
-      0;                   ///< such handlers so far that came one by one, beside those that are a share
-  Cycle stands_until = 0;  ///< a function of the host waits, and is asked again then
+  std::int64_t writes_seen = 0;     ///< to interrupt registers, when Processor::run() looked last
+  bool host_again = false;          ///< the function of the host that stands there has been called already
+  int host_handlers = 0;            ///< handlers known by heart under way, or left by a jump
+  std::int64_t handlers_begun = 0;  ///< so far, those that came one by one and are no share
+  Cycle stands_until = 0;           ///< a function of the host waits, and is asked again then
   const Decoded* stands_at = nullptr;
 };
 

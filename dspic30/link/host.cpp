@@ -143,30 +143,37 @@ class Look {
     return false;
   }
 
-  /// The driver's flag that an instruction of a section looks at, or one soon behind it that has its word: the flag is
-  /// the host's, and never rises. Empty: none.
-  std::string flag_tested(const Section& s, std::uint32_t at) const {
+  /// Does the instruction at `i` look at one bit of Wn?
+  static bool looks_at_bit(const Section& s, std::uint32_t i, unsigned n, int bit) {
+    const Row* const row = find_row(word_at(s, i));
+    if (!row) return false;
+    const Fields f = fields_of(*row, word_at(s, i));
+    switch (row->id) {
+      case Insn::Btst_Ws_bit4:
+      case Insn::Btss_Ws_bit4:
+      case Insn::Btsc_Ws_bit4:
+        return f.s == n && static_cast<int>(f.b) == bit;
+      case Insn::And_lit10_Wn:
+        return f.d == n && (f.k >> bit & 1) != 0;
+      case Insn::And_Wb_Ws_Wd:
+        return f.p == 0 && (f.w == n || f.s == n) && holds(s, f.w == n ? f.s : f.w, 1u << bit);
+      default:
+        return false;
+    }
+  }
+
+  /// The driver's flag that the instruction at `at` looks at, or one soon behind it that has its word: the flag is the
+  /// host's, and never rises. Empty: none.
+  std::string flag_tested(const Section& s, std::uint32_t at, Insn id, const Fields& f) const {
     constexpr std::uint32_t kSoon = 3;  // instructions
-    const Row& row = *find_row(word_at(s, at));
-    const Fields f = fields_of(row, word_at(s, at));
-    if (row.id == Insn::Btst_f_bit || row.id == Insn::Btss_f_bit || row.id == Insn::Btsc_f_bit) {
+    if (id == Insn::Btst_f_bit || id == Insn::Btss_f_bit || id == Insn::Btsc_f_bit) {
       const auto known = flags_.find({f.f & ~1u, static_cast<int>(f.b + 8 * (f.f & 1))});
       return known == flags_.end() ? "" : known->second;
     }
-    if (row.id != Insn::Mov_f_Wnd) return "";
+    if (id != Insn::Mov_f_Wnd) return "";
     for (const auto& [flag, name] : flags_)
-      for (std::uint32_t i = at + kWordOctets; flag.first == 2 * f.f && i <= at + kSoon * kWordOctets;
-           i += kWordOctets)
-        if (const Row* const next = find_row(word_at(s, i))) {
-          const Fields g = fields_of(*next, word_at(s, i));
-          const bool tests_bit = next->id == Insn::Btst_Ws_bit4 || next->id == Insn::Btss_Ws_bit4 ||
-                                 next->id == Insn::Btsc_Ws_bit4;
-          if ((next->id == Insn::And_lit10_Wn && g.d == f.d && (g.k >> flag.second & 1)) ||
-              (tests_bit && g.s == f.d && static_cast<int>(g.b) == flag.second) ||
-              (next->id == Insn::And_Wb_Ws_Wd && g.p == 0 && (g.w == f.d || g.s == f.d) &&
-               holds(s, g.w == f.d ? g.s : g.w, 1u << flag.second)))
-            return name;
-        }
+      for (std::uint32_t n = 1; flag.first == 2 * f.f && n <= kSoon; ++n)
+        if (looks_at_bit(s, at + n * kWordOctets, f.d, flag.second)) return name;
     return "";
   }
 
@@ -178,10 +185,12 @@ class Look {
       const std::uint32_t word = word_at(s, i);
       const Row* row = find_row(word);
       if (!row) continue;
-      if (const std::string flag = flag_tested(s, i); !flag.empty()) return place(s, i) + " uses " + flag;
+      const Fields fields = fields_of(*row, word);
+      if (const std::string flag = flag_tested(s, i, row->id, fields); !flag.empty())
+        return place(s, i) + " uses " + flag;
       for (const Operand kind : row->kinds) {
         if (kind != Operand::File && kind != Operand::FileWord && kind != Operand::FileBit) continue;
-        const unsigned f = fields_of(*row, word).f, address = kind == Operand::FileWord ? 2 * f : f & ~1u;
+        const unsigned f = fields.f, address = kind == Operand::FileWord ? 2 * f : f & ~1u;
         const auto known = registers_.find(address);
         if (known == registers_.end()) continue;
         const bool is_variable = std::any_of(s.relocations.begin(), s.relocations.end(),

@@ -122,8 +122,8 @@ void HostLibrary::reset(Cycle at) {
   variables_.reset();
   heap_ = {};
   zero_steps_ = {};
-  walk_begins_ = agendas_hold_ = false;
-  scan_held_at_ = -1;
+  walk_begins_ = false;
+  held_by_agendas_ = 0;
   owed_q32_ = 0;
   begin(at);
   note(~std::uint64_t{0}, at);
@@ -185,9 +185,13 @@ std::uint64_t HostLibrary::share_q32() const {
 }
 
 void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
-  if (held_ >> handler & !held) settle_hold(handler, at);
-  if (held && handler == kScanHandler && handler_ended_ < handler_began_) scan_held_at_ = at;
   const auto bit = static_cast<std::uint8_t>(1u << handler);
+  if (!held) {
+    if (held_by_agendas_ & bit) settle_hold(handler, at);
+    held_by_agendas_ &= static_cast<std::uint8_t>(~bit);
+  } else if (handler_ended_ < handler_began_) {
+    held_by_agendas_ |= bit;
+  }
   held_ = static_cast<std::uint8_t>(held ? held_ | bit : held_ & ~bit);
   if (handler == kAgendaHandler)
     held ? agendas().hold(at) : agendas().release(at, pending);
@@ -201,25 +205,23 @@ void HostLibrary::hold_handler(int handler, bool held, bool pending, Cycle at) {
 void HostLibrary::settle_hold(int handler, Cycle at) {
   // what stays held off, as if each event came for itself, is charged for itself
   constexpr Cycle kAtOnce = 2 * kRetfieCycles;
-  const bool is_over = at - handler_ended_ <= kAtOnce;
+  if (at - handler_ended_ > kAtOnce) return;
+  const Cycle took = at - handler_began_;
   if (handler == kAgendaHandler) {
-    const Cycle took = at - handler_began_;
-    if (std::exchange(agendas_hold_, false) && is_over && took < drivers::kAgendaTickCycles)
+    if (took < drivers::kAgendaTickCycles)
       owed_q32_ += took * static_cast<std::int64_t>(agendas().shares().share_q32() -
                                                     agendas().shares().calling_share_q32());
     return;
   }
-  if (std::exchange(scan_held_at_, -1) < 0 || !is_over) return;
   const Cycle first = source_event(kScanHandler, handler_began_);
   const bool has_come = first <= at;
   if (has_come && source_event(kScanHandler, first) <= at) return;
-  owed_q32_ += (at - handler_began_) * static_cast<std::int64_t>(variables_.share_q32()) -
-               (has_come ? pending_cycles() << 32 : 0);
+  owed_q32_ +=
+      took * static_cast<std::int64_t>(variables_.share_q32()) - (has_come ? pending_cycles() << 32 : 0);
 }
 
 void HostLibrary::begin_handler(Cycle at) {
   handler_began_ = at;
-  agendas_hold_ = true;
   agendas().begin(at);
   walk_begins_ = true;
 }

@@ -152,8 +152,7 @@ class HostLibrary final : public dspic::HostCalls {
   std::uint8_t held_ = 0;  // handlers, a bit each
   bool walk_begins_ = false;
   Cycle handler_began_ = 0, handler_ended_ = 0;
-  bool agendas_hold_ = false;          // since then, and not yet let in again
-  Cycle scan_held_at_ = -1;            // ... by it; -1: it is not
+  std::uint8_t held_by_agendas_ = 0;   // handlers since then, and not yet let in again, a bit each
   mutable std::int64_t owed_q32_ = 0;  // of take_owed_q32(), beside the agendas' own
 };
 

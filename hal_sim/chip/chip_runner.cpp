@@ -444,15 +444,16 @@ void ChipRunner::run_watched(Cycle end) {
     for (dspic::Uart& uart : device().parts().uarts) uart.advance(step.end);  // they may look at the lines
     step.took = processor_->own_cycles() - own;
     step.next = processor_->pc();
-    if (device().interrupts().nesting() > nesting) {
+    const int now_nesting = device().interrupts().nesting();
+    if (now_nesting > nesting) {
       step.entered = device().peek(dspic::sfr("INTTREG"), chip_.at(step.end)) & 0x3F;
       step.by_heart = library_ && step.entered == library_->vector(0);
       if (step.entered >= dspic::kFirstIrqVector)
         step.flagged = step.by_heart ? due : device().interrupts().flag_since(step.entered);
     }
-    step.left = device().interrupts().nesting() < nesting;
+    step.left = now_nesting < nesting;
     step.served = !step.slept && processor_->cpu().handlers_begun != begun && step.next == step.pc &&
-                  device().interrupts().nesting() == nesting;
+                  now_nesting == nesting;
     if (observer_ && observer_->look_every < dspic::kNever) observer_->reached(step.end);
     for (StepWatch* watch : watches_) watch->after(step);
   }

@@ -92,7 +92,7 @@ LibraryCalls::Functions::Functions(const dspic::FirmwareFile& file) : file_(file
     site.is_whole = true;
     const auto* const function = file.code.function_at(address);
     for (unsigned a = address; function && a < function->end; a += 2)
-      if (const auto called = sites_.find(call_target(file, a));
+      if (const auto called = sites_.find(destination(file, a));
           called != sites_.end() && called->second.known->function == Function::SpeedLeft)
         site.is_whole = false;
   }

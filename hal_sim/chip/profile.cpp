@@ -180,7 +180,7 @@ void Profile::call(const Step& step, bool by_register) {
 
 /// The function of the host that the CALL or RCALL at `pc` leads to; 0: none.
 int Profile::host_function_called(unsigned pc) const {
-  unsigned to = call_target(file_, pc);
+  unsigned to = destination(file_, pc);
   if (to == 0) return 0;
   if (!dspic::is_host_place(to)) to = goto_target(file_, to);
   return dspic::is_host_place(to) ? function_of(to) : 0;

@@ -122,15 +122,19 @@ unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
   return address;
 }
 
-unsigned ProgramPlaces::target(unsigned at) const {
-  const dspic::Row* row = dspic::find_row(program_.read(at));
+static unsigned destination_of(std::uint32_t word, std::uint32_t second, unsigned at) {
+  const dspic::Row* const row = dspic::find_row(word);
   if (!row) return 0;
-  const dspic::Fields f = dspic::fields_of(*row, program_.read(at));
+  const dspic::Fields f = dspic::fields_of(*row, word);
   if (row->id == dspic::Insn::Call_Expr || row->id == dspic::Insn::Goto_Expr)
-    return (program_.read(at + 2) & 0x7F) << 16 | f.n << 1;
+    return (second & 0x7F) << 16 | f.n << 1;
   if (row->id == dspic::Insn::Rcall_Expr || row->id == dspic::Insn::Bra_Expr)
     return (at + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
   return 0;
+}
+
+unsigned ProgramPlaces::target(unsigned at) const {
+  return destination_of(program_.read(at), program_.read(at + 2), at);
 }
 
 // as own(), but a call that says where it leads must lead to the function that runs further in
@@ -174,14 +178,10 @@ unsigned goto_target(const dspic::FirmwareFile& file, unsigned address) {
   return (high->second & kHigh) << 16 | (low->second & 0xFFFE);
 }
 
-unsigned call_target(const dspic::FirmwareFile& file, unsigned address) {
+unsigned destination(const dspic::FirmwareFile& file, unsigned address) {
   const auto word = file.words.find(address), second = file.words.find(address + 2);
-  const dspic::Row* const row = word == file.words.end() ? nullptr : dspic::find_row(word->second);
-  if (!row || (row->id != dspic::Insn::Rcall_Expr && row->id != dspic::Insn::Call_Expr)) return 0;
-  const dspic::Fields f = dspic::fields_of(*row, word->second);
-  if (row->id == dspic::Insn::Call_Expr)
-    return ((second == file.words.end() ? 0 : second->second) & 0x7F) << 16 | f.n << 1;
-  return (address + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
+  if (word == file.words.end()) return 0;
+  return destination_of(word->second, second == file.words.end() ? 0 : second->second, address);
 }
 
 unsigned ProgramPlaces::caller() const {

@@ -73,8 +73,8 @@ class ProgramPlaces final {
 
 /// Where the GOTO at a program address leads; 0: there is none.
 unsigned goto_target(const dspic::FirmwareFile& file, unsigned address);
-/// Where the CALL or RCALL at an address of an image leads; 0: it is none.
-unsigned call_target(const dspic::FirmwareFile& file, unsigned address);
+/// Where the CALL, RCALL, GOTO or BRA at an address of an image leads; 0: it is none.
+unsigned destination(const dspic::FirmwareFile& file, unsigned address);
 
 /// "__T1Interrupt"'s name in C: "_T1Interrupt", "_MathError".
 std::string handler_of(int vector);

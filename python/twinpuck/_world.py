@@ -536,8 +536,10 @@ class World:
         pathlib.Path(file).write_bytes(self._core.recording())
 
     def __repr__(self) -> str:
-        if self._core is None or not self._core.is_open:
-            return "<World, not opened>" if self._core is None else "<World, closed>"
+        if self._core is None:
+            return "<World, not opened>"
+        if not self._core.is_open:
+            return "<World, closed>"
         return f"<World {self._core.title or os.path.basename(self._file)!r}, {self.time_s:.3f} s, {self.robots!r}>"
 
 
