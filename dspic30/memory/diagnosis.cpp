@@ -17,6 +17,8 @@ const char* cause_name(Cause cause) {
       return "UART frame error";
     case Cause::UartOff:
       return "UART off";
+    case Cause::UartFull:
+      return "UART full";
     case Cause::BaudError:
       return "baud rate error";
     case Cause::MissedInterrupt:

@@ -19,6 +19,7 @@ enum class Cause : std::uint8_t {
   UartOverrun,           ///< a received word was lost: four waited, the fifth stayed in the shift register
   UartFrameError,        ///< a received word without its stop bit: wrong baud rate or format
   UartOff,               ///< a word was written to a transmitter that is off: it is lost
+  UartFull,              ///< a word was written while four waited to be sent: it is lost
   BaudError,             ///< the nearest standard rate is more than 2 % off
   MissedInterrupt,       ///< an event found its flag, enabled, still set: one handler run for two events
   FlagNeverCleared,      ///< a handler returned twice without having cleared its flag: it runs for ever

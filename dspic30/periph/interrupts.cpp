@@ -34,6 +34,7 @@ void Interrupts::reset(Cycle now) {
   flags_read_.fill(-kReadModifyWrite - 1);
   last_vector_ = last_level_ = 0;
   uncleared_ = uncleared_again_ = 0;
+  uncleared_traps_ = 0;
 }
 
 // --- flags
@@ -72,11 +73,28 @@ void Interrupts::check_cleared(int i, Cycle entered, Cycle now) {
   uncleared_ |= here;
   uncleared_again_ |= again;
   if (!again) return;
-  const std::string name = vector_name(kFirstIrqVector + i);
-  const std::string bit = sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16);
+  tell_uncleared(kFirstIrqVector + i,
+                 sfr_bit_name(*sfr_info(kIfs0 + 2 * static_cast<unsigned>(i / 16)), i % 16),
+                 "the main program hardly runs", now);
+}
+
+void Interrupts::check_trap_cleared(int trap, Cycle now) {
+  const unsigned here = 1u << trap;
+  if (!control_.has_trap(static_cast<Trap>(trap))) {
+    uncleared_traps_ &= ~here;
+    return;
+  }
+  if (uncleared_traps_ & here)
+    tell_uncleared(trap, sfr_bit_name(*sfr_info(kIntcon1), __builtin_ctz(trap_flag(trap))),
+                   "the program does not go on", now);
+  uncleared_traps_ |= here;
+}
+
+void Interrupts::tell_uncleared(int vector, const std::string& bit, const char* who_waits, Cycle now) {
+  const std::string name = vector_name(vector);
   diagnostics_.report(Cause::FlagNeverCleared, name,
-                      "_" + name + "Interrupt returns without clearing " + bit +
-                          ", so it is entered again at once and the main program hardly runs",
+                      "the handler of " + name + " returns without clearing " + bit +
+                          ", so it is entered again at once and " + who_waits,
                       now);
 }
 

@@ -117,6 +117,8 @@ class Interrupts final : public SfrOwner {
     note_lowered(flags);
   }
   __attribute__((noinline)) void check_cleared(int irq, Cycle entered, Cycle now);
+  __attribute__((noinline)) void check_trap_cleared(int trap, Cycle now);
+  void tell_uncleared(int vector, const std::string& bit, const char* who_waits, Cycle now);
 
   // what every turn of the processor looks at, together
   CpuLevel cpu_;
@@ -127,6 +129,7 @@ class Interrupts final : public SfrOwner {
   std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   // bit i: the last handler of IRQ i returned with its flag untouched; more than one in turn did
   std::uint64_t uncleared_ = 0, uncleared_again_ = 0;
+  unsigned uncleared_traps_ = 0;  // bit i: so did the last handler of trap i
   std::array<Cycle, 4> flags_read_{};
   std::uint16_t last_vector_ = 0, last_level_ = 0;
   FlagListeners listeners_;
@@ -217,7 +220,10 @@ __attribute__((always_inline)) inline Cycle Interrupts::leave(Cycle now) {
   if (cpu_.nesting() == 0) return next;
   const CpuLevel::Frame& frame = cpu_.leave(next);
   const int irq = frame.vector - kFirstIrqVector;
-  if (irq >= 0 && !(cleared_ >> irq & 1)) check_cleared(irq, frame.entered, now);
+  if (irq < 0)
+    check_trap_cleared(frame.vector, now);
+  else if (!(cleared_ >> irq & 1))
+    check_cleared(irq, frame.entered, now);
   return next;
 }
 

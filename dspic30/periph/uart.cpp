@@ -299,13 +299,16 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
                               name("TXREG") + " is written while " + name("MODE.UARTEN") +
                                   " is 0: nothing is sent, and what is written is lost",
                               now);
-      if ((lanes & 0xFF) && !out_.full()) {
-        load(value);
-        if (out_.count == 1)
-          schedule_transmit(now);
-        else
-          set_transmit_event();
+      if (!(lanes & 0xFF)) break;
+      if (out_.full()) {
+        if (enabled()) tell_full(now);
+        break;
       }
+      load(value);
+      if (out_.count == 1)
+        schedule_transmit(now);
+      else
+        set_transmit_event();
       break;
     case kRxReg:
       break;
@@ -317,6 +320,14 @@ void Uart::write(unsigned address, std::uint16_t value, std::uint16_t lanes, Cyc
       schedule_receive(now);
       break;
   }
+}
+
+void Uart::tell_full(Cycle now) {
+  f_.diagnostics.report(Cause::UartFull, name("TXREG"),
+                        name("TXREG") + " is written while four words wait in it" +
+                            (transmits() ? "" : ", for " + name("STA.UTXEN") + " is 0") +
+                            ": what is written is lost",
+                        now);
 }
 
 void Uart::set_enabled(bool on, Cycle now) {

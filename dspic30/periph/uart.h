@@ -96,6 +96,7 @@ class Uart final : public SfrOwner, public EventOwner {
   void set_enabled(bool on, Cycle now);
   void own_pins(Cycle at);
   void check_rate(Cycle at);
+  void tell_full(Cycle now);
   std::string name(const char* suffix) const;
 
   const Fabric& f_;

@@ -335,6 +335,7 @@ std::string ChipRunner::comment(const dspic::Diagnosis& d) const {
     case dspic::Cause::MissedInterrupt:
       return places_->who_runs();
     case dspic::Cause::UartOff:
+    case dspic::Cause::UartFull:
     case dspic::Cause::NvmBusy:
     case dspic::Cause::CpuTrap:
       return "; at " + places_->text_of(places_->own(processor_->pc_of_access()));

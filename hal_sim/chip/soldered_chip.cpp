@@ -21,6 +21,8 @@ std::string hint_for(dspic::Cause cause) {
       return "compare baud rate, parity and stop bits of both ends";
     case Cause::UartOff:
       return "call e_init_uart1() or e_init_uart2() first, or set UxMODE.UARTEN";
+    case Cause::UartFull:
+      return "wait until UxSTA.UTXBF is 0 before each write, or call e_send_uart1_char()";
     case Cause::BaudError:
       return "UxBRG = FCY / (16 baud) - 1 with FCY = " + std::to_string(board::kFcyHz) +
              " Hz: 7 for 115200, 95 for 9600";

@@ -256,9 +256,29 @@ TEST_F(Interrupts, handler_that_never_clears_its_flag_is_named) {
   }
   ASSERT_EQ(b.notes.count(dspic::Cause::FlagNeverCleared), 1);
   EXPECT_EQ(b.notes.all[0].place, "T2");
+  EXPECT_EQ(
+      b.notes.all[0].message,
+      "the handler of T2 returns without clearing IFS0.T2IF, so it is entered again at once and the main "
+      "program hardly runs");
+}
+
+TEST_F(Interrupts, trap_handler_that_never_clears_its_flag_is_named) {
+  auto& interrupts = b.chip.interrupts();
+  const int math = static_cast<int>(dspic::Trap::MathError);
+  const auto handle = [&](bool clears, dspic::Cycle at) {
+    interrupts.raise_trap(dspic::Trap::MathError, at);
+    interrupts.enter(math, at);
+    if (clears) b.clear("INTCON1", 0x10, at + 5);
+    interrupts.leave(at + 10);
+  };
+  for (bool clears : {false, true, false}) handle(clears, 10);  // not twice in turn
+  EXPECT_EQ(b.notes.count(dspic::Cause::FlagNeverCleared), 0);
+  handle(false, 100);
+  ASSERT_EQ(b.notes.count(dspic::Cause::FlagNeverCleared), 1);
+  EXPECT_EQ(b.notes.all[0].place, "MathError");
   EXPECT_EQ(b.notes.all[0].message,
-            "_T2Interrupt returns without clearing IFS0.T2IF, so it is entered again at once and the main "
-            "program hardly runs");
+            "the handler of MathError returns without clearing INTCON1.MATHERR, so it is entered again at "
+            "once and the program does not go on");
 }
 
 TEST_F(Interrupts, handler_that_clears_its_flag_is_not) {

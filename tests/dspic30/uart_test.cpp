@@ -143,6 +143,30 @@ TEST_F(Uart, fifth_word_overruns_and_blocks) {
   EXPECT_EQ(b.read("U1RXREG", 32000), static_cast<unsigned>('z'));
 }
 
+TEST_F(Uart, a_word_for_which_there_is_no_room_is_lost_and_told) {
+  open();
+  // one goes on to the shift register at once, four wait
+  for (int i = 0; i < 5; ++i) b.write("U1TXREG", static_cast<unsigned>('a' + i), 100 + 2 * i);
+  EXPECT_EQ(b.notes.count(dspic::Cause::UartFull), 0);
+  b.write("U1TXREG", 'f', 110);
+  ASSERT_EQ(b.notes.count(dspic::Cause::UartFull), 1);
+  EXPECT_EQ(b.notes.all[0].place, "U1TXREG");
+  EXPECT_EQ(b.notes.all[0].message,
+            "U1TXREG is written while four words wait in it: what is written is lost");
+  b.chip.run_to(20000);
+  std::string sent;
+  for (const UartFrame& frame : b.outside.sent) sent += static_cast<char>(frame.word);
+  EXPECT_EQ(sent, "abcde");
+}
+
+TEST_F(Uart, words_wait_for_a_transmitter_that_is_not_enabled) {
+  b.write("U1MODE", 0x8000, 0);
+  for (int i = 0; i < 5; ++i) b.write("U1TXREG", static_cast<unsigned>('a' + i), 100 + 2 * i);
+  ASSERT_EQ(b.notes.count(dspic::Cause::UartFull), 1);
+  EXPECT_EQ(b.notes.all[0].message,
+            "U1TXREG is written while four words wait in it, for U1STA.UTXEN is 0: what is written is lost");
+}
+
 TEST_F(Uart, clearing_oerr_that_is_clear_keeps_the_words) {
   open();
   arrive('q', 1001);

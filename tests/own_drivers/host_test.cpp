@@ -125,8 +125,9 @@ int main(void) { PR1 = 10000; T1CON = 0x8000; _T1IE = 1; while (1); }
   run_for(0.05);
   EXPECT_TRUE(wording::reads(
       this->robot(0).diagnoses_text(),
-      "T1: flag never cleared: _T1Interrupt returns without clearing IFS0.T1IF, so it is entered again at "
-      "once and the main program hardly runs; clear the flag in the handler\nTRISA6: input driven: LATA6 is "
+      "T1: flag never cleared: the handler of T1 returns without clearing IFS0.T1IF, so it is entered again "
+      "at once and the main program hardly runs; clear the flag in the handler\nTRISA6: input driven: LATA6 "
+      "is "
       "written again and again, but TRISA6 = 1 makes the pin an input: nothing reaches it; clear the TRIS "
       "bit, or call e_init_port() first\nT1: missed interrupt: T1: an event came while its flag was still "
       "set and enabled; the handler runs once for several (too slow, or held off too long); meanwhile "

@@ -199,7 +199,7 @@ std::string long_pulse(const std::string& ms) {
          "after it rose\n";
 }
 std::string not_cleared(const std::string& vector, const std::string& flag) {
-  return vector + ": flag never cleared: _" + vector + "Interrupt returns without clearing " + flag +
+  return vector + ": flag never cleared: the handler of " + vector + " returns without clearing " + flag +
          ", so it is entered again at once and the main program hardly runs; clear the flag in the handler\n";
 }
 std::string missed(const std::string& vector, const std::string& meanwhile) {
