@@ -10,8 +10,6 @@ namespace dspic {
 
 namespace {
 
-constexpr std::uint32_t kPcMask = 0x7FFFFE;
-
 std::string w(unsigned n) { return "w" + std::to_string(n); }
 
 // modes 0 to 5 of p, q, g, h; 6 is [Wn+Wb]

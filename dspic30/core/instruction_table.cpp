@@ -99,4 +99,12 @@ unsigned field_limit(const Row& row, unsigned Fields::*member) {
   return 0;
 }
 
+std::optional<std::uint32_t> destination(const Row& row, std::uint32_t word, std::uint32_t second,
+                                         std::uint32_t address) {
+  const unsigned n = fields_of(row, word).n;
+  if (row.has(Operand::Target)) return (second & 0x7F) << 16 | n << 1;
+  if (!row.has(Operand::Branch)) return {};
+  return (address + 2 + 2 * static_cast<std::uint32_t>(sign_extend(n, 16))) & kPcMask;
+}
+
 }  // namespace dspic

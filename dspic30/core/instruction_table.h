@@ -9,6 +9,7 @@
 #pragma once
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace dspic {
@@ -99,6 +100,13 @@ constexpr int sign_extend(unsigned value, int bits) {
   const unsigned sign = 1u << (bits - 1);
   return static_cast<int>((value & (2 * sign - 1)) ^ sign) - static_cast<int>(sign);
 }
+
+/// Bits of the program counter.
+inline constexpr std::uint32_t kPcMask = 0x7FFFFE;
+/// Where the instruction at `address` leads that branches, jumps or calls; `second` is the word behind it. None: it
+/// does no such thing, or a register says where to.
+std::optional<std::uint32_t> destination(const Row& row, std::uint32_t word, std::uint32_t second,
+                                         std::uint32_t address);
 
 // --- DSP prefetch
 

@@ -20,16 +20,8 @@ std::uint32_t word_at(const FirmwareFile& file, std::uint32_t address) {
   return word == file.words.end() ? kErasedWord : word->second;
 }
 
-/// Where a GOTO, CALL or RCALL leads; 0: it is none.
-std::uint32_t destination(const FirmwareFile& file, std::uint32_t address, std::uint32_t word) {
-  const Row* row = find_row(word);
-  if (!row) return 0;
-  const Fields f = fields_of(*row, word);
-  if (row->id == Insn::Call_Expr || row->id == Insn::Goto_Expr)
-    return (word_at(file, address + 2) & 0x7F) << 16 | f.n << 1;
-  if (row->id == Insn::Rcall_Expr)
-    return (address + 2 + 2 * static_cast<std::uint32_t>(sign_extend(f.n, 16))) & 0x7FFFFE;
-  return 0;
+std::optional<std::uint32_t> destination(const FirmwareFile& file, std::uint32_t address, const Row& row) {
+  return destination(row, word_at(file, address), word_at(file, address + 2), address);
 }
 
 }  // namespace
@@ -43,7 +35,8 @@ void find_functions(FirmwareFile& file) {
   // Where the vectors lead, by their names; one that many share is the default handler.
   for (int v = 1; v < kVectors; ++v)
     ++vectors[word_at(file, kVectorTable + 2 * static_cast<std::uint32_t>(v))];
-  if (const std::uint32_t start = destination(file, 0, word_at(file, 0))) add(start, "_reset");
+  if (const Row* first = find_row(word_at(file, 0)))
+    if (const auto start = destination(file, 0, *first)) add(*start, "_reset");
   for (int v = 1; v < kVectors; ++v) {
     const std::uint32_t to = word_at(file, kVectorTable + 2 * static_cast<std::uint32_t>(v));
     const std::string name = std::string("_") + vector_name(v) + (v < kFirstIrqVector ? "" : "Interrupt");
@@ -59,13 +52,12 @@ void find_functions(FirmwareFile& file) {
   for (const auto& [address, word] : file.words) {
     const Row* row = address < kFlashEnd ? find_row(word) : nullptr;
     if (!row) continue;
-    for (const Operand kind : row->kinds)
-      if (kind == Operand::Branch && row->id != Insn::Rcall_Expr)
-        inside.insert(
-            (address + 2 + 2 * static_cast<std::uint32_t>(sign_extend(fields_of(*row, word).n, 16))) &
-            0x7FFFFE);
-    if (row->id != Insn::Goto_Expr)
-      add_unnamed(destination(file, address, word));  // GOTO may stay within one
+    const auto to = destination(file, address, *row);
+    if (!to || row->id == Insn::Goto_Expr) continue;  // GOTO may stay within one
+    if (row->has(Operand::Branch) && row->id != Insn::Rcall_Expr)
+      inside.insert(*to);
+    else
+      add_unnamed(*to);
   }
   // what no branch leads to, behind a return or a jump, is called through a pointer; a table of jumps is not
   for (const auto& [address, word] : file.words) {

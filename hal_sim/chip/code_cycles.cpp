@@ -38,11 +38,8 @@ CodeCycles::Instruction CodeCycles::at(std::uint32_t address) const {
   dspic::WordRegisters registers;
   i.decoded = dspic::decode_word(program_, address, {}, registers);
   i.least = i.most = i.decoded.cycles - i.decoded.lead;
-  const dspic::Fields f = dspic::fields_of(*i.row, word->second);
-  if (i.row->has(dspic::Operand::Branch))
-    i.target = (address + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
-  if (i.row->has(dspic::Operand::Target)) i.target = (program_.read(address + 2) & 0x7F) << 16 | f.n << 1;
-  if (i.row->id == Insn::Repeat_lit14) i.repeats = f.k;
+  i.target = dspic::destination(*i.row, word->second, program_.read(address + 2), address).value_or(0);
+  if (i.row->id == Insn::Repeat_lit14) i.repeats = dspic::fields_of(*i.row, word->second).k;
   return i;
 }
 

@@ -124,13 +124,9 @@ unsigned ProgramPlaces::own(unsigned address, unsigned stack) const {
 
 static unsigned destination_of(std::uint32_t word, std::uint32_t second, unsigned at) {
   const dspic::Row* const row = dspic::find_row(word);
-  if (!row) return 0;
-  const dspic::Fields f = dspic::fields_of(*row, word);
-  if (row->id == dspic::Insn::Call_Expr || row->id == dspic::Insn::Goto_Expr)
-    return (second & 0x7F) << 16 | f.n << 1;
-  if (row->id == dspic::Insn::Rcall_Expr || row->id == dspic::Insn::Bra_Expr)
-    return (at + 2 + 2 * static_cast<unsigned>(dspic::sign_extend(f.n, 16))) & 0x7FFFFE;
-  return 0;
+  const bool is_conditional = row && row->has(dspic::Operand::Branch) && row->id != dspic::Insn::Rcall_Expr &&
+                              row->id != dspic::Insn::Bra_Expr;
+  return !row || is_conditional ? 0 : dspic::destination(*row, word, second, at).value_or(0);
 }
 
 unsigned ProgramPlaces::target(unsigned at) const {

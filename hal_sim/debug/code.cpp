@@ -15,12 +15,6 @@ using dspic::Operand;
 constexpr std::uint32_t kVectors = 0x04, kAlternateVectors = 0x84;
 constexpr unsigned kW14 = 14, kW15 = 15;
 
-bool has_kind(const dspic::Row& row, Operand kind) {
-  for (const Operand k : row.kinds)
-    if (k == kind) return true;
-  return false;
-}
-
 /// By how much a pointer's mode moves W15: [Ws--], [Ws++], [--Ws], [++Ws].
 int moved(unsigned mode, int bytes) {
   return mode == 2 || mode == 4 ? -bytes : mode == 3 || mode == 5 ? bytes : 0;
@@ -62,8 +56,8 @@ int growth(const Instruction& i) {
 }
 
 std::optional<Instruction::Access> access_of(const dspic::Row& row, const dspic::Fields& f) {
-  const bool by_word = has_kind(row, Operand::FileWord), by_bit = has_kind(row, Operand::FileBit);
-  if (!by_word && !by_bit && !has_kind(row, Operand::File)) return {};
+  const bool by_word = row.has(Operand::FileWord), by_bit = row.has(Operand::FileBit);
+  if (!by_word && !by_bit && !row.has(Operand::File)) return {};
   Instruction::Access a;
   a.address = by_word ? 2 * f.f : f.f;
   switch (row.id) {
@@ -159,13 +153,9 @@ std::optional<Instruction> Code::at(std::uint32_t address) const {
   i.fields = dspic::fields_of(*i.row, word->second);
   i.access = access_of(*i.row, i.fields);
   const std::string name = i.row->mnemonic;
-  if (has_kind(*i.row, Operand::Branch))
-    i.target = (i.next() + 2 * static_cast<std::uint32_t>(dspic::sign_extend(i.fields.n, 16))) & 0x7FFFFE;
-  if (has_kind(*i.row, Operand::Target)) {
-    const auto second = file_.words.find(address + 2);
-    const std::uint32_t high = second == file_.words.end() ? 0 : second->second & 0x7F;
-    i.target = high << 16 | i.fields.n << 1;
-  }
+  const auto second = file_.words.find(address + 2);
+  i.target =
+      dspic::destination(*i.row, word->second, second == file_.words.end() ? 0 : second->second, address);
   i.goes_on = !i.is_return() && name != "GOTO" && name != "RESET" && i.row->id != Insn::Bra_Expr &&
               i.row->id != Insn::Bra_Wn;
   return i;
