@@ -2,10 +2,33 @@
 #include "hal_sim/host/mind.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "sim_core/world/scene.h"
 
 namespace host {
+
+namespace {
+
+/// A word of one of the library's arrays, of an image that has it.
+std::optional<int> word_of(const Runner& program, const char* array, int index) {
+  const auto at = 2 * static_cast<std::size_t>(index);
+  const std::vector<char> words = program.data().read_variable(array, at + 2);
+  if (words.empty()) return {};
+  std::int16_t word = 0;
+  std::memcpy(&word, words.data() + at, sizeof word);
+  return word;
+}
+
+/// What the scan of the image's own library has filed of a sensor, dark less lit; nothing: it has not yet.
+std::optional<int> filed_proximity(const Runner& program, int sensor) {
+  const auto dark = word_of(program, "e_ambient_ir", sensor),
+             lit = word_of(program, "e_ambient_and_reflected_ir", sensor);
+  if (!dark || !lit || (*dark == 0 && *lit == 0)) return {};
+  return *dark - *lit;
+}
+
+}  // namespace
 
 FirmwareMind::FirmwareMind(const board::Setup& setup, const RunnerFactory& make_runner) : board_(setup) {
   if (!make_runner) {
@@ -111,8 +134,16 @@ sim::MindReport FirmwareMind::report() const {
 
 int FirmwareMind::proximity_counts(const sim::Scene& scene, int index) {
   board_.look_at(&scene);
-  tell_asked(now());
-  return board_.proximity_counts(index, now());
+  return proximity_reading(index);
+}
+
+int FirmwareMind::proximity_reading(int sensor) const {
+  const Runner* const program = caught_up();
+  const board::PinDriver* const driver = board_.pins().driver();
+  const bool is_drivers = driver && driver->proximity_counts(sensor, now());
+  if (const auto filed = program && !is_drivers ? filed_proximity(*program, sensor) : std::nullopt)
+    return *filed;
+  return board_.proximity_counts(sensor, now());
 }
 
 }  // namespace host

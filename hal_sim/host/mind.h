@@ -19,6 +19,9 @@ class FirmwareMind final : public sim::RobotMind {
   sim::WheelCourse wheel_course(sim::Clicks at) override;
   sim::MindReport report() const override;
   int proximity_counts(const sim::Scene& scene, int index) override;
+  /// What e_get_prox() would give: of the program's newest scan, dark less lit (counts). Without one, what a scan
+  /// would find now, without noise.
+  int proximity_reading(int sensor) const;
   std::uint64_t state_hash() const override {
     return runner_ && runner_->hashes_events() ? runner_->hash() : hash_;
   }

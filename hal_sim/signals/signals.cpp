@@ -141,7 +141,7 @@ std::vector<Signal> of_light() {
        "what e_get_prox() would give: dark less lit", false,
        [](T t, int r, int i) {
          const auto& m = mind(t, r);
-         return m.board().scene() ? double(m.board().proximity_counts(i, m.now())) : 0.0;
+         return m.board().scene() ? double(m.proximity_reading(i)) : 0.0;
        },
        "ir", "counts", 1},
       {"light", kRing, "W/m2", 0, kFar, "light that falls on a proximity sensor", false,
