@@ -128,7 +128,7 @@ bool Session::reopen(std::vector<std::string>& problems) {
   close_run();  // first: programs lie in memory where they lay in the run before
   ended_ = is_replayed_ = false;
   traps_told_.clear();
-  if (!open_run(replay_ ? replay_->inputs() : std::vector<Json>(), problems)) {
+  if (!open_run(replay_ ? replay_->inputs() : std::vector<Json>(), false, problems)) {
     tell_problems(problems);
     return false;
   }
@@ -143,7 +143,8 @@ bool Session::reopen(std::vector<std::string>& problems) {
   return true;
 }
 
-bool Session::open_run(std::vector<Json> script, std::vector<std::string>& problems) {
+/// Of the document as it is. One that is repeated begins with the images that it began with.
+bool Session::open_run(std::vector<Json> script, bool is_repeated, std::vector<std::string>& problems) {
   const sim::LoadedWorld& loaded = document_.loaded();
   if (!loaded.world) {
     problems.push_back(loaded.report(document_.file()));
@@ -167,16 +168,19 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
   if (was_open_)
     for (auto* choices : {&options.firmware, &options.uart1, &options.uart2})
       choices->erase(std::remove_if(choices->begin(), choices->end(), is_gone), choices->end());
+  const std::vector<twin::Choice> chosen = options.firmware;
+  if (is_repeated) options.firmware = first_images_;
   programs_.clear();
   // Each robot's program is known from here on, whether the run opens or not.
   auto run = std::make_unique<Run>(std::move(script), replay_ != nullptr);
   const bool opened = run->open(world, options, opening_.supervisors, problems);
+  const bool is_as_chosen = opened && !is_repeated;
   for (int r = 0; r < static_cast<int>(world.robots.size()); ++r) {
     // a world that does not run has programs, too: one of them may be why
-    std::string name = opened ? run->twin().world().robots[static_cast<std::size_t>(r)].firmware
-                              : world.robots[static_cast<std::size_t>(r)].firmware;
-    if (!opened)
-      for (const twin::Choice& c : options.firmware)
+    std::string name = is_as_chosen ? run->twin().world().robots[static_cast<std::size_t>(r)].firmware
+                                    : world.robots[static_cast<std::size_t>(r)].firmware;
+    if (!is_as_chosen)
+      for (const twin::Choice& c : chosen)
         if (c.robot == "*" || c.robot == world.robots[static_cast<std::size_t>(r)].name) name = c.value;
     if (!name.empty()) programs_.named(name, options.world_folder).robots.push_back(r);
   }
@@ -184,7 +188,18 @@ bool Session::open_run(std::vector<Json> script, std::vector<std::string>& probl
   if (!opened) return false;
   was_open_ = true;
   run_ = std::move(run);
+  if (!is_repeated) keep_images();
   return true;
+}
+
+/// Of the run that begins.
+void Session::keep_images() {
+  const twin::Twin& twin = run_->twin();
+  first_images_.clear();
+  for (int r = 0; r < twin.robots(); ++r)
+    if (!twin.image_path(r).empty() && !twin.launch(r))
+      first_images_.push_back(
+          {twin.world().robots[static_cast<std::size_t>(r)].name, images_.keep(twin.image_path(r))});
 }
 
 /// The run's twin is another one.
@@ -303,11 +318,7 @@ void Session::debug_robot(int robot) {
   setup.world = twin.world();
   setup.options = opening_.options;
   setup.options.world_folder = world_folder();
-  setup.options.firmware.clear();
-  for (int i = 0; i < twin.robots(); ++i)
-    if (!twin.image_path(i).empty())
-      setup.options.firmware.push_back(
-          {twin.world().robots[static_cast<std::size_t>(i)].name, twin.image_path(i)});
+  setup.options.firmware = first_images_;
   setup.robot = name;
   // A run like this one does again all that was done; pages see the debugger's twin.
   auto repeated = std::make_unique<Run>(run_->script(), replay_ != nullptr);
@@ -352,7 +363,7 @@ void Session::debug_no_more() {
   std::vector<Programs::Built> held = std::move(held_);
   close_run();
   std::vector<std::string> problems;
-  if (open_run(std::move(done), problems)) {
+  if (open_run(std::move(done), true, problems)) {
     run_->begin([](const std::string&) {}, [this] { return mail_.is_ending(); });
     if (!record_file_.empty()) run_->record(record_file_, opening_);
     while (now() < stands && !mail_.is_ending()) run_->advance(stands);
@@ -461,7 +472,8 @@ void Session::load_built(Programs::Built& built) {
   Programs::Program* const program = programs_.find(built.name);
   if (built.problems.empty() && program && run_) {
     try {
-      if (!built.robots.empty()) input({{"do", "program"}, {"robots", built.robots}, {"image", built.path}});
+      if (!built.robots.empty())
+        input({{"do", "program"}, {"robots", built.robots}, {"image", images_.keep(built.path)}});
       for (const int robot : built.robots) {
         if (static_cast<std::size_t>(robot) < traps_told_.size())
           traps_told_[static_cast<std::size_t>(robot)] = 0;

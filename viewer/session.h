@@ -18,6 +18,7 @@
 
 #include "viewer/debugging.h"
 #include "viewer/document.h"
+#include "viewer/kept_images.h"
 #include "viewer/live_edits.h"
 #include "viewer/mailbox.h"
 #include "viewer/pace.h"
@@ -103,7 +104,8 @@ class Session {
 
   // --- runs
   bool reopen(std::vector<std::string>& problems);
-  bool open_run(std::vector<Json> script, std::vector<std::string>& problems);
+  bool open_run(std::vector<Json> script, bool is_repeated, std::vector<std::string>& problems);
+  void keep_images();
   void close_run();
   void take_up_run();
   void begin_anew();
@@ -154,6 +156,8 @@ class Session {
   std::unique_ptr<Debugging> debugging_;  // null: nobody is debugged; it has the run's twin
   std::unique_ptr<Run> run_;              // null: the world cannot run
   std::vector<Programs::Built> held_;     // programs that were built while a robot was debugged
+  KeptImages images_;
+  std::vector<twin::Choice> first_images_;  // with which the run began, by robot
 
   std::vector<int> movable_;             // ids of the movable objects that live
   sim::WorldText live_text_;             // what the world that lives was made of

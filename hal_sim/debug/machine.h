@@ -34,6 +34,7 @@ class Machine {
   /// `watcher` sees each step from now on, or no longer. It outlives the machine or is taken away. Between
   /// two windows, on the world's thread. True: it did not before.
   bool watch(chip::StepWatch* watcher, bool on);
+  bool is_watched() const { return is_watched_; }
 
   // --- where it stands
   Cycle now() const { return runner_.processor().now(); }

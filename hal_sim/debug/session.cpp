@@ -84,6 +84,9 @@ bool Session::open_world(std::vector<std::string>& problems) {
       setup_.options.firmware.push_back(
           {twin_->world().robots[static_cast<std::size_t>(i)].name, twin_->image_path(i)});
   set_marks();
+  twin_->tell_flashes([this](int robot) {
+    if (robot == robot_) follow_flash();
+  });
   if (setup_.opened) setup_.opened(*twin_);
   return true;
 }
@@ -479,16 +482,10 @@ Session::CodePlace Session::find_code(const std::string& where, std::string& err
 const Breakpoint* Session::add_breakpoint(const std::string& where, const std::string& condition,
                                           std::string& error) {
   Breakpoint b;
-  CodePlace code = find_code(where, error);
-  b.addresses = std::move(code.addresses);
-  // of a function, where conditions see its arguments
-  if (code.is_function)
-    for (std::uint32_t& address : b.addresses) address = machine_->body_of(address);
-  b.what = std::move(code.what);
+  if (!place(b, where, error)) return nullptr;
   // A condition has to make sense at the breakpoint, or there is none.
   std::int64_t value = 0;
   std::string wrong;
-  if (b.addresses.empty()) return nullptr;
   if (!condition.empty() && !values(b.addresses[0]).evaluate(condition, value, wrong)) {
     error = "condition: " + wrong;
     return nullptr;
@@ -498,6 +495,40 @@ const Breakpoint* Session::add_breakpoint(const std::string& where, const std::s
   breakpoints_.push_back(std::move(b));
   set_marks();
   return &breakpoints_.back();
+}
+
+/// Where it is in the program's code, and how it is called.
+bool Session::place(Breakpoint& b, const std::string& where, std::string& error) const {
+  CodePlace code = find_code(where, error);
+  b.addresses = std::move(code.addresses);
+  // of a function, where conditions see its arguments
+  if (code.is_function)
+    for (std::uint32_t& address : b.addresses) address = machine_->body_of(address);
+  if (!b.addresses.empty()) b.what = std::move(code.what);
+  return !b.addresses.empty();
+}
+
+/// The robot has another program from here on, and begins it. Breakpoints are where they are in that; what it has
+/// not is not met.
+void Session::follow_flash() {
+  auto* const runner = dynamic_cast<chip::ChipRunner*>(twin_->mind(robot_).runner());
+  if (!runner) return;  // programs of the PC are not flashed into a robot of the chip
+  const bool is_watched = machine_->is_watched();
+  machine_ = std::make_unique<Machine>(*runner);
+  machine_->watch(this, is_watched);
+  put_off_.clear();
+  trap_.clear();
+  traps_ = 0;
+  last_repeats_ = false;
+  for (Breakpoint& b : breakpoints_) {
+    std::string none;
+    if (b.data.bytes == 0)
+      place(b, b.what, none);
+    else if (const auto data = values().find_data(b.what))
+      b.data = *data;
+  }
+  set_marks();
+  watched_.clear();
 }
 
 std::string Session::note_of(const Breakpoint& b) const {

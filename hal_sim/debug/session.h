@@ -170,6 +170,8 @@ class Session final : private chip::StepWatch {
   void stand();
   bool holds(const Breakpoint& b) const;
   void set_marks();
+  bool place(Breakpoint& b, const std::string& where, std::string& error) const;
+  void follow_flash();
 
   Setup setup_;
   std::unique_ptr<twin::Twin> twin_;

@@ -367,6 +367,7 @@ std::string Twin::flash(const std::vector<int>& robots, const std::string& path)
     place.launch = program.program;
     place.program = {path, "", 0};
     simulation_->note_intervention(static_cast<std::size_t>(robot));
+    if (flashed_) flashed_(robot);
   }
   return "";
 }

@@ -3,6 +3,7 @@
 // the test fixture are two thin users of this class.
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -63,6 +64,8 @@ class Twin {
   /// Flashes another image into robots that run programs; they start it where they stand. Returns what is
   /// wrong with the image, or an empty string. Between ticks.
   std::string flash(const std::vector<int>& robots, const std::string& path);
+  /// `told` hears of each robot whose program is another one now; its runner is, too.
+  void tell_flashes(std::function<void(int robot)> told) { flashed_ = std::move(told); }
   /// A robot that was restarted begins as when the world began; its keys are pressed again. Between ticks.
   void begin_again(int robot);
   /// All traps and unexpected resets so far, robot by robot.
@@ -95,6 +98,7 @@ class Twin {
   void add_media();
   std::unique_ptr<sim::Simulation> simulation_;  // owns the minds
   std::vector<Place> places_;                    // by robot
+  std::function<void(int robot)> flashed_;       // empty: nobody wants to know
   Options options_;                              // as it was opened with
   sim::PacketMedium* packets_ = nullptr;         // the simulation's
   const sim::RadioMedium* radio_ = nullptr;      // the simulation's

@@ -121,6 +121,50 @@ TEST_F(InTheDebugger, the_run_is_the_same_with_it_and_without) {
   EXPECT_EQ(digest_after(true), digest_after(false));
 }
 
+// by its source, at the run's begin and on the way, and by another program's name
+TEST_F(InTheDebugger, a_program_that_was_replaced_on_the_way_is_debugged) {
+  std::string other = kDrive;
+  other.replace(other.find("e_set_speed_left(speed)"), 23, "\n    e_set_speed_left(-speed)");
+  const int line = line_of("e_set_speed_left(speed)") + 1;
+  const auto digest_after = [&](int before, bool by_name, bool debugged) {
+    write("drive/main.c", kDrive);
+    write("back/main.c", other);
+    Page page(open("world.toml"));
+    const int robot = page.event("hello").at("world").at("robots").at(0).at("id");
+    if (before > 0) steps(page, before);
+    if (by_name)
+      page.good({{"do", "edit"}, {"op", "set"}, {"thing", robot}, {"values", {{"firmware", "back"}}}});
+    else
+      write("drive/main.c", other);
+    EXPECT_TRUE(page.event("built").at("ok"));
+    steps(page, 10);
+    if (debugged) {
+      page.good({{"do", "debug"}, {"robot", "puck"}});
+      page.good({{"do", "debug"}, {"robot", ""}});
+    }
+    steps(page, 10);
+    const std::string digest = page.good({{"do", "state"}}).at("state").at("digest");
+    if (!debugged) return digest;
+    page.good({{"do", "debug"}, {"robot", "puck"}});
+    const std::string file = path(by_name ? "back/main.c" : "drive/main.c");
+    EXPECT_EQ(break_at(page, file, line).at("breakpoints").at(0).at("verified"), true);
+    const auto goes_to_line = [&](const char* way) {
+      dap(page, way, {{"threadId", 1}});
+      stopped(page, "breakpoint");
+      EXPECT_EQ(dap(page, "stackTrace", {{"threadId", 1}}).at("stackFrames").at(0).at("line"), line) << way;
+      return std::stoi(evaluate(page, "rounds"));
+    };
+    const int rounds = goes_to_line("reverseContinue");
+    EXPECT_EQ(goes_to_line("reverseContinue"), rounds - 1);
+    EXPECT_EQ(goes_to_line("continue"), rounds);
+    break_at(page, file, line, "rounds == 0");
+    EXPECT_EQ(goes_to_line("reverseContinue"), 0) << "where it began";
+    return digest;
+  };
+  for (const auto& [before, by_name] : {std::pair{0, false}, {10, false}, {10, true}})
+    EXPECT_EQ(digest_after(before, by_name, true), digest_after(before, by_name, false)) << before;
+}
+
 TEST_F(InTheDebugger, only_a_robot_with_firmware_is_debugged) {
   write("empty.toml",
         "twinpuck = 1\n[arena]\nsize = [1.0, 1.0]\n[[robot]]\nname = \"idle\"\nposition = [0, 0]\n");
