@@ -36,6 +36,7 @@ int become(const char* module, const std::vector<std::string>& arguments) {
   const char* const before = std::getenv("PYTHONPATH");
   const std::string path = folder.string() + (before && *before ? std::string(":") + before : "");
   setenv("PYTHONPATH", path.c_str(), 1);
+  setenv("PYTHONUTF8", "1", 1);  // file names are bytes, whatever the locale says of letters
   std::vector<std::string> words{python, "-m", module};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> argv;

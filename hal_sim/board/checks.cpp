@@ -68,7 +68,7 @@ std::vector<Diagnosis> Board::diagnoses(Cycle at) const {
     all.push_back({"battery empty", "battery",
                    text("its charge is used up (full it holds %.3g Wh); an e-puck stops, this one goes on",
                         setup().battery_wh),
-                   "give it battery_wh or battery_v for so long a run", empty, 0, 1});
+                   "give it more with battery_wh for so long a run", empty, 0, 1});
   if (i2c_.unstopped() > 0)
     all.push_back({"I2C bus not stopped", "I2CCON.PEN",
                    "a transfer begins although the one before was not ended by a stop condition",

@@ -422,8 +422,6 @@ void DapServer::disassemble(const Json& request) {
         request,
         fmt::format("disassemble: expected an address as a memoryReference, and counts up to {}", kMost));
   std::uint32_t next = 0;
-  if (machine.instruction(session_->pc(), next).empty())
-    return refuse(request, "instructions of the PC are not shown here; debug --gdb does");
   // instructions have one word or two: begin so far before that it does not matter how the first are taken
   const std::int64_t end = machine.code_end(),
                      begin = std::max<std::int64_t>(

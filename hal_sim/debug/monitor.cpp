@@ -350,7 +350,7 @@ std::string Monitor::disassemble(const std::string& rest) {
                         session_.file().code.describe(a));
     a = next;
   }
-  return text.empty() ? "instructions of the PC are not shown here; debug --gdb does\n" : text;
+  return text.empty() ? fmt::format("dis: got {:#x}, expected an address of the program's code\n", a) : text;
 }
 
 }  // namespace debug

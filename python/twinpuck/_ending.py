@@ -12,6 +12,7 @@ from __future__ import annotations
 import atexit
 import collections.abc
 import contextlib
+import errno
 import os
 import signal
 import sys
@@ -58,14 +59,60 @@ def heeded() -> list[signal.Signals]:
     return [number for number in SIGNALS if signal.getsignal(number) is not signal.SIG_IGN]
 
 
-def run(main: collections.abc.Callable[[list[str]], int]) -> typing.NoReturn:
-    """Ends the process with what `main` returns, or as above."""
+class _Said:
+    """Standard output: what cannot be written ends the command, and is told once."""
+
+    def __init__(self) -> None:
+        self.why = ""
+        if sys.stdout is None:  # it is closed
+            self.why = ": " + os.strerror(errno.EBADF)
+            self._go_on_into_nothing()
+            sys.stdout = os.fdopen(1, "w", closefd=False)
+        self._stream = sys.stdout
+
+    def write(self, text: str) -> int:
+        return self._heed(lambda: self._stream.write(text), len(text))
+
+    def flush(self) -> None:
+        self._heed(self._stream.flush, None)
+
+    def __getattr__(self, name: str) -> typing.Any:
+        return getattr(self._stream, name)
+
+    def _heed(self, do: collections.abc.Callable[[], typing.Any], otherwise: typing.Any) -> typing.Any:
+        try:
+            return do()
+        except OSError as wrong:
+            if self.why:
+                return otherwise
+            self.why = f": {wrong.strerror}"
+            if isinstance(wrong, BrokenPipeError):
+                self.why = " any more; it ended there"
+            self._go_on_into_nothing()
+            raise KeyboardInterrupt from None
+
+    @staticmethod
+    def _go_on_into_nothing() -> None:
+        nothing = os.open(os.devnull, os.O_WRONLY)
+        if nothing != 1:
+            os.dup2(nothing, 1)
+            os.close(nothing)
+
+
+def run(main: collections.abc.Callable[[list[str]], int], *, needs_output: bool = False) -> typing.NoReturn:
+    """Ends the process with what `main` returns, or as above. `needs_output`: `main` ends where it cannot say any more,
+    and does not see to that itself."""
     code, ours = INTERRUPTED, heeded()
     for number in ours:
         signal.signal(number, _end)
+    said = _Said() if needs_output else None
+    if said:
+        sys.stdout = typing.cast(typing.TextIO, said)
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, SIGNALS)
         code = main(sys.argv[1:])
+        if said:
+            said.flush()
     except KeyboardInterrupt:
         pass
     except BrokenPipeError:
@@ -73,6 +120,9 @@ def run(main: collections.abc.Callable[[list[str]], int]) -> typing.NoReturn:
         os.dup2(os.open(os.devnull, os.O_WRONLY), 1)  # what is left of it is not tried again
         code = INVALID
     has_ended()
+    if said and said.why and not was_interrupted():
+        print("standard output: cannot be written" + said.why, file=sys.stderr)
+        code = INVALID
     for number in ours:  # what is left is Python's own
         signal.signal(number, _end)
     if code == INTERRUPTED:  # sys.exit() would be the death by SIGINT where the exception has passed exec() of a text

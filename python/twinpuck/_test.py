@@ -59,4 +59,4 @@ def main(arguments: list[str]) -> int:
 
 
 if __name__ == "__main__":
-    _ending.run(main)
+    _ending.run(main, needs_output=True)

@@ -384,6 +384,13 @@ def test_an_output_that_is_lost_takes_no_other_with_it(small, command):
     assert lost.returncode == 7 and (small / "g.csv").exists() and (small / "g.xml").exists()
 
 
+def test_names_are_bytes_whatever_the_locale(small, command):
+    (small / "class" / "good").rename(small / "class" / "dö rte")
+    done = command("grade", "tests", "--submissions", "class", cwd=small,
+                   env={"LC_ALL": "POSIX", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"})
+    assert done.returncode == 0 and re.search(r"^dö rte +pass +1$", done.stdout, re.M), done.stdout + done.stderr
+
+
 @pytest.mark.parametrize("words, says", [
     (["--csv", "g.csv", "--html", "./x/../g.csv"], "./x/../g.csv: --html: got the file of --csv, expected another; give them different names"),
     (["--csv", "g", "--keep", "g/"], "g: --keep: got the file of --csv, expected another; give them different names"),

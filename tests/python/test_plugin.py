@@ -501,6 +501,13 @@ def test_a_signal_where_python_does_not_pass_it_on_is_130(mine, command, place, 
     assert done.returncode == 130, done.stdout + done.stderr
 
 
+@pytest.mark.parametrize("to, why", [("/dev/full", "No space left on device"), ("&-", "Bad file descriptor")], ids=["full", "closed"])
+def test_what_cannot_be_said_is_lost(mine, to, why):
+    folder = mine("def test_short(): pass\n")
+    done = subprocess.run(f"{TWINPUCK} test >{to}", shell=True, cwd=folder, timeout=60, stderr=subprocess.PIPE, text=True)
+    assert (done.returncode, done.stderr) == (7, f"standard output: cannot be written: {why}\n")
+
+
 def test_who_reads_no_further_ends_the_tests(mine):
     folder = mine("import pytest\n@pytest.mark.parametrize('i', range(500))\ndef test_short(i): pass\n")
     done = subprocess.run(f"{{ {TWINPUCK} test -v; echo $? >code; }} | head -1", shell=True, cwd=folder, timeout=60,
