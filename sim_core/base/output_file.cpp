@@ -2,6 +2,7 @@
 #include "sim_core/base/output_file.h"
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,11 +11,25 @@
 
 namespace sim {
 
+int open_output(const std::string& path, int mode, std::string& why_not) {
+  const int file = ::open(path.c_str(), mode | O_CREAT | O_CLOEXEC, 0666);
+  if (file < 0) why_not = std::strerror(errno);
+  struct stat info {};
+  const bool is_file = file >= 0 && ::fstat(file, &info) == 0 && S_ISREG(info.st_mode);
+  // where locks are not to be had, nothing is told
+  if (!is_file || ::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
+  ::close(file);
+  why_not = "another run that goes on writes it";
+  return -1;
+}
+
 OutputFile::OutputFile(const std::string& path, const std::string& option, bool keeps)
     : where_(option.empty() ? path : path + ": " + option) {
-  file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | (keeps ? 0 : O_TRUNC) | O_CLOEXEC, 0666);
-  if (file_ < 0) fail(std::strerror(errno));
+  std::string why_not;
+  file_ = open_output(path, O_WRONLY, why_not);
+  if (file_ < 0) fail(why_not);
   has_places_ = file_ >= 0 && ::lseek(file_, 0, SEEK_CUR) >= 0;
+  if (!keeps) clear();
 }
 
 OutputFile::~OutputFile() { close(); }

@@ -9,6 +9,10 @@
 
 namespace sim {
 
+/// Opens a file to be written, and keeps other runs from it until it is closed. What is in it stays. `mode`: O_WRONLY or
+/// O_RDWR. -1: `why_not` says why.
+int open_output(const std::string& path, int mode, std::string& why_not);
+
 class OutputFile {
  public:
   /// `option`: what the file was asked for with, for messages: "--vcd"; empty: nothing is said about it.

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sndfile.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +14,7 @@
 #include <memory>
 
 #include "sim_core/base/input_file.h"
+#include "sim_core/base/output_file.h"
 
 namespace sim {
 namespace {
@@ -140,13 +142,18 @@ std::string read_wav(const std::string& path, WavSound& out) {
 }
 
 WavRecorder::WavRecorder(std::string path, int rate_hz) : path_(std::move(path)) {
-  errno = 0;
-  const int opened = ::open(path_.c_str(), O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  std::string why_not;
+  const int opened = open_output(path_, O_RDWR, why_not);
+  if (opened < 0) {
+    error_ = path_ + ": cannot be written: " + why_not;
+    return;
+  }
   SF_INFO info{};
   info.samplerate = rate_hz;
   info.channels = 1;
   info.format = SF_FORMAT_WAV | SF_FORMAT_PCM_16;
-  if (opened >= 0) file_ = sf_open_fd(opened, SFM_WRITE, &info, SF_TRUE);
+  // a device cannot be cut, and has nothing to be cut off
+  if (::ftruncate(opened, 0) == 0 || errno == EINVAL) file_ = sf_open_fd(opened, SFM_WRITE, &info, SF_TRUE);
   if (!file_) {
     error_ = refused(path_, nullptr);
     return;
