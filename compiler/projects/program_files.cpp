@@ -127,6 +127,21 @@ std::vector<fs::path> archives_below(const fs::path& folder) {
 
 }  // namespace
 
+namespace {
+
+/// A project of MPLAB that lists files which are gone, beside a Makefile of a program; empty: it is none.
+std::string why_stale(const MplabProject& project, const fs::path& folder) {
+  const std::size_t missing = static_cast<std::size_t>(project.missing);
+  if (missing <= project.library_places.size()) return {};  // what is not there is the library's
+  const auto makefile = read_makefile(folder);
+  if (!makefile || std::none_of(makefile->sources.begin(), makefile->sources.end(), defines_main)) return {};
+  return project.file.string() + ": project: got " + std::to_string(missing) + " C " +
+         (missing == 1 ? "file that is" : "files that are") +
+         " missing, expected all that it lists; the Makefile is taken";
+}
+
+}  // namespace
+
 Program program_of(const BuildOptions& o, BuildResult& result) {
   Program program;
   program.sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
@@ -136,6 +151,10 @@ Program program_of(const BuildOptions& o, BuildResult& result) {
   std::string told;
   auto project = is_webots ? std::nullopt : find_mplab_project(o.source_dir, told);
   if (!told.empty()) result.warnings.push_back(told);
+  if (const std::string stale = project ? why_stale(*project, o.source_dir) : ""; !stale.empty()) {
+    result.warnings.push_back(stale);
+    project.reset();
+  }
   if (!project && (project = read_makefile(o.source_dir))) {
     for (const fs::path& file : files_below(o.source_dir, ".s"))
       if (std::find(project->assembler.begin(), project->assembler.end(),

@@ -98,11 +98,11 @@ unsigned ProgramPlaces::call_before(unsigned address) const {
   return is_call(program_.read(address - 4)) ? address - 4 : 0;
 }
 
-bool ProgramPlaces::is_handler_code(unsigned address) const {
+int ProgramPlaces::vector_of(unsigned address) const {
   const auto* function = file_.code.function_at(address);
   for (int v = 1; function && v < dspic::kVectors; ++v)
-    if (handler(v) == function->begin) return true;
-  return false;
+    if (handler(v) == function->begin) return v;
+  return dspic::kNoVector;
 }
 
 // return addresses are looked for from the top of the stack down, to the frame of an interrupt: what that cut
@@ -231,8 +231,11 @@ std::string ProgramPlaces::who_runs() const {
     return has_handler(next) && is_own(handler(next))
                ? "; meanwhile " + text_of(handler(next)) + " ran"
                : "; meanwhile the handler of " + std::string(dspic::vector_name(next)) + " ran";
+  const int of_handler = vector_of(own_code);
+  if (of_handler != dspic::kNoVector && !is_own(own_code))
+    return "; meanwhile the library's handler of " + std::string(dspic::vector_name(of_handler)) + " ran";
   std::string text = "; meanwhile " + text_of(own_code) + " ran";
-  if (is_handler_code(own_code)) return text;
+  if (of_handler != dspic::kNoVector) return text;
   return text + (vector == dspic::kNoVector
                      ? " with the interrupt masked"
                      : ", called by the handler of " + std::string(dspic::vector_name(vector)));

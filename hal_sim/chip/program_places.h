@@ -62,7 +62,9 @@ class ProgramPlaces final {
   /// The return address that ends below `top` of the stack; 0: what lies there is none.
   unsigned stack_address(unsigned top) const;
   unsigned last_jump(unsigned call, unsigned to) const;
-  bool is_handler_code(unsigned address) const;
+  /// The vector that leads to the function of an address; kNoVector: none does.
+  int vector_of(unsigned address) const;
+  bool is_handler_code(unsigned address) const { return vector_of(address) != dspic::kNoVector; }
 
   const dspic::FirmwareFile& file_;
   const dspic::ProgramMemory& program_;

@@ -191,6 +191,7 @@ Stop Session::go_to(Cycle cycle, const std::function<bool()>& idle) {
   to.at = cycle;
   to.is_anywhere = true;
   if (cycle < now() || has_ended()) return repeat_to(to, cycle, idle);
+  if (cycle == now()) return stop_ = {Stop::Why::Step, 0, ""};
   plan_ = Plan::GoTo;
   target_ = to;
   fast_until_ = cycle;
