@@ -136,7 +136,7 @@ int build(cc::BuildOptions options, bool counts_lines) {
         std::any_of(result.errors.begin(), result.errors.end(), [](const std::string& error) {
           return error.find(", expected a file that can be written") != std::string::npos;
         });
-    return is_unwritten ? kBadInput : kTestFailed;
+    return is_unwritten || result.is_bad_input ? kBadInput : kTestFailed;
   }
   std::cout << fmt::format("{}: {} files compiled, {} unchanged, {:.2f} s\n{}", options.output.string(),
                            result.compiled, result.reused, result.seconds, result.size_report);
@@ -150,7 +150,7 @@ int lint(cc::BuildOptions options) {
   complain(result.errors);
   complain(result.warnings);
   if (result.ok) std::cout << options.source_dir.string() << ": nothing to complain about\n";
-  return result.ok ? kPass : kTestFailed;
+  return result.ok ? kPass : result.is_bad_input ? kBadInput : kTestFailed;
 }
 
 /// "robots 'a', 'b' and 7 more"

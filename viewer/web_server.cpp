@@ -8,6 +8,7 @@
 #include <sys/random.h>
 #include <sys/socket.h>
 
+#include <cerrno>
 #include <condition_variable>
 #include <cstring>
 #include <deque>
@@ -229,10 +230,14 @@ std::unique_ptr<WebServer> WebServer::open(int port, const std::string& page_fol
   callbacks.connection_close = Calls::left;
   static std::once_flag once;
   std::call_once(once, [] { mg_init_library(MG_FEATURES_WEBSOCKET); });
+  errno = 0;
   server->context_ = mg_start(&callbacks, server.get(), options);
   mg_server_port bound[1];
   if (!server->context_ || server->token_.empty() || mg_get_server_ports(server->context_, 1, bound) < 1) {
-    error = fmt::format("port: got {}, which another program has, expected a free one; 0 takes any", port);
+    error = fmt::format("port: got {}, {}; 0 takes any", port,
+                        errno == EACCES || errno == EPERM
+                            ? "which is the system's, expected one of 1024 and more"
+                            : "which another program has, expected a free one");
     return nullptr;
   }
   server->port_ = bound[0].port;

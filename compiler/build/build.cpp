@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <chrono>
+#include <cstring>
 #include <iterator>
 #include <set>
 
@@ -148,14 +150,18 @@ void read_shared_variables_in_place(std::vector<CompileJob>& all, std::vector<Co
 bool is_readable(const Plan& p, const Program& program, BuildResult& result) {
   BuildInputs& inputs = *inputs_of_build();
   const auto check = [&](const fs::path& file, const char* what) {
-    if (!may_read(file)) inputs.refuse(file, what);
+    if (!may_read(file))
+      inputs.refuse(file, what);
+    else if (::access(file.c_str(), R_OK) != 0)
+      result.errors.push_back(file.string() + ": " + what + ": cannot be read: " + std::strerror(errno));
   };
   for (const auto* jobs : {&p.user, &p.assembler})
     for (const CompileJob& job : *jobs) check(job.source, "source");
   for (const fs::path& file : program.objects) check(file, "object");
   const std::vector<std::string> refusals = inputs.refusals();
   result.errors.insert(result.errors.end(), refusals.begin(), refusals.end());
-  return refusals.empty();
+  result.is_bad_input = !result.errors.empty();
+  return result.errors.empty();
 }
 
 /// A build on its way from a folder to an image. Each step returns whether there is anything to go on with;
@@ -180,6 +186,7 @@ class Building {
 
   bool is_of_library(std::size_t i) const { return i >= own && i < p.user.size(); }
   bool refuse(std::string why) {
+    result.is_bad_input = true;
     result.errors.push_back(std::move(why));
     return false;
   }
@@ -334,15 +341,20 @@ static void lint_shared_variables(BuildOptions o, const LibraryCopies& copies, c
   }
 }
 
+/// Nothing is compiled.
+static BuildResult refused(std::vector<std::string> why) {
+  BuildResult result;
+  result.is_bad_input = true;
+  result.errors = std::move(why);
+  return result;
+}
+
 static BuildResult lint_here(const BuildOptions& options) {
   BuildResult result;
   BuildOptions o = options;
   o.strict = true;
   auto sources = o.sources.empty() ? files_below(o.source_dir, ".c") : o.sources;
-  if (sources.empty()) {
-    result.errors.push_back(no_program(o.source_dir));
-    return result;
-  }
+  if (sources.empty()) return refused({no_program(o.source_dir)});
   BuildResult of_project;
   const LibraryCopies copies = find_library_members(o.source_dir, sources);
   const Program program = program_of(o, of_project);
@@ -393,12 +405,11 @@ static std::vector<std::string> no_sources(const fs::path& folder) {
 /// Both begin alike: with what they may look at, and on a stack that is large enough.
 template <typename Work>
 static BuildResult begin(const BuildOptions& options, BuildInputs& inputs, const Work& work) {
-  BuildResult refused;
   inputs.readable = readable_files(options);
   if (!inputs.readable.has(options.source_dir)) inputs.refuse(options.source_dir, "project");
-  refused.errors = inputs.refusals();
-  if (refused.errors.empty()) refused.errors = no_sources(options.source_dir);
-  if (!refused.errors.empty()) return refused;
+  std::vector<std::string> wrong = inputs.refusals();
+  if (wrong.empty()) wrong = no_sources(options.source_dir);
+  if (!wrong.empty()) return refused(std::move(wrong));
   return on_large_stack([&] {
     const NotingInputs noting(inputs);
     return work(options);
@@ -426,11 +437,8 @@ static BuildOptions with_cache(BuildOptions o) {
 
 BuildResult build_image(const BuildOptions& options) {
   const BuildOptions o = with_cache(options);
-  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty()) {
-    BuildResult refused;
-    refused.errors = {wrong};
-    return refused;
-  }
+  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty())
+    return refused({wrong});
   const BuildRecord record(o);
   if (auto known = record.recall()) return *known;
   BuildResult result;
@@ -450,11 +458,8 @@ BuildResult build_image(const BuildOptions& options) {
 BuildResult lint_folder(const BuildOptions& options) {
   BuildInputs inputs;
   const BuildOptions o = with_cache(options);
-  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty()) {
-    BuildResult refused;
-    refused.errors = {wrong};
-    return refused;
-  }
+  if (const std::string wrong = places::why_not_writable(o.cache_dir); !wrong.empty())
+    return refused({wrong});
   return begin(o, inputs, lint_here);
 }
 

@@ -79,6 +79,7 @@ void link_chip(const std::vector<CompileOutcome>& user, const std::vector<Compil
   fs::create_directories(half, ec);
   if (ec) {
     result.errors.push_back(output.string() + ": image: cannot be written: " + ec.message());
+    result.is_bad_input = true;
     return;
   }
   const fs::path made = half / (output.stem().string() + ".elf");

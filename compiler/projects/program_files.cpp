@@ -78,6 +78,9 @@ std::string no_program(const fs::path& folder) {
   for (const fs::path& file : files_below(folder, {".cpp", ".cc", ".cxx"}))
     if (!has_c || (file.filename() != "test.cpp" && defines_main(file)))
       return file.string() + ": program: got C++, expected C; programs of the robot are in C, as XC16 has it";
+  std::error_code wrong;
+  const fs::directory_iterator readable(folder, wrong);
+  if (wrong) return folder.string() + ": controller: cannot be read: " + wrong.message();
   const std::string got = folder.string() + ": controller: got ";
   if (has_c)
     return folder.string() + ": main(): got no definition, expected one; is this a controller's folder?";
