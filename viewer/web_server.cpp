@@ -234,10 +234,10 @@ std::unique_ptr<WebServer> WebServer::open(int port, const std::string& page_fol
   server->context_ = mg_start(&callbacks, server.get(), options);
   mg_server_port bound[1];
   if (!server->context_ || server->token_.empty() || mg_get_server_ports(server->context_, 1, bound) < 1) {
-    error = fmt::format("port: got {}, {}; 0 takes any", port,
-                        errno == EACCES || errno == EPERM
-                            ? "which is the system's, expected one of 1024 and more"
-                            : "which another program has, expected a free one");
+    error =
+        fmt::format("port: got {}, {}; 0 takes any", port,
+                    errno == EACCES || errno == EPERM ? "which is the system's, expected one of 1024 and more"
+                                                      : "which another program has, expected a free one");
     return nullptr;
   }
   server->port_ = bound[0].port;

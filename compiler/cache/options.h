@@ -34,7 +34,8 @@ struct BuildOptions {
 
 struct BuildResult {
   bool ok = false;
-  bool is_bad_input = false;  ///< no program is there, or a file of it cannot be read or the image not be written
+  bool is_bad_input =
+      false;  ///< no program is there, or a file of it cannot be read or the image not be written
   std::vector<std::string> errors;     ///< "file:line: what: got X, expected Y; hint"
   std::vector<std::string> conflicts;  ///< two drivers with one timer or vector; found at each build
   std::vector<std::string> warnings;   ///< same grammar; 16-bit warnings of the compiler included
