@@ -317,8 +317,9 @@ void Waits::fail(Cpu& cpu) {
 /// Is it the one that an interrupt came into? A loop may have two heads, where another one shares a function
 /// with it.
 bool Waits::goes_on(const Cpu& cpu, const KnownWaits::Wait& wait) const {
-  if (cut_ == wait.first) return true;
-  const KnownWaits::Wait* const before = cut_ ? cpu.known_waits.at(cut_) : nullptr;
+  const Decoded* const head = cut_of(cpu).head;
+  if (head == wait.first) return true;
+  const KnownWaits::Wait* const before = head ? cpu.known_waits.at(head) : nullptr;
   return before && before->memory.are_as_read(cpu.ram.data());
 }
 
@@ -333,15 +334,15 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   entered_at_ = round_began_at_;
   // ... and so were, behind an interrupt, the rest of the one that it came into and those that this look has seen
   delayed_ = round_delayed_;
-  if (look_began_own_ - resumed_ <= wait->took && goes_on(cpu, *wait)) {
-    waited_ += between_;
-    entered_ = resumed_;
-    entered_at_ = resumed_at_;
-    delayed_ = resumed_delayed_;
+  Cut& cut = cut_of(cpu);
+  if (look_began_own_ - cut.resumed <= wait->took && goes_on(cpu, *wait)) {
+    waited_ += cut.between;
+    entered_ = cut.resumed;
+    entered_at_ = cut.resumed_at;
+    delayed_ = cut.resumed_delayed;
   }
   cpu.delayed = delayed_;
-  cut_ = nullptr;
-  between_ = 0;
+  cut.head = nullptr;
   cpu.heads.pause(wait->first, true, cpu.true_now());
   schedule(cpu).between = kFirstLooks;
   cpu.still_since = until_ == kNever && !cpu.looks_outside ? std::min(cpu.still_since, look_began_) : kNever;
@@ -383,7 +384,7 @@ void Waits::wait(Cpu& cpu) {
   }
   if (now < until_) return;
   leave(cpu);
-  note_cut();  // perhaps it goes on, as behind an interrupt
+  note_cut(cpu);  // perhaps it goes on, as behind an interrupt
   note_resumed(cpu);
   schedule(cpu).at = now;
 }
@@ -404,22 +405,26 @@ void Waits::leave(Cpu& cpu) {
   counts_ = nullptr;
 }
 
-void Waits::note_cut() {
-  cut_ = wait_->first;
-  cut_took_ = wait_->took;
-  between_ = 0;
+void Waits::note_cut(const Cpu& cpu) {
+  Cut& cut = cut_of(cpu);
+  cut.head = wait_->first;
+  cut.took = wait_->took;
+  cut.between = 0;
 }
 
 void Waits::cut(Cpu& cpu, int vector) {
   const bool waits = is_waiting();
   if (waits) {
-    note_cut();
+    note_cut(cpu);
     leave(cpu);
   } else {
     // another one before it was back where it waited: what was between belongs to the wait, if it goes on
     const Cycle now = cpu.clocks.own_cycles(cpu.now);
-    if ((state_ == State::Looking ? look_began_own_ : now) - resumed_ <= cut_took_)
-      between_ += now - resumed_;
+    Cut& cut = cut_of(cpu);
+    if ((state_ == State::Looking ? look_began_own_ : now) - cut.resumed <= cut.took)
+      cut.between += now - cut.resumed;
+    else
+      cut.head = nullptr;  // it has gone elsewhere
   }
   // behind the handler it comes to a wait's first instruction by itself, and stops there
   if (waits && is_by_head_)
@@ -466,13 +471,14 @@ void Waits::note(Cpu& cpu, const ByHeart& wait) {
   next.between = kFirstLooks;
   waited_ += wait.cut - wait.came;
   jumped_ += wait.cut - wait.came;
-  cut_ = wait.head;
-  cut_took_ = cpu.known_counts.at(wait.head)->round().took;
-  between_ = 0;
+  Cut& cut = cut_of(cpu);
+  cut.head = wait.head;
+  cut.took = cpu.known_counts.at(wait.head)->round().took;
+  cut.between = 0;
   next.at = look_beside_heads(cpu, wait.cut_true);
   begin_handler(cpu, wait.vector, wait.cut_true);
-  resumed_ = wait.went_on;
-  resumed_delayed_ = cpu.delayed;
+  cut.resumed = wait.went_on;
+  cut.resumed_delayed = cpu.delayed;
 }
 
 void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
@@ -508,14 +514,16 @@ Cycle Waits::back_by(const Cpu& cpu, Cycle over) const {
 // cut(), resume(), and at the head begin() and enter(), at once
 void Waits::go_through(Cpu& cpu, int vector, Cycle cut, Cycle cut_true) {
   waited_ += cut - entered_;
-  entered_ = resumed_ = cpu.clocks.own_cycles(cpu.now);
-  entered_at_ = resumed_at_ = cpu.true_now();
-  delayed_ = resumed_delayed_ = cpu.delayed;
+  note_resumed(cpu);
+  Cut& slot = cut_of(cpu);
+  entered_ = slot.resumed;
+  entered_at_ = slot.resumed_at;
+  delayed_ = slot.resumed_delayed;
   if (counts_) ends_ += entered_ - cut;
   schedule(cpu) = {look_beside_heads(cpu, cut_true), kFirstLooks};
   begin_handler(cpu, vector, cut_true);
   at_head_ = is_by_head_ = true;
-  cut_ = nullptr;
+  slot.head = nullptr;
   cpu.looks_outside = cpu.reads_core = false;
   cpu.watched_until = kNever;
 }
@@ -539,7 +547,7 @@ bool Waits::is_hinted_look(const Cpu& cpu) {
 // where nothing has changed, it is found again within a round, and has waited all the time
 void Waits::stir(Cpu& cpu) {
   if (is_waiting()) {
-    note_cut();
+    note_cut(cpu);
     leave(cpu);
     note_resumed(cpu);
   }
@@ -551,7 +559,8 @@ void Waits::move(const Decoded* from, const Decoded* to) {
   const auto move = [from, to](const Decoded*& d) {
     if (d && !address_of_host_place(d)) d = to + (d - from);
   };
-  for (const Decoded** d : {&cut_, &look_head_, &behind_.first, &behind_.last}) move(*d);
+  for (const Decoded** d : {&cuts_[0].head, &cuts_[1].head, &look_head_, &behind_.first, &behind_.last})
+    move(*d);
   if (!probe_) return;
   move(probe_->round.first);
   for (CountStep& step : probe_->trace) move(step.at);
@@ -562,7 +571,7 @@ void Waits::forget(Cpu& cpu) {
   if (is_waiting()) leave(cpu);
   state_ = State::Away;
   at_head_ = false;
-  cut_ = nullptr;
+  for (Cut& cut : cuts_) cut.head = nullptr;
   passed_ = {};
   begin_at(cpu.true_now());
 }

@@ -109,6 +109,13 @@ class Waits {
     Cycle at = kFirstLooks;  // true time
     Cycle between = kFirstLooks;
   };
+  struct Cut {
+    const Decoded* head = nullptr;  // first instruction of the wait that an interrupt came into last
+    Cycle took = 0, between = 0;    // a round of it; cycles since, between handlers, before it was back
+    Cycle resumed = 0;              // cycles of the program when the latest handler returned
+    Cycle resumed_delayed = 0;      // Cpu::delayed then
+    Cycle resumed_at = 0;           // true time then
+  };
   static constexpr Cycle kFirstLooks = 200, kRarestLooks = 65536;        // cycles between two looks
   static constexpr Cycle kOftenAtFirst = 32;                             // looks while the time doubles
   static constexpr Cycle kRarestInVain = 1 << 18;                        // ... where none ever found a wait
@@ -126,10 +133,11 @@ class Waits {
   static constexpr int kMostPutOff = 4;                         // times, of such a look
   static constexpr unsigned kNotSet = 1u << 31;  // in Cpu::dc, of which instructions see one bit
 
-  const Schedule& schedule(const Cpu& cpu) const {
-    return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0];
-  }
-  Schedule& schedule(const Cpu& cpu) { return schedules_[cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0]; }
+  const Schedule& schedule(const Cpu& cpu) const { return schedules_[level(cpu)]; }
+  Schedule& schedule(const Cpu& cpu) { return schedules_[level(cpu)]; }
+  static std::size_t level(const Cpu& cpu) { return cpu.parts.interrupts.cpu().nesting() > 0 ? 1 : 0; }
+  Cut& cut_of(const Cpu& cpu) { return cuts_[level(cpu)]; }
+  const Cut& cut_of(const Cpu& cpu) const { return cuts_[level(cpu)]; }
   void begin(Cpu& cpu);
   void begin_here(Cpu& cpu);
   void begin_round(Cpu& cpu);
@@ -141,9 +149,10 @@ class Waits {
   bool is_passed(Cpu& cpu, const Count& count, Cycle rounds);
   bool is_passed(Cpu& cpu, const KnownWaits::Wait& wait, Cycle now);
   void note_resumed(const Cpu& cpu) {
-    resumed_ = cpu.clocks.own_cycles(cpu.now);
-    resumed_delayed_ = cpu.delayed;
-    resumed_at_ = cpu.true_now();
+    Cut& cut = cut_of(cpu);
+    cut.resumed = cpu.clocks.own_cycles(cpu.now);
+    cut.resumed_delayed = cpu.delayed;
+    cut.resumed_at = cpu.true_now();
   }
   void note_look(const Cpu& cpu);
   bool is_hinted_look(const Cpu& cpu);
@@ -160,7 +169,7 @@ class Waits {
   Cycle end_of_count(const Cpu& cpu) const { return cpu.now + ends_ - cpu.clocks.own_cycles(cpu.now); }
   void wait(Cpu& cpu);
   void jump_over(Cpu& cpu);
-  void note_cut();
+  void note_cut(const Cpu& cpu);
   void begin_handler(const Cpu& cpu, int vector, Cycle at);
   /// Looks are rare, and each robot has one of these. `wait` goes on.
   void forget_probe(const KnownWaits::Wait* wait = nullptr) {
@@ -191,11 +200,7 @@ class Waits {
   };
   std::array<HandlerLooks, kVectors> handler_looks_;
   unsigned hints_ = 0, hint_gap_ = 1;  // since the last look that one brought; between two
-  const Decoded* cut_ = nullptr;       // first instruction of the wait that an interrupt came into last
-  Cycle cut_took_ = 0, between_ = 0;   // a round of it; cycles since, between handlers, before it was back
-  Cycle resumed_ = 0;                  // cycles of the program when the latest handler returned
-  Cycle resumed_delayed_ = 0;          // Cpu::delayed then
-  Cycle resumed_at_ = 0;               // true time then
+  std::array<Cut, 2> cuts_;            // of the program, of its handlers
   const KnownWaits::Wait* comes_round_ =
       nullptr;                              // the look's first round is one of this, its registers apart
   Cycle left_ = 0;                          // ... of that round: cycles of the program

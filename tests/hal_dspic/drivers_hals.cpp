@@ -238,6 +238,35 @@ int main(void) {{
   expect_no_traps();
 }
 
+// of work that interrupts cut again and again, nothing belongs to the wait before it
+TEST_P(BothHals, work_between_waits_is_load) {
+  add_robot_with_source(R"(
+#include <a_d/advance_ad_scan/e_ad_conv.h>
+#include <fft/e_fft.h>
+#include <fft/e_fft_utilities.h>
+#include <motor_led/advance_one_timer/e_agenda.h>
+#include <motor_led/advance_one_timer/e_motors.h>
+#include <motor_led/e_init_port.h>
+extern int e_mic_scan[3][MIC_SAMP_NB];
+extern fractcomplex sigCmpx[FFT_BLOCK_LENGTH];
+int main(void) {
+  e_init_port();
+  e_init_motors();
+  e_start_agendas_processing();
+  e_init_ad_scan(MICRO_ONLY);
+  e_set_speed(400, 0);
+  while (1) {
+    while (!e_ad_is_array_filled()) continue;
+    e_fast_copy(e_mic_scan[0], (int *)sigCmpx, 256);
+    e_doFFT_asm(sigCmpx);
+  }
+}
+)");
+  run_for(2);
+  EXPECT_NEAR(twin().mind(0).runner()->cpu_load(), 0.929, 0.003);
+  expect_no_traps();
+}
+
 // 57600 / 500 = 115: (115 + 1) x 256 cycles, 496.6 steps/s
 TEST_P(BothHals, timer_motors_step_at_their_periods) {
   Robot& robot = add_robot_with_source(R"(
