@@ -248,7 +248,8 @@ std::string csv_rows(const std::string& exercise, const StepResult& result) {
     text += fmt::format("{},{},{},{},{},{}", exercise, t.trial.world, program_name(t.trial.step->firmware),
                         std::isnan(t.trial.noise_scale) ? "" : fmt::format("{:g}", t.trial.noise_scale),
                         t.trial.seed, keeps_bounds(t) ? 1 : 0);
-    for (double v : t.measures.value) text += std::isnan(v) ? "," : fmt::format(",{:.6g}", v);
+    // what never came to pass has no figure
+    for (double v : t.measures.value) text += std::isfinite(v) ? fmt::format(",{:.6g}", v) : ",";
     text += t.digest ? fmt::format(",{:016x}\n", *t.digest) : ",\n";
   }
   return text;

@@ -187,7 +187,7 @@ const std::vector<Kind>& kinds() {
        "They come over the line to the UART behind one another at its rate, as soon as the program has set "
        "it up, "
        "whatever else is plugged in.",
-       "the first of them began to come",
+       "the first of them came to a UART that is on",
        false,
        "send",
        {{"bytes", Type::Bytes, "", 0, 0, "", "required",

@@ -15,9 +15,14 @@ FoundWorld find_world(const std::string& name, std::vector<std::string>& problem
   const bool is_plain = name.find('/') == std::string::npos;
   const fs::path ours = worlds / (name + ".toml"), beside = name + ".toml";
   const bool is_ours = is_plain && fs::exists(ours, none), is_here = fs::is_regular_file(beside, none);
-  // a loop of links is the loader's to name; a folder is a controller of that name, which may lie here
-  if (fs::exists(fs::symlink_status(name, none)) && !((is_ours || is_here) && fs::is_directory(name, none)))
-    return {name, ""};
+  // a loop of links, and a folder that cannot be entered, are the loader's to name; a folder is a controller of that
+  // name, which may lie here
+  const bool is_there = fs::exists(fs::symlink_status(name, none));
+  if (none == std::errc::permission_denied) return {name, ""};
+  if (const fs::path within = fs::path(name) / "world.toml";
+      !is_ours && !is_here && is_there && fs::is_directory(name, none) && fs::is_regular_file(within, none))
+    return {within.string(), ""};
+  if (is_there && !((is_ours || is_here) && fs::is_directory(name, none))) return {name, ""};
   // who makes a world of a name has it run
   if (is_here && is_ours && !fs::equivalent(beside, ours, none))
     return {beside.string(), name + ": world: ./" + beside.string() + " is taken, not " + ours.string() +

@@ -29,7 +29,7 @@ TEST(Injector, a_fault_that_nobody_felt_is_told) {
       {"accelerometer_stuck", "a sample differed, or (revision 1.3) a new one was due"},
       {"led_dead", "the program had it switched on"},
       {"camera_covered", "a line of a picture was exposed"},
-      {"bytes_sent bytes=\"hello\"", "the first of them began to come"},
+      {"bytes_sent bytes=\"hello\"", "the first of them came to a UART that is on"},
       {"selector_turned position=0", "the position changed"},
       {"robot_moved to=[0, 0, 0]", "its place or heading changed"},
       {"pin_forced level=0 pin=G6", "the level differed from the one without the wire"},
