@@ -35,12 +35,13 @@ std::string KeptImages::keep(const std::string& image) {
   if (!sim::read_input_file(image, kLargestImage, bytes).empty()) return image;
   if (const auto known = kept_.find(bytes); known != kept_.end()) return known->second;
   if (folder_.empty()) folder_ = folder_of_its_own();
+  if (folder_.empty()) return image;
   const std::string path =
       folder_ + "/" + std::to_string(kept_.size()) + fs::path(image).extension().string();
   sim::OutputFile copy(path, "copy of an image");
   copy.append(bytes);
   copy.close();
-  return folder_.empty() || !copy.error().empty() ? image : kept_[bytes] = path;
+  return !copy.error().empty() ? image : kept_[bytes] = path;
 }
 
 }  // namespace viewer

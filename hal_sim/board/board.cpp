@@ -87,11 +87,16 @@ Cycle Board::horizon(Cycle at) const {
 
 // --- looks from outside
 
-int Board::proximity_counts(int sensor, Cycle at) const {
+std::optional<int> Board::scanned_proximity(int sensor, Cycle at) const {
   const Unseen unseen(damage());
   const PinDriver* const driver = pins_.driver();
-  const auto newest = driver ? driver->proximity_counts(sensor, at) : std::nullopt;
-  return newest ? *newest : ir_.proximity_counts(sensor, at);
+  return driver ? driver->proximity_counts(sensor, at) : std::nullopt;
+}
+
+int Board::proximity_counts(int sensor, Cycle at) const {
+  if (const auto newest = scanned_proximity(sensor, at)) return *newest;
+  const Unseen unseen(damage());
+  return ir_.proximity_counts(sensor, at);
 }
 
 int Board::convert(int channel, Cycle at) const {

@@ -16,6 +16,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -98,6 +99,8 @@ class Board : public Specimen {
   /// Dark minus lit of the last completed pair of samples, or of a noise-free pair taken at `at` when no
   /// driver runs. No side effects, and what firmware reads later does not depend on it.
   int proximity_counts(int sensor, Cycle at) const;
+  /// The same of the scan of a driver that the board knows; nothing: there is none.
+  std::optional<int> scanned_proximity(int sensor, Cycle at) const;
   /// A single conversion of input AN`channel` as pins and drivers are at `at`: AnalogueInputs::counts().
   int convert(int channel, Cycle at) const;
   /// What the program makes of the board that an e-puck would not do for it, or would suffer from; up to

@@ -139,10 +139,8 @@ int FirmwareMind::proximity_counts(const sim::Scene& scene, int index) {
 
 int FirmwareMind::proximity_reading(int sensor) const {
   const Runner* const program = caught_up();
-  const board::PinDriver* const driver = board_.pins().driver();
-  const bool is_drivers = driver && driver->proximity_counts(sensor, now());
-  if (const auto filed = program && !is_drivers ? filed_proximity(*program, sensor) : std::nullopt)
-    return *filed;
+  if (const auto scanned = board_.scanned_proximity(sensor, now())) return *scanned;
+  if (const auto filed = program ? filed_proximity(*program, sensor) : std::nullopt) return *filed;
   return board_.proximity_counts(sensor, now());
 }
 

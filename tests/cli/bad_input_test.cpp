@@ -64,7 +64,7 @@ TEST_F(BadLuck, very_long_comments_are_built_and_endless_files_refused) {
   const Said good = twinpuck("build " + path("long") + " -o " + path("x.elf"));
   EXPECT_EQ(good.exit_code, 0) << good.text;
   const Said bad = twinpuck("build " + path("longer") + " -o " + path("x.elf"));
-  EXPECT_EQ(bad.exit_code, 1) << bad.text;
+  EXPECT_EQ(bad.exit_code, 2) << bad.text;
   EXPECT_TRUE(reads(bad.text, "@/longer/main.c: source: got 3000033 bytes, expected at most 2097152"));
   for (const std::string name : {"main.c", "beside.h", "project.mcp", "configurations.xml"}) {
     const auto built = [&](const std::string& folder, std::size_t bytes) {

@@ -136,7 +136,7 @@ TEST_F(Limits, compilers_have_so_much_processor_time_and_projects_so_many_files)
                     "grow without end, or is a function or a switch huge? split it"));
   for (int i = 0; i <= 2000; ++i) write("many/f" + std::to_string(i) + ".c", "");
   const Said many = in_folder("twinpuck build many -o o.elf");
-  EXPECT_EQ(many.exit_code, 1);
+  EXPECT_EQ(many.exit_code, 2);
   EXPECT_TRUE(reads(many.text,
                     "many: project: got 2001 files in C and assembler, expected at most 2000; is it one "
                     "program's folder?"));
