@@ -510,7 +510,8 @@ void add_run(CLI::App& app, int& exit_code) {
   auto* speed = verb->add_option("--speed", a->speed, "pace: 1 is real time, max as fast as possible")
                     ->capture_default_str();
   add_seed_and_threads(*verb, a->seed, a->threads);
-  verb->add_option("--host-limit", a->host_limit_s, "give up after this many real seconds (exit 124); 0: never")
+  verb->add_option("--host-limit", a->host_limit_s,
+                   "give up after this many real seconds (exit 124); 0: never")
       ->check(between(0, 1e7));
   auto* replay =
       verb->add_option("--replay", a->replay,

@@ -72,7 +72,7 @@ std::string dead_link(const fs::path& folder) {
 }  // namespace
 
 std::string no_program(const fs::path& folder) {
-  if (const std::string dead = dead_link(folder); !dead.empty()) return dead;
+  if (std::string dead = dead_link(folder); !dead.empty()) return dead;
   // a controller's own test lies beside it, with programs in its texts
   const bool has_c = !files_below(folder, ".c").empty();
   for (const fs::path& file : files_below(folder, {".cpp", ".cc", ".cxx"}))
