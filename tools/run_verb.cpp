@@ -97,6 +97,26 @@ bool add_faults(const RunArguments& arguments, faults::Injector& injector,
   return problems.empty();
 }
 
+/// Who looks at a program for the whole run stays with that one: what a recording does must leave it in its robot.
+void check_watched(const RunArguments& a, const inputs::Replay& replay, std::vector<std::string>& problems) {
+  const auto& all = replay.inputs();
+  const auto other =
+      std::find_if(all.begin(), all.end(), [](const auto& input) { return input.at("do") == "program"; });
+  if (other == all.end()) return;
+  const auto& o = a.outputs;
+  for (const auto& [is_asked, option] : {std::pair{!o.traces.vcd.empty(), "--vcd"},
+                                         {!o.traces.timeline.empty(), "--trace"},
+                                         {!o.report.empty(), "--report"},
+                                         {a.profile.profile, "--profile"},
+                                         {!a.profile.file.empty(), "--profile-json"},
+                                         {!a.profile.budgets.empty(), "--budgets"}})
+    if (is_asked)
+      problems.push_back(
+          fmt::format("{}: {}: got a recording in which a robot gets another program, at {:.3f} s, expected "
+                      "one program a robot",
+                      a.replay, option, sim::to_seconds(other->at("at").get<sim::Clicks>())));
+}
+
 /// What the options and the world read and write; false, with lines in `problems`, where one is the other.
 bool check_files(const RunArguments& a, const inputs::Replay* replay, const sim::WorldDesc& world,
                  const twin::Options& options, std::vector<std::string>& problems) {
@@ -110,6 +130,7 @@ bool check_files(const RunArguments& a, const inputs::Replay* replay, const sim:
   files.writes(a.profile.file, "--profile-json");
   outputs::note_outputs(a.outputs, world, files);
   files.check(problems);
+  if (replay) check_watched(a, *replay, problems);
   return problems.empty();
 }
 
