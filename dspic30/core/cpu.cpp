@@ -79,7 +79,7 @@ void Cpu::forget_waits() {
 }
 
 // an address in a register that was never written resets the chip
-Run Cpu::looked_at(const Decoded* d) {
+Run Cpu::looked_at(const Decoded* d, bool is_alone) {
   const bool is_of_host = address_of_host_place(d) != 0;
   if (!is_of_host && !is_decoded(d)) decode(d);
   if (memory_check) memory_check->begins(*this, d);
@@ -88,6 +88,10 @@ Run Cpu::looked_at(const Decoded* d) {
   if (registers.uses & ~written & kAllWritten) return &illegal;
   note_written(registers.gives);
   if (!table_->tells(d)) return table_->plain(d);
+  if (is_alone && !memory_check) {  // what is translated goes on behind it
+    if (!table_->known_at(address_of(d))) hear(*this, d);
+    return table_->plain(d);
+  }
   const Run beside =
       table_->beside_wait(d);  // whoever runs each instruction has seen that a wait begins here
   return beside ? beside : d->run.load(std::memory_order_acquire);
@@ -98,7 +102,7 @@ void Cpu::run_each() {
   while (now < deadline) {
     const Decoded* const d = at = next;
     if (heads.has(d) && stops_at(d)) return;
-    const Decoded* following = looked_at(d)(*this, d);
+    const Decoded* following = looked_at(d, false)(*this, d);
     now += d->cycles;
     if (d == loop_end) following = loop_back(d, following);
     next = following;
@@ -221,7 +225,7 @@ const Decoded* Cpu::loop_back(const Decoded* last, const Decoded* following) {
 const Decoded* Cpu::run_repeated(const Decoded* d) {
   if (!is_decoded(d)) decode(d);
   at = d;
-  const Run run = looks_at_each_ ? looked_at(d) : table_->plain(d);
+  const Run run = looks_at_each_ ? looked_at(d, true) : table_->plain(d);
   const bool only_passes_time = run == &no_operation;
   const Cycle began = now;
   const auto counted = [&] {

@@ -85,7 +85,7 @@ class Cpu final : public DataSpace {
   // --- running
   /// This one instruction alone, with its own function: not the translated code that begins there.
   static const Decoded* run_alone(Cpu& cpu, const Decoded* d) {
-    if (cpu.looks_at_each_) return cpu.looked_at(d)(cpu, d);
+    if (cpu.looks_at_each_) return cpu.looked_at(d, true)(cpu, d);
     if (!is_decoded(d)) cpu.decode(d);
     return cpu.table().plain(d)(cpu, d);
   }
@@ -153,8 +153,9 @@ class Cpu final : public DataSpace {
 
  private:
   void run_checked();
-  /// The function of this one instruction for this robot, whose registers count as written by it.
-  Run looked_at(const Decoded* d);
+  /// The function of this one instruction for this robot, whose registers count as written by it. `is_alone`: not the
+  /// translated code that begins there.
+  Run looked_at(const Decoded* d, bool is_alone);
   void count_jump(const Decoded* target) {
     const std::uint8_t left = target->heat.load(std::memory_order_relaxed);
     if (left > 1)
