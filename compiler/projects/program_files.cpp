@@ -128,10 +128,6 @@ std::vector<fs::path> archives_below(const fs::path& folder) {
   return archives;
 }
 
-}  // namespace
-
-namespace {
-
 /// A project of MPLAB that lists files which are gone, beside a Makefile of a program; empty: it is none.
 std::string why_stale(const MplabProject& project, const fs::path& folder) {
   const std::size_t missing = static_cast<std::size_t>(project.missing);
