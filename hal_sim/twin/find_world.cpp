@@ -19,10 +19,10 @@ FoundWorld find_world(const std::string& name, std::vector<std::string>& problem
   // name, which may lie here
   const bool is_there = fs::exists(fs::symlink_status(name, none));
   if (none == std::errc::permission_denied) return {name, ""};
-  if (const fs::path within = fs::path(name) / "world.toml";
-      !is_ours && !is_here && is_there && fs::is_directory(name, none) && fs::is_regular_file(within, none))
-    return {within.string(), ""};
-  if (is_there && !((is_ours || is_here) && fs::is_directory(name, none))) return {name, ""};
+  const bool is_folder = is_there && fs::is_directory(name, none), is_known = is_ours || is_here;
+  const fs::path within = fs::path(name) / "world.toml";
+  if (is_folder && !is_known && fs::is_regular_file(within, none)) return {within.string(), ""};
+  if (is_there && !(is_folder && is_known)) return {name, ""};
   // who makes a world of a name has it run
   if (is_here && is_ours && !fs::equivalent(beside, ours, none))
     return {beside.string(), name + ": world: ./" + beside.string() + " is taken, not " + ours.string() +
