@@ -41,10 +41,10 @@ std::vector<std::string> handler_names() {
   return all;
 }
 
-/// The handler's name most like this one; "" when none is.
-std::string handler_like(StringRef name) {
+/// The handler's name most like this one, so many letters apart at most; "": none is.
+std::string handler_like(StringRef name, unsigned most) {
   std::string best;
-  unsigned least = 4;
+  unsigned least = most + 1;
   for (const std::string& handler : handler_names()) {
     const unsigned edits = name.edit_distance(handler, true, least);
     if (edits < least) least = edits, best = handler;
@@ -196,16 +196,9 @@ class Checker : public RecursiveASTVisitor<Checker> {
     if (!f->doesThisDeclarationHaveABody() || !is_of_program(f)) return true;
     UseFinder(uses_[f->getCanonicalDecl()]).TraverseStmt(f->getBody());
     bodies_.push_back(f);
-    if (!has_note(f, "interrupt")) return true;
-    handlers_.push_back(f);
-    const std::string name = f->getNameAsString();
-    const auto all = handler_names();
-    if (std::find(all.begin(), all.end(), name) != all.end() || has_other_vector(f)) return true;
-    const std::string meant = handler_like(name);
-    warn(f->getLocation(), name +
-                               "(): got a handler whose name is no interrupt's, expected one such as "
-                               "_T1Interrupt: nothing will ever call it" +
-                               (meant.empty() ? "" : "; did you mean " + meant + "?"));
+    const bool is_handler = has_note(f, "interrupt");
+    if (is_handler) handlers_.push_back(f);
+    check_name(f, is_handler);
     return true;
   }
 
@@ -339,6 +332,27 @@ class Checker : public RecursiveASTVisitor<Checker> {
   }
 
  private:
+  /// A handler whose name is no interrupt's, or a function that is named like one but is none. One that is nearly
+  /// named so is meant only where the file does not call it.
+  void check_name(const FunctionDecl* f, bool is_handler) {
+    if (!f->getIdentifier()) return;
+    const std::string name = f->getNameAsString();
+    const auto all = handler_names();
+    const bool is_vector = std::find(all.begin(), all.end(), name) != all.end();
+    if (is_vector && !is_handler)
+      warn(f->getLocation(), name +
+                                 "(): got a function with an interrupt's name, expected a handler: without "
+                                 "__attribute__((interrupt, auto_psv)) it saves no registers, and RETURN "
+                                 "leads out of it instead of RETFIE");
+    if (is_vector || (is_handler ? has_other_vector(f) : name[0] != '_' || f->isReferenced())) return;
+    const std::string meant = handler_like(name, is_handler ? 3 : 2);
+    if (!is_handler && meant.empty()) return;
+    warn(f->getLocation(),
+         name + "(): got a " + (is_handler ? "handler" : "function like a handler") +
+             " whose name is no interrupt's, expected one such as _T1Interrupt: nothing will "
+             "ever call it" +
+             (meant.empty() ? "" : "; did you mean " + meant + "?"));
+  }
   bool is_of_program_at(SourceLocation at) const {
     const auto& sources = context_.getSourceManager();
     const SourceLocation place = sources.getExpansionLoc(at);

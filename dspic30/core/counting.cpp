@@ -642,11 +642,15 @@ bool Count::is_over(const Cpu& cpu) const {
 
 bool Count::is_plain(const Cpu& cpu) const { return !cpu.loop_end && cpu.modcon == 0; }
 
+bool Count::is_core_as_proven(const Cpu& cpu) const {
+  const CoreState now(cpu);
+  return now.words[9] == round_.state.words[9] && now.words[10] == round_.state.words[10];
+}
+
 Cycle Count::rounds_from(const Cpu& cpu) const {
   for (unsigned n = 0; n < 16; ++n)
     if ((registers_ >> n & 1) && cpu.w[n] != round_.state.w(n)) return -1;
-  const CoreState now(cpu);
-  if (now.words[9] != round_.state.words[9] || now.words[10] != round_.state.words[10]) return -1;
+  if (!is_core_as_proven(cpu)) return -1;
   if (reads_flags_ && (cpu.sr_low() & kSrFlags) != flags_) return -1;
   if (is_over(cpu)) return -1;
   const std::uint16_t value = counter_now(cpu);

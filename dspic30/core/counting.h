@@ -41,6 +41,8 @@ class Count {
   Cycle rounds_from(const Cpu& cpu) const;
   /// Is it over for whatever else it looks at than its counter: does a word of RAM differ?
   bool is_over(const Cpu& cpu) const;
+  /// Is all as it was but for W registers and flags: RAM, the pages of constants, the stack's limit?
+  bool is_as_proven(const Cpu& cpu) const { return is_core_as_proven(cpu) && !is_over(cpu); }
   /// `rounds` later, but for what the next round writes before it looks at it.
   void advance(Cpu& cpu, Cycle rounds) const;
   /// Does the round look at flags that it has not set?
@@ -62,6 +64,7 @@ class Count {
   static constexpr int kLoopCount = 16, kRam = 32;
 
   std::uint16_t counter_now(const Cpu& cpu) const;
+  bool is_core_as_proven(const Cpu& cpu) const;
 
   KnownWaits::Wait round_;
   int counter_ = 0;

@@ -30,6 +30,7 @@ void Waits::go_on(Cpu& cpu) {
 // --- looking
 
 void Waits::begin(Cpu& cpu) {
+  if (expected_.at < kNever && has_left(cpu)) return;
   at_head_ = cpu.heads.is_met;
   look_head_ = cpu.next;
   cpu.heads.is_met = false;
@@ -43,6 +44,29 @@ void Waits::begin(Cpu& cpu) {
   }
   is_turned_ = at_head_;
   begin_here(cpu);
+}
+
+// A loop that counts was cut, perhaps by what it waits for: behind it another wait may come that is not known yet.
+void Waits::expect_head(const Cpu& cpu) {
+  const Cut& cut = cut_of(cpu);
+  if (!cut.head || !cut.counts || level(cpu) > 0) return;
+  constexpr Cycle kMore = 2;  // the branch that ends a round takes longer
+  Cycle& look = schedule(cpu).at;
+  const bool is_asked = expected_.at < kNever;
+  const Cycle at = cut.resumed_at + cut.took + kMore;
+  if (look <= at && !is_asked) return;
+  expected_ = {cut.head, at, is_asked ? expected_.look_if_back : look};
+  look = at;
+}
+
+/// Did nothing bring this look but that the program has left that loop? Then one is due soon.
+bool Waits::has_left(Cpu& cpu) {
+  const Cycle at = std::exchange(expected_.at, kNever);
+  Cycle& look = schedule(cpu).at;
+  if (cpu.heads.is_met) look = expected_.look_if_back;
+  if (look != at) return false;
+  look = look_behind(cpu, expected_.head, at);
+  return true;
 }
 
 /// A round begins here.
@@ -408,6 +432,7 @@ void Waits::leave(Cpu& cpu) {
 void Waits::note_cut(const Cpu& cpu) {
   Cut& cut = cut_of(cpu);
   cut.head = wait_->first;
+  cut.counts = counts_ && is_by_head_;
   cut.took = wait_->took;
   cut.between = 0;
 }
@@ -461,7 +486,7 @@ void Waits::begin_handler(const Cpu& cpu, int vector, Cycle at) {
 bool Waits::knows(const Cpu& cpu, const ByHeart& wait) const {
   if (!cpu.heads.would_stop(wait.head, wait.came_true)) return false;
   const Count* const count = cpu.known_counts.at(wait.head);
-  return count && count->is_plain(cpu);
+  return count && count->is_plain(cpu) && count->is_as_proven(cpu);
 }
 
 void Waits::note(Cpu& cpu, const ByHeart& wait) {
@@ -473,12 +498,12 @@ void Waits::note(Cpu& cpu, const ByHeart& wait) {
   jumped_ += wait.cut - wait.came;
   Cut& cut = cut_of(cpu);
   cut.head = wait.head;
+  cut.counts = true;
   cut.took = cpu.known_counts.at(wait.head)->round().took;
   cut.between = 0;
   next.at = look_beside_heads(cpu, wait.cut_true);
   begin_handler(cpu, wait.vector, wait.cut_true);
-  cut.resumed = wait.went_on;
-  cut.resumed_delayed = cpu.delayed;
+  note_resumed(cpu);
 }
 
 void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
@@ -489,8 +514,9 @@ void Waits::note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true) {
   cpu.heads.passes = false;
 }
 
-void Waits::note_left(Cpu& cpu, const Decoded* head, Cycle at_true) {
-  schedule(cpu).at = look_behind(cpu, head, at_true);
+void Waits::note_left(Cpu& cpu) {
+  expect_head(cpu);
+  if (expected_.at < kNever) has_left(cpu);
 }
 
 Cycle Waits::back_by(const Cpu& cpu, Cycle over) const {
@@ -559,7 +585,8 @@ void Waits::move(const Decoded* from, const Decoded* to) {
   const auto move = [from, to](const Decoded*& d) {
     if (d && !address_of_host_place(d)) d = to + (d - from);
   };
-  for (const Decoded** d : {&cuts_[0].head, &cuts_[1].head, &look_head_, &behind_.first, &behind_.last})
+  for (const Decoded** d :
+       {&cuts_[0].head, &cuts_[1].head, &look_head_, &expected_.head, &behind_.first, &behind_.last})
     move(*d);
   if (!probe_) return;
   move(probe_->round.first);
@@ -584,6 +611,7 @@ void Waits::begin_at(Cycle now) {
   is_hinted_ = false;
   look_gap_ = kFirstGap;
   put_off_ = 0;
+  expected_ = {};
   look_by_ = now + look_gap_;
   for (Schedule& s : schedules_) s = {now + kFirstLooks, kFirstLooks};
 }

@@ -45,6 +45,7 @@ class Waits {
   void resume(Cpu& cpu) {
     cpu.returned = false;
     note_resumed(cpu);
+    expect_head(cpu);
   }
   /// Something from outside, or a debugger, may have changed what a wait looks at.
   void stir(Cpu& cpu);
@@ -63,10 +64,10 @@ class Waits {
   struct ByHeart {
     const Decoded* head = nullptr;
     int vector = 0;
-    Cycle came = 0, cut = 0, went_on = 0;
+    Cycle came = 0, cut = 0;
     Cycle came_true = 0, cut_true = 0;
   };
-  /// Would it be found?
+  /// Would it be found? RAM is as the loop finds it.
   bool knows(const Cpu& cpu, const ByHeart& wait) const;
   /// Is there neither a wait nor a look up to then, true time?
   bool is_free_until(const Cpu& cpu, Cycle when) const {
@@ -77,7 +78,7 @@ class Waits {
   /// Behind it the program has come to the head once more, and gone on.
   void note_over(Cpu& cpu, const Decoded* head, Cycle at, Cycle at_true);
   /// ... or has left the loop without coming to the head again.
-  void note_left(Cpu& cpu, const Decoded* head, Cycle at_true);
+  void note_left(Cpu& cpu);
 
   /// A handler known by heart comes now and is over by `over`, true time: if it changes nothing that the
   /// present wait reads, and nothing else comes, by when the program would be back at the wait's head and found
@@ -111,6 +112,7 @@ class Waits {
   };
   struct Cut {
     const Decoded* head = nullptr;  // first instruction of the wait that an interrupt came into last
+    bool counts = false;            // it is a loop that counts, and its head is known
     Cycle took = 0, between = 0;    // a round of it; cycles since, between handlers, before it was back
     Cycle resumed = 0;              // cycles of the program when the latest handler returned
     Cycle resumed_delayed = 0;      // Cpu::delayed then
@@ -154,6 +156,8 @@ class Waits {
     cut.resumed_delayed = cpu.delayed;
     cut.resumed_at = cpu.true_now();
   }
+  void expect_head(const Cpu& cpu);
+  bool has_left(Cpu& cpu);
   void note_look(const Cpu& cpu);
   bool is_hinted_look(const Cpu& cpu);
   static Cycle soon(unsigned look, unsigned doublings);
@@ -226,6 +230,12 @@ class Waits {
   Cycle look_by_ = kFirstGap, look_gap_ = kFirstGap;  // true time
   int put_off_ = 0;                                   // times that the look which is due was
   unsigned looks_beside_ = 0;                         // that were due
+  // a loop that counts, behind an interrupt
+  struct Expected {
+    const Decoded* head = nullptr;
+    Cycle at = kNever;  // the program has left it then, unless it comes to its head before; kNever: not asked
+    Cycle look_if_back = 0;  // when a look is due if it does
+  } expected_;               // true time
   /// The round that is looked at.
   struct Probe {
     KnownWaits::Wait round;

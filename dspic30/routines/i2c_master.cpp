@@ -11,6 +11,7 @@
 // wait is not known as one yet (core/waits.h counts it), the routine runs.
 #include <array>
 #include <optional>
+#include <utility>
 
 #include "dspic30/core/waits.h"
 #include "dspic30/routines/forms.h"
@@ -85,16 +86,7 @@ class Primitive {
     if (rounds_ + 2 >= shape_.from || flag + kMost >= cpu_.clocks.true_at(begin_ + limit_)) return false;
     is_short_ = holds_all();
     if (cpu_.host && is_host_disturbed(cpu_.clocks.true_at(cut_))) return false;
-    if (!cpu_.waits->is_free_until(cpu_, flag + kMost)) return false;
-    for (known_ = 0; known_ < kPlaces; ++known_) {
-      wait_.head = first() + known_;
-      if (!cpu_.table().is_wait(wait_.head)) continue;
-      wait_.vector = kVector;
-      wait_.came = cpu_.clocks.own_cycles(head + known_);
-      wait_.came_true = cpu_.clocks.true_at(head + known_);
-      if (cpu_.waits->knows(cpu_, wait_)) return true;
-    }
-    return false;
+    return cpu_.waits->is_free_until(cpu_, flag + kMost) && is_known_wait(head);
   }
 
   /// Up to the epilogue: what begins the operation, rounds, interrupt, the rest of a round.
@@ -116,6 +108,21 @@ class Primitive {
   int cycles() const { return static_cast<int>(cycles_); }
 
  private:
+  // Would one of a round's places be met as the head of a known wait? The mode is in RAM by then.
+  bool is_known_wait(Cycle head) {
+    std::uint8_t& mode = cpu_.ram[mode_ - Cpu::kRamStart];
+    const std::uint8_t kept = std::exchange(mode, static_cast<std::uint8_t>(shape_.mode));
+    for (known_ = 0; known_ < kPlaces; ++known_) {
+      wait_.head = first() + known_;
+      if (!cpu_.table().is_wait(wait_.head)) continue;
+      wait_.vector = kVector;
+      wait_.came = cpu_.clocks.own_cycles(head + known_);
+      wait_.came_true = cpu_.clocks.true_at(head + known_);
+      if (cpu_.waits->knows(cpu_, wait_)) break;
+    }
+    mode = kept;
+    return known_ < kPlaces;
+  }
   /// The first instruction of a round.
   const Decoded* first() const { return cpu_.at + shape_.head_at; }
   // is the interrupt's handler the library's, with the same mode?
@@ -187,7 +194,6 @@ class Primitive {
     cpu_.parts.events.run_to(cpu_.now);
     cpu_.now = interrupts.leave_to(static_cast<int>(level), cpu_.now);
     follow(share);
-    wait_.went_on = cpu_.clocks.own_cycles(cpu_.now);
   }
   // Does it hold off all handlers known by heart? None of them comes meanwhile (is_host_disturbed()), so all
   // that comes of it is that they take no share.
@@ -232,7 +238,7 @@ class Primitive {
       instruction(i, 0);
     }
     const Cycle left = rest + kPlaces - from;
-    if (known_ < from) cpu_.waits->note_left(cpu_, wait_.head, cpu_.clocks.true_at(cpu_.now + left));
+    if (known_ < from) cpu_.waits->note_left(cpu_);
     return left;
   }
   /// So long behind the handler it comes to a place of the round.
