@@ -191,20 +191,35 @@ std::optional<ResetKind> Processor::run(Cycle until) {
 // an enabled flag wakes whatever its priority, and so does the watchdog
 void Processor::sleep(Cycle until) {
   Cpu& cpu = *cpu_;
-  const Cycle wakes = cpu.parts.interrupts.sources().wakes_at();
+  if (asleep_since_ == kNever) cpu.host_stale = true;
+  asleep_since_ = std::min(asleep_since_, cpu.now);
+  const Cycle wakes = wakes_at();
   if (wakes <= cpu.now || cpu.parts.system.woke()) {
     asleep_since_ = kNever;
     cpu.now += cpu.power == Cpu::Power::Sleep ? kSleepWakeCycles : kIdleWakeCycles;
     cpu.power = Cpu::Power::On;
-    cpu.parts.system.awake();
+    cpu.parts.awake(cpu.now);
+    cpu.host_stale = true;  // sources of handlers known by heart stand in Sleep
     return;
   }
   const Cycle next = std::min({chip_.next_event(cpu.now), host_horizon(), wakes});
   const Cycle own = cpu.clocks.own_cycles(cpu.now), began = cpu.now;
-  asleep_since_ = std::min(asleep_since_, began);
   cpu.now = cpu.clocks.program_at(std::clamp(next, cpu.now + 1, std::max(until, cpu.now + 1)));
   slept_ += cpu.clocks.own_cycles(cpu.now) - own;
   if (cpu.course) cpu.course->waited(began, cpu.true_now());
+}
+
+Cycle Processor::wakes_at() const {
+  const Interrupts& interrupts = cpu_->parts.interrupts;
+  return interrupts.sources().wakes_at(~interrupts.standing(), std::min(asleep_since_, cpu_->now));
+}
+
+std::optional<Processor::LastSleep> Processor::last_sleep() const {
+  const Cpu& cpu = *cpu_;
+  if (!is_asleep() || cpu.parts.system.watchdog_runs() || wakes_at() < kNever) return std::nullopt;
+  const std::uint64_t enabled = cpu.parts.interrupts.sources().enabled_mask();
+  if (enabled & ~cpu.parts.interrupts.standing()) return std::nullopt;
+  return LastSleep{std::min(asleep_since_, cpu.now), enabled};
 }
 
 // --- whoever plays the library
@@ -309,8 +324,7 @@ bool Processor::follow_changed_handlers(unsigned state, int next_vector) {
     if (irqs_[h] < 0) continue;
     ByHeart& handler = by_heart_[h];
     cpu.host_is_held |= is_held(h);
-    if (handler.missed_at == 0)
-      handler.source = is_held(h) ? cpu.host->source_event(static_cast<int>(h), cpu.now) : kNever;
+    if (handler.missed_at == 0) handler.source = is_held(h) ? source_event(h, cpu.now) : kNever;
   }
   cpu.clocks.correct(cpu.host->take_owed_q32());
   cpu.clocks.set_share(cpu.host->share_q32());
@@ -341,6 +355,12 @@ bool Processor::note_hold(std::size_t h, bool by_program) {
   return begins;
 }
 
+/// When the source of a handler known by heart sets its flag next: in Sleep never.
+Cycle Processor::source_event(std::size_t h, Cycle after) const {
+  const Cpu& cpu = *cpu_;
+  return cpu.power == Cpu::Power::Sleep ? kNever : cpu.host->source_event(static_cast<int>(h), after);
+}
+
 /// Sets the flag of a handler that is held off, as its source does. A second event is lost, and told; those
 /// behind it are counted when the flag falls.
 bool Processor::raise_held(std::size_t h) {
@@ -354,7 +374,7 @@ bool Processor::raise_held(std::size_t h) {
     raises = true;
     const bool was_set = interrupts.sources().flag(irq);
     interrupts.raise(irq, handler.source);
-    const Cycle next = cpu.host->source_event(static_cast<int>(h), handler.source);
+    const Cycle next = source_event(h, handler.source);
     if (was_set) {
       handler.missed_at = handler.source;
       interrupts.tally().missing.begin(irq, handler.source, std::max<Cycle>(1, next - handler.source));
@@ -368,7 +388,7 @@ bool Processor::raise_held(std::size_t h) {
 void Processor::count_missed(std::size_t h) {
   Cpu& cpu = *cpu_;
   ByHeart& handler = by_heart_[h];
-  const Cycle next = cpu.host->source_event(static_cast<int>(h), cpu.now);
+  const Cycle next = source_event(h, cpu.now);
   // one that stands by now came no more, as far as anybody knows
   Interrupts& interrupts = cpu.parts.interrupts;
   interrupts.note_missed(
@@ -399,7 +419,7 @@ void Processor::lose_until_cleared() {
   constexpr Cycle kClears = 1;  // and makes ready for constants, one instruction more
   if (handler.source > cpu.now + saves + kClears) return;
   cpu.parts.interrupts.note_missed(irqs_[0], 1, handler.source);
-  handler.source = cpu.host->source_event(0, handler.source);
+  handler.source = source_event(0, handler.source);
 }
 
 /// The handler that calls nothing was pending.
@@ -456,7 +476,7 @@ Cycle Processor::idle_until() const {
   if (cpu.host && (cpu.host_stale || handlers(outlook.vector) != seen_)) return 0;
   if (outlook.reset_due || (cpu.host_due <= cpu.now && !is_held(0))) return 0;
   Cycle until = std::min(chip_.next_event(cpu.now), host_horizon());
-  if (is_asleep()) return std::min(until, cpu.parts.interrupts.sources().wakes_at());
+  if (is_asleep()) return std::min(until, wakes_at());
   if (outlook.vector != kNoVector) return 0;
   if (stands) until = std::min(until, cpu.stands_until);
   if (waits_->is_waiting()) until = std::min(until, waits_->until(cpu));

@@ -88,6 +88,12 @@ class Processor {
     bool reads = false;    ///< a round looks at something; else it is no wait, but the end of a program
   };
   Still still() const;
+  /// A sleep that nothing ends: neither the watchdog nor an interrupt that is enabled.
+  struct LastSleep {
+    Cycle since = 0;
+    std::uint64_t enabled = 0;  ///< sources whose clocks stand, a bit each
+  };
+  std::optional<LastSleep> last_sleep() const;
 
   // --- for debuggers, tests and reports: no side effects
   unsigned pc() const;
@@ -109,12 +115,14 @@ class Processor {
   void execute();
   bool rests(Cycle until);
   void sleep(Cycle until);
+  Cycle wakes_at() const;
   bool follow_host(int vector);
   void follow_entry();
   unsigned handlers(int next_vector) const;
   bool follow_changed_handlers(unsigned state, int next_vector);
   bool is_held(std::size_t handler) const { return (held_ >> handler & 1) != 0; }
   bool raise_held(std::size_t handler);
+  Cycle source_event(std::size_t handler, Cycle after) const;
   bool note_hold(std::size_t handler, bool by_program);
   void lose_until_cleared();
   void count_missed(std::size_t handler);

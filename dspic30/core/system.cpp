@@ -18,9 +18,7 @@ const Decoded* clear_watchdog(Cpu& cpu, const Decoded* d) {
 const Decoded* save_power(Cpu& cpu, const Decoded* d) {
   cpu.settle();
   cpu.power = d->imm ? Cpu::Power::Idle : Cpu::Power::Sleep;
-  cpu.parts.events.run_to(cpu.now);
-  cpu.parts.system.power_save(d->imm == 0, cpu.now);
-  cpu.parts.system.fall_asleep();
+  cpu.parts.fall_asleep(d->imm != 0, cpu.now);
   cpu.deadline = 0;
   return d + 1;
 }

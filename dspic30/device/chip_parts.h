@@ -204,6 +204,14 @@ struct ChipParts {
     }
   }
 
+  /// Sources of interrupts that need no clock of the processor's, so that they wake it from Sleep: pins, low
+  /// voltage, CAN's and UARTs' wake-up, timer 1 and the converter with clocks of their own; a bit each. Source:
+  /// [chip C15], [chip P2], [chip P5].
+  std::uint64_t without_clock(Cycle now) const;
+  /// In Idle, or in Sleep, which stops the timers' clock.
+  void fall_asleep(bool is_idle, Cycle now);
+  void awake(Cycle now);
+
   void switch_modules(std::uint16_t next1, std::uint16_t next2, Cycle now);
 
  private:

@@ -154,6 +154,41 @@ void ChipParts::write_beyond(unsigned address, std::uint16_t value, unsigned bit
   if (word == kPmd1 || word == kPmd2) switch_modules(plain.word(kPmd1), plain.word(kPmd2), now);
 }
 
+std::uint64_t ChipParts::without_clock(Cycle now) const {
+  static constexpr int kAlways[] = {irq::Int0, irq::Int1, irq::Int2, irq::Int3, irq::Int4,
+                                    irq::Cn,   irq::Lvd,  irq::C1,   irq::C2};
+  static constexpr std::pair<int, unsigned> kCaptures[] = {
+      {irq::Ic1, sfr("IC1CON")}, {irq::Ic2, sfr("IC2CON")}, {irq::Ic3, sfr("IC3CON")},
+      {irq::Ic4, sfr("IC4CON")}, {irq::Ic5, sfr("IC5CON")}, {irq::Ic6, sfr("IC6CON")},
+      {irq::Ic7, sfr("IC7CON")}, {irq::Ic8, sfr("IC8CON")}};
+  static constexpr auto kMode = sfr_bits("IC1CON", "ICM"), kPinAlone = kMode;  // all three bits: the pin
+  static constexpr auto kOutside = sfr_bits("T1CON", "TCS"), kInStep = sfr_bits("T1CON", "TSYNC"),
+                        kOwn = sfr_bits("ADCON3", "ADRC"), kWake = sfr_bits("U1MODE", "WAKE");
+  std::uint64_t all = 0;
+  const auto add = [&](int source, bool is_one) { all |= std::uint64_t{is_one} << source; };
+  for (const int source : kAlways) add(source, true);
+  for (const auto& [source, mode] : kCaptures) add(source, (bus.peek(mode, now) & kMode) == kPinAlone);
+  add(irq::T1, (bus.peek(sfr("T1CON"), now) & (kOutside | kInStep)) == kOutside);
+  add(irq::U1Rx, (bus.peek(sfr("U1MODE"), now) & kWake) != 0);
+  add(irq::U2Rx, (bus.peek(sfr("U2MODE"), now) & kWake) != 0);
+  add(irq::Adc, (bus.peek(sfr("ADCON3"), now) & kOwn) != 0);
+  return all;
+}
+
+void ChipParts::fall_asleep(bool is_idle, Cycle now) {
+  events.run_to(now);
+  timers.set_clock(is_idle ? Timers::Clock::Idles : Timers::Clock::Stands, now);
+  interrupts.stand(is_idle ? 0 : ~without_clock(now));
+  system.fall_asleep(!is_idle, now);
+}
+
+void ChipParts::awake(Cycle now) {
+  events.run_to(now);
+  timers.set_clock(Timers::Clock::Runs, now);
+  interrupts.stand(0);
+  system.awake();
+}
+
 std::uint16_t Dspic30f6014a::peek(unsigned address, Cycle now) {
   run_to(now);
   return parts_->bus.peek(address, now);

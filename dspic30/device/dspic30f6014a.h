@@ -10,7 +10,7 @@
 // forms. Times in instruction cycles (memory/cycle.h); `now` never goes back from one call to the next. One
 // object is used by one thread at a time. Deterministic: the same calls give the same answers.
 //
-// Not modelled as a whole: the processor core, program memory, Sleep and Idle beyond the wake-up condition,
+// Not modelled as a whole: the processor core, program memory, Sleep and Idle beyond timers and what wakes,
 // other clocks than the configured one. Each file of periph/ says what it leaves out. Source: [chip C],
 // [chip P], see docs/dev/sources.md.
 #pragma once

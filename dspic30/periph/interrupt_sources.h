@@ -39,11 +39,14 @@ class InterruptSources {
     return younger;
   }
   /// When an enabled flag wakes the processor, whatever its priority: a cycle after it was set; kNever: none is
-  /// set.
-  Cycle wakes_at() const {
+  /// set. `at_work`: the sources that set flags meanwhile; of the others one does that was set up to `asleep`.
+  Cycle wakes_at(std::uint64_t at_work, Cycle asleep) const {
     Cycle at = kNever;
-    for (std::uint64_t ready = waking(); ready; ready &= ready - 1)
-      at = std::min(at, since_[static_cast<std::size_t>(__builtin_ctzll(ready))] + 1);
+    for (std::uint64_t ready = waking(); ready; ready &= ready - 1) {
+      const int i = __builtin_ctzll(ready);
+      if (const Cycle since = since_[static_cast<std::size_t>(i)]; (at_work >> i & 1) || since <= asleep)
+        at = std::min(at, since + 1);
+    }
     return at;
   }
 

@@ -83,7 +83,8 @@ void SystemControl::clear_watchdog(Cycle now) {
   f_.events.set(slot_, watchdog_runs() ? now + watchdog_period() : kNever);
 }
 
-void SystemControl::power_save(bool sleep, Cycle now) {
+void SystemControl::fall_asleep(bool sleep, Cycle now) {
+  asleep_ = true;
   rcon_ |= sleep ? kSleep : kIdle;
   clear_watchdog(now);
 }

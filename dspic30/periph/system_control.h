@@ -22,10 +22,9 @@ class SystemControl final : public SfrOwner, public EventOwner {
   void reset(ResetKind kind, Cycle now);
   void outside_changed(Cycle now) { watch_supply(now); }
   void clear_watchdog(Cycle now);
-  void power_save(bool sleep, Cycle now);
   bool watchdog_bit() const { return bitten_; }
-  /// From now on a time-out wakes instead (RCON.WDTO, woke()), until awake().
-  void fall_asleep() { asleep_ = true; }
+  /// Into Sleep, or Idle. From now on a time-out wakes instead (RCON.WDTO, woke()), until awake().
+  void fall_asleep(bool sleep, Cycle now);
   bool woke() const { return woke_; }
   void awake() { asleep_ = woke_ = false; }
   /// Cycles from a clear to the time-out.

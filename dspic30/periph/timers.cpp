@@ -2,7 +2,6 @@
 #include "dspic30/periph/timers.h"
 
 #include <algorithm>
-#include <type_traits>
 #include <utility>
 
 namespace dspic {
@@ -21,7 +20,8 @@ constexpr unsigned kHold23 = sfr("TMR3HLD"), kHold45 = sfr("TMR5HLD");
 constexpr int kFlags[kTimers] = {irq::T1, irq::T2, irq::T3, irq::T4, irq::T5};
 constexpr Pin kClockPins[kTimers] = {{Port::C, 14}, {Port::C, 1}, {Port::C, 2}, {Port::C, 3}, {Port::C, 4}};
 constexpr std::uint16_t kTon = sfr_bits("T2CON", "TON"), kTgate = sfr_bits("T2CON", "TGATE"),
-                        kT32 = sfr_bits("T2CON", "T32"), kTcs = sfr_bits("T2CON", "TCS");
+                        kT32 = sfr_bits("T2CON", "T32"), kTcs = sfr_bits("T2CON", "TCS"),
+                        kTsidl = sfr_bits("T2CON", "TSIDL"), kTsync = sfr_bits("T1CON", "TSYNC");
 constexpr SfrBits kTckps = sfr_field("T2CON", "TCKPS");
 constexpr int kPrescaleBits[] = {0, 3, 6, 8};  // 1, 8, 64, 256
 constexpr Cycle kEdgeToTick = 1;               // synchroniser of TxCK
@@ -66,12 +66,11 @@ void Timers::attach() {
     unit(t).slot = f_.events.add(*this, t, flags, false);
     f_.interrupts.listeners().listen(kFlags[t - 1], *this);
     f_.ports.watch(kClockPins[t - 1], *this);
-    f_.bus.mark_unmodelled(kAt[t - 1].con,
-                           std::integral_constant<std::uint16_t, sfr_bits("T1CON", "TSIDL")>());
   }
 }
 
 void Timers::reset(Cycle now) {
+  clock_ = Clock::Runs;
   for (int t = 1; t <= kTimers; ++t) {
     count_missed(t, now);
     const int slot = unit(t).slot;
@@ -207,10 +206,32 @@ void Timers::settle(int timer, Cycle at, Cycle done) {
   u.next = -1;
 }
 
+bool Timers::stands(int timer) const {
+  const std::uint16_t con = unit(timer).con;
+  const bool has_own = timer == 1 && (con & (kTcs | kTsync)) == kTcs;
+  return clock_ == Clock::Stands ? !has_own : clock_ == Clock::Idles && (con & kTsidl);
+}
+
+// the count stays, and what the prescaler holds
+void Timers::set_clock(Clock clock, Cycle now) {
+  clock_ = clock;
+  for (int t = 1; t <= kTimers; ++t) {
+    Unit& u = unit(t);
+    if (u.slave || (u.mode != Mode::Stopped) == ((u.con & kTon) && !stands(t))) continue;
+    count_missed(t, now);
+    settle(t, now, now);
+    const Cycle residue = u.residue;
+    configure(t, now);
+    u.residue = residue;
+    schedule(t, now);
+    tell_changed(t, now);
+  }
+}
+
 void Timers::configure(int timer, Cycle at) {
   Unit& u = unit(timer);
   const Mode before = u.mode;
-  if (u.slave || !(u.con & kTon))
+  if (u.slave || !(u.con & kTon) || stands(timer))
     u.mode = Mode::Stopped;
   else if (u.con & kTcs)
     u.mode = Mode::External;

@@ -4,9 +4,9 @@
 //   TCY or TxCK edges --> prescaler 1 8 64 256 --> TMR, back to 0 on the tick after TMR == PR --> TxIF
 //
 // Modelled: internal and external clock, prescalers, gate, 32-bit pairs with holding registers, period
-// below the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR. The count is a closed form;
-// only matches are events, and not even those while the flag is still set and nobody else listens. Not
-// modelled: TSIDL, LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2.
+// below the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR, standing in Sleep and, with TSIDL, in
+// Idle. The count is a closed form; only matches are events, and not even those while the flag is still set and
+// nobody else listens. Not modelled: LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2.
 // Times: a write in cycle t acts from t + 1; a tick that makes TMR == PR sets the flag one cycle later; an
 // external edge ticks one cycle after it. Source: [chip P2], pins of T2CK and T3CK [DS70286C]; [?] flag
 // phase with prescalers.
@@ -35,6 +35,9 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   void attach();
   void reset(Cycle now);
   void outside_changed(Cycle now);
+  /// The processor's clock, which timer 1 need not have: in Idle it runs but for those with TSIDL.
+  enum class Clock { Runs, Idles, Stands };
+  void set_clock(Clock clock, Cycle now);
 
   // --- for peripherals; timers 1 to 5
   void listen(TimerListener& listener) { listeners_.push_back(&listener); }
@@ -102,6 +105,7 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
   /// The counter's state moves to `at`; flags up to `done` have been told.
   void settle(int timer, Cycle at, Cycle done);
   void configure(int timer, Cycle at);
+  bool stands(int timer) const;
   void schedule(int timer, Cycle now);
   void count_missed(int timer, Cycle now);
   std::int64_t uncounted(int timer, Cycle now) const;  // of matches that found the flag set, if it is lazy
@@ -112,6 +116,7 @@ class Timers final : public SfrOwner, public EventOwner, public FlagListener, pu
 
   const Fabric& f_;
   std::array<Unit, kTimers> units_{};
+  Clock clock_ = Clock::Runs;
   std::vector<TimerListener*> listeners_;
 };
 

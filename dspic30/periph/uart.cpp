@@ -39,8 +39,8 @@ Uart::Uart(const Fabric& fabric, int number)
 
 void Uart::attach() {
   f_.bus.attach(*this, base_, base_ + 8);
-  f_.bus.mark_unmodelled(
-      base_ + kMode, std::integral_constant<std::uint16_t, sfr_bits("U1MODE", "USIDL", "WAKE", "ABAUD")>());
+  f_.bus.mark_unmodelled(base_ + kMode,
+                         std::integral_constant<std::uint16_t, sfr_bits("U1MODE", "USIDL", "ABAUD")>());
   slot_tx_ = f_.events.add(*this, Transmit, std::uint64_t{1} << tx_irq_, true);
   slot_last_ = f_.events.add(*this, TransmitLast, std::uint64_t{1} << tx_irq_, false);
   slot_rx_ = f_.events.add(*this, Receive, std::uint64_t{1} << rx_irq_, false);

@@ -374,6 +374,7 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
             all.end());
   for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
+  add_last_sleep(all);
   if (own_resets_.count > kUsualResets)
     all.push_back({"resets itself", places_->text_of(own_resets_.last_place),
                    "the program resets the processor again and again by RESET",
@@ -407,6 +408,15 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
       wait_ = endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);
+}
+
+/// With no interrupt enabled it is the end of a program.
+void ChipRunner::add_last_sleep(std::vector<board::Diagnosis>& all) const {
+  const auto sleep = processor_->last_sleep();
+  if (!sleep || sleep->enabled == 0 || end_ - sleep->since < kLeastWait) return;
+  constexpr unsigned kInstruction = 2;  // bytes of PWRSAV, behind which it goes on
+  all.push_back(
+      endless_sleep(places_->text_of(processor_->pc() - kInstruction), sleep->enabled, sleep->since));
 }
 
 std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }

@@ -7,6 +7,7 @@
 #include <set>
 #include <sstream>
 
+#include "dspic30/memory/irqs.h"
 #include "sim_core/base/input_file.h"
 #include "sim_core/base/pattern.h"
 
@@ -217,6 +218,18 @@ board::Diagnosis endless_wait(const host::Runner& program, const host::Place& pl
     wait.hint = "write it in a handler or an agenda, and see that it is volatile";
   }
   return wait;
+}
+
+board::Diagnosis endless_sleep(const std::string& place, std::uint64_t enabled, board::Cycle since) {
+  std::vector<std::string> sources;
+  for (int irq = 0; irq < dspic::kIrqs; ++irq)
+    if (enabled >> irq & 1) sources.push_back(dspic::irq_name(irq));
+  return {
+      "endless wait", place,
+      "the program sleeps here for ever: Sleep stops the clock of " + joined(sources) +
+          ", and no interrupt is enabled that needs none",
+      "use Idle(), which leaves peripherals their clock, or enable what wakes from Sleep, such as INT0 or CN",
+      since};
 }
 
 }  // namespace chip

@@ -2,6 +2,7 @@
 // What is told of a program that waits for ever: what it waits for, and who writes that, by the text of its
 // sources. Names are looked for as words; what happens by pointers is not seen.
 #pragma once
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <vector>
@@ -30,5 +31,7 @@ bool is_written_by_none(const host::Runner& program, const host::Place& place, c
 /// Nothing that the loop at `place` looks at can change, since `since`, for no interrupt
 /// that could is enabled.
 board::Diagnosis endless_wait(const host::Runner& program, const host::Place& place, board::Cycle since);
+/// It sleeps at `place` since `since`, and of the interrupts that are enabled, a bit each, none comes in Sleep.
+board::Diagnosis endless_sleep(const std::string& place, std::uint64_t enabled, board::Cycle since);
 
 }  // namespace chip

@@ -47,13 +47,13 @@ TEST(Bus, peek_changes_nothing) {
 
 TEST(Bus, unmodelled_bit_is_named_once_and_kept) {
   Bench b;
-  b.write("U1MODE", 0x8080, 5);  // WAKE
-  b.write("U1MODE", 0x8080, 6);
+  b.write("U1MODE", 0xA000, 5);  // USIDL
+  b.write("U1MODE", 0xA000, 6);
   EXPECT_EQ(b.notes.count(Cause::UnmodelledBit), 1);
-  EXPECT_EQ(b.notes.all[0].place, "U1MODE.WAKE");
+  EXPECT_EQ(b.notes.all[0].place, "U1MODE.USIDL");
   EXPECT_EQ(b.notes.all[0].cycle, 5);
-  EXPECT_EQ(b.read("U1MODE", 7), 0x8080u);
-  b.write("U2MODE", 0x8080, 8);
+  EXPECT_EQ(b.read("U1MODE", 7), 0xA000u);
+  b.write("U2MODE", 0xA000, 8);
   EXPECT_EQ(b.notes.count(Cause::UnmodelledBit), 2);
 }
 

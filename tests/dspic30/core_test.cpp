@@ -426,6 +426,73 @@ __T1Interrupt: bclr IFS0, #T1IF
   EXPECT_LT(b.cpu->now(), 1030);
 }
 
+// INT0's pin rises at 5000
+TEST(Power, sleep_ends_by_what_needs_no_clock) {
+  const std::string kTimer1 = "mov #999, w0\n mov w0, PR1\n bset IEC0, #T1IE\n bset T1CON, #15\n";
+  const std::string kConverter = "mov #0x00E0, w0\n mov w0, ADCON1\n bset ADCON1, #15\n bset IEC0, #ADIE\n";
+  const std::string kCapture = "bset IEC0, #IC1IE\n";
+  const struct {
+    std::string name, setup;
+    std::uint64_t stands;  // sources for which it sleeps for ever; 0: it does not
+  } kCases[] = {
+      {"timer 1", kTimer1, std::uint64_t{1} << dspic::irq::T1},
+      {"nothing", "", 0},
+      {"timer 1 and a pin", kTimer1 + "bset IEC0, #INT0IE\n", 0},
+      {"a pin", "bset IEC0, #INT0IE\n", 0},
+      {"a flag from before", kTimer1 + "bset IFS0, #T1IF\n", 0},
+      {"a converter's clock", kConverter + "bset ADCON1, #1\n", std::uint64_t{1} << dspic::irq::Adc},
+      {"a converter with its own", "mov #0x0080, w0\n mov w0, ADCON3\n" + kConverter + "bset ADCON1, #1\n",
+       0},
+      {"a capture with its timer", kCapture + "mov #3, w0\n mov w0, IC1CON\n",
+       std::uint64_t{1} << dspic::irq::Ic1},
+      {"a timer with clocks from outside", kTimer1 + "mov #0x8002, w0\n mov w0, T1CON\n", 0},
+      {"... in step", kTimer1 + "mov #0x8006, w0\n mov w0, T1CON\n", std::uint64_t{1} << dspic::irq::T1},
+  };
+  for (const auto& c : kCases) {
+    CoreBench b("__reset: " + c.setup +
+                "pwrsav #0\nend: bra end\n__T1Interrupt: bra end\n"
+                "__INT0Interrupt: bra end\n__ADCInterrupt: bra end\n__IC1Interrupt: bra end");
+    b.outside.clock({dspic::Port::F, 6}, 5000, 100000, 50000, 1);
+    b.outside.clock({dspic::Port::C, 14}, 3000, 100, 50, 2000);  // T1CK
+    b.chip->outside_changed(0);
+    const bool wakes = b.run_to("end", 200000);
+    const auto last = b.cpu->last_sleep();
+    EXPECT_EQ(wakes, c.stands == 0 && c.name != "nothing") << c.name;
+    EXPECT_EQ(last.has_value(), !wakes) << c.name;
+    if (last) {
+      EXPECT_EQ(last->enabled, c.stands) << c.name;
+    }
+    EXPECT_EQ(b.sfr("RCON") & 0xC, 8u) << c.name;  // SLEEP
+  }
+  // Idle leaves timer 1 its clock; the watchdog wakes from both.
+  CoreBench idle("__reset: " + kTimer1 + "pwrsav #1\nend: bra end\n__T1Interrupt: bra end");
+  EXPECT_TRUE(idle.run_to("end", 2000));
+  dspic::Configuration c;
+  c.fwdt = 0x8000;
+  CoreBench dog("__reset: " + kTimer1 + "pwrsav #0\nend: bra end", c);
+  EXPECT_TRUE(dog.run_to("end", 40000));
+}
+
+// The watchdog wakes after 2 ms; before it timer 1 runs for 100 cycles, behind it for 50.
+TEST(Power, timers_stand_in_sleep_and_with_tsidl_in_idle) {
+  const struct {
+    const char* control;
+    const char* pwrsav;
+    unsigned most;
+  } kCases[] = {{"0x8000", "0", 153}, {"0xA000", "0", 153}, {"0xA000", "1", 153}, {"0x8000", "1", 29645}};
+  for (const auto& c : kCases) {
+    dspic::Configuration configuration;
+    configuration.fwdt = 0x8000;
+    CoreBench b(std::string("__reset: mov #") + c.control +
+                    ", w0\n mov w0, T1CON\n repeat #98\n nop\n pwrsav #" + c.pwrsav +
+                    "\n repeat #48\n nop\n mov TMR1, w1\nend: bra end",
+                configuration);
+    ASSERT_TRUE(b.run_to("end"));
+    EXPECT_GE(b.w(1), c.most - 6) << c.control << " " << c.pwrsav;
+    EXPECT_LE(b.w(1), c.most) << c.control << " " << c.pwrsav;
+  }
+}
+
 // --- the assembler
 
 TEST(Assembler, labels_stand_before_blocks_as_before_instructions) {
