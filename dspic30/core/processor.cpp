@@ -61,7 +61,14 @@ void Processor::power_up(Cycle at) {
   waits_->begin_at(at);
 }
 
-Processor::Still Processor::still() const { return {cpu_->still_since, cpu_->still_reads}; }
+Processor::Still Processor::still() const {
+  if (!is_asleep()) return {cpu_->still_since, cpu_->still_reads};
+  ChipParts& parts = cpu_->parts;
+  const std::uint64_t enabled = parts.interrupts.sources().enabled_mask();
+  const bool ends =
+      parts.system.watchdog_runs() || wakes_at() < kNever || (enabled & ~parts.interrupts.tally().standing);
+  return ends ? Still{} : Still{std::min(asleep_since_, cpu_->now), false, enabled};
+}
 
 // --- the loop
 
@@ -210,16 +217,8 @@ void Processor::sleep(Cycle until) {
 }
 
 Cycle Processor::wakes_at() const {
-  const Interrupts& interrupts = cpu_->parts.interrupts;
-  return interrupts.sources().wakes_at(~interrupts.standing(), std::min(asleep_since_, cpu_->now));
-}
-
-std::optional<Processor::LastSleep> Processor::last_sleep() const {
-  const Cpu& cpu = *cpu_;
-  if (!is_asleep() || cpu.parts.system.watchdog_runs() || wakes_at() < kNever) return std::nullopt;
-  const std::uint64_t enabled = cpu.parts.interrupts.sources().enabled_mask();
-  if (enabled & ~cpu.parts.interrupts.standing()) return std::nullopt;
-  return LastSleep{std::min(asleep_since_, cpu.now), enabled};
+  Interrupts& interrupts = cpu_->parts.interrupts;
+  return interrupts.sources().wakes_at(~interrupts.tally().standing, std::min(asleep_since_, cpu_->now));
 }
 
 // --- whoever plays the library

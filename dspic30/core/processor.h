@@ -82,18 +82,14 @@ class Processor {
   const Cpu& cpu() const { return *cpu_; }
   /// Translates whatever is jumped to, at once: for tests.
   void translate_all();
-  /// The loop in which it is and nothing that it reads can change unless an interrupt comes.
+  /// The loop in which it is and nothing that it reads can change unless an interrupt comes; or a sleep that
+  /// nothing ends, neither the watchdog nor an interrupt that is enabled.
   struct Still {
-    Cycle since = kNever;  ///< kNever: it is in none. Depends, by some looks, on how run() is called
-    bool reads = false;    ///< a round looks at something; else it is no wait, but the end of a program
+    Cycle since = kNever;       ///< kNever: it is in none. Depends, by some looks, on how run() is called
+    bool reads = false;         ///< a round looks at something; else it is no wait, but the end of a program
+    std::uint64_t enabled = 0;  ///< of a sleep: sources that are enabled, but stand, a bit each
   };
   Still still() const;
-  /// A sleep that nothing ends: neither the watchdog nor an interrupt that is enabled.
-  struct LastSleep {
-    Cycle since = 0;
-    std::uint64_t enabled = 0;  ///< sources whose clocks stand, a bit each
-  };
-  std::optional<LastSleep> last_sleep() const;
 
   // --- for debuggers, tests and reports: no side effects
   unsigned pc() const;

@@ -178,14 +178,14 @@ std::uint64_t ChipParts::without_clock(Cycle now) const {
 void ChipParts::fall_asleep(bool is_idle, Cycle now) {
   events.run_to(now);
   timers.set_clock(is_idle ? Timers::Clock::Idles : Timers::Clock::Stands, now);
-  interrupts.stand(is_idle ? 0 : ~without_clock(now));
+  interrupts.tally().standing = is_idle ? 0 : ~without_clock(now);
   system.fall_asleep(!is_idle, now);
 }
 
 void ChipParts::awake(Cycle now) {
   events.run_to(now);
   timers.set_clock(Timers::Clock::Runs, now);
-  interrupts.stand(0);
+  interrupts.tally().standing = 0;
   system.awake();
 }
 

@@ -178,7 +178,8 @@ class Rhythms {
 /// power-up.
 struct InterruptTally {
   Tally missed, served;
-  Rhythms missing;  ///< not among `missed` yet
+  Rhythms missing;             ///< not among `missed` yet
+  std::uint64_t standing = 0;  ///< sources without a clock in Sleep, a bit each: they have no events
 };
 
 }  // namespace dspic

@@ -29,7 +29,7 @@ void Interrupts::attach(SfrBus& bus) { bus.attach(*this, kIntcon1, kInttreg); }
 void Interrupts::reset(Cycle now) {
   for (int irq = 0; irq < kIrqs; ++irq) note_missed(irq, tally_.missing.end(irq, now), now);
   sources_.reset(kDefaultPriority, now);
-  standing_ = 0;
+  tally_.standing = 0;
   control_ = InterruptControl{};
   cpu_.reset();
   flags_read_.fill(-kReadModifyWrite - 1);
@@ -41,7 +41,7 @@ void Interrupts::reset(Cycle now) {
 // --- flags
 
 void Interrupts::note_missed(int irq, std::int64_t events, Cycle at) {
-  if (events <= 0 || !sources_.enabled(irq) || (standing_ >> irq & 1)) return;
+  if (events <= 0 || !sources_.enabled(irq) || (tally_.standing >> irq & 1)) return;
   if (tally_.missed.add(irq, events) == 0) {
     const std::string name = vector_name(kFirstIrqVector + irq);
     diagnostics_.report(Cause::MissedInterrupt, name,

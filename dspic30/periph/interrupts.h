@@ -46,10 +46,6 @@ class Interrupts final : public SfrOwner {
   /// Events that passed unseen while the flag was set; for sources that did not raise() them one by one.
   void note_missed(int irq, std::int64_t events, Cycle at);
 
-  /// Sources that stand, a bit each: they have no events.
-  void stand(std::uint64_t sources) { standing_ = sources; }
-  std::uint64_t standing() const { return standing_; }
-
   // --- for the processor
   int pending(Cycle now, int cpu_level) const;
   /// Earliest cycle > now at which pending() changes without a new flag.
@@ -130,7 +126,6 @@ class Interrupts final : public SfrOwner {
   bool stirred_ = false;
   std::int64_t writes_ = 0;
   InterruptSources sources_;
-  std::uint64_t standing_ = 0;
   std::uint64_t cleared_ = 0;  // bit i: software cleared the flag of IRQ i since its handler began
   // bit i: the last handler of IRQ i returned with its flag untouched; more than one in turn did
   std::uint64_t uncleared_ = 0, uncleared_again_ = 0;

@@ -374,7 +374,6 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
             all.end());
   for (board::Diagnosis& of_library : calls_->diagnoses(end_)) all.push_back(std::move(of_library));
   add_endless_wait(all);
-  add_last_sleep(all);
   if (own_resets_.count > kUsualResets)
     all.push_back({"resets itself", places_->text_of(own_resets_.last_place),
                    "the program resets the processor again and again by RESET",
@@ -384,10 +383,13 @@ std::vector<board::Diagnosis> ChipRunner::diagnoses() const {
 
 /// For what no code can set any more. A loop that looks at nothing is none, but the end of a program.
 void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
-  const auto [since, reads] = processor_->still();
-  if (since == dspic::kNever || end_ - since < kLeastWait || processor_->is_asleep() ||
-      device().interrupts().nesting() > 0 || !reads)
-    return;
+  const auto [since, reads, standing] = processor_->still();
+  if (since == dspic::kNever || end_ - since < kLeastWait) return;
+  // With no interrupt enabled a sleep is the end of a program.
+  constexpr unsigned kInstruction = 2;  // bytes of PWRSAV, behind which it goes on
+  if (standing)
+    all.push_back(endless_sleep(places_->text_of(processor_->pc() - kInstruction), standing, since));
+  if (device().interrupts().nesting() > 0 || !reads) return;
   if (asked_since_ != since) {
     asked_since_ = since;
     wait_.reset();
@@ -408,15 +410,6 @@ void ChipRunner::add_endless_wait(std::vector<board::Diagnosis>& all) const {
       wait_ = endless_wait(*this, place, since);
   }
   if (wait_) all.push_back(*wait_);
-}
-
-/// With no interrupt enabled it is the end of a program.
-void ChipRunner::add_last_sleep(std::vector<board::Diagnosis>& all) const {
-  const auto sleep = processor_->last_sleep();
-  if (!sleep || sleep->enabled == 0 || end_ - sleep->since < kLeastWait) return;
-  constexpr unsigned kInstruction = 2;  // bytes of PWRSAV, behind which it goes on
-  all.push_back(
-      endless_sleep(places_->text_of(processor_->pc() - kInstruction), sleep->enabled, sleep->since));
 }
 
 std::uint64_t ChipRunner::hash() const { return chip_.digest().sum() + (library_ ? library_->digest() : 0); }

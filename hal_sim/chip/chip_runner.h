@@ -104,7 +104,6 @@ class ChipRunner final : public host::Runner,
   void fill_ram();
   void run_watched(Cycle end);
   void run_looked_at(Cycle end);
-  void add_last_sleep(std::vector<board::Diagnosis>& all) const;
   void add_endless_wait(std::vector<board::Diagnosis>& all) const;
   void tell_reset(Cycle at);
   void tell_calls();

@@ -456,12 +456,10 @@ TEST(Power, sleep_ends_by_what_needs_no_clock) {
     b.outside.clock({dspic::Port::C, 14}, 3000, 100, 50, 2000);  // T1CK
     b.chip->outside_changed(0);
     const bool wakes = b.run_to("end", 200000);
-    const auto last = b.cpu->last_sleep();
+    const auto still = b.cpu->still();
     EXPECT_EQ(wakes, c.stands == 0 && c.name != "nothing") << c.name;
-    EXPECT_EQ(last.has_value(), !wakes) << c.name;
-    if (last) {
-      EXPECT_EQ(last->enabled, c.stands) << c.name;
-    }
+    EXPECT_EQ(still.since < dspic::kNever, !wakes) << c.name;
+    EXPECT_EQ(still.enabled, c.stands) << c.name;
     EXPECT_EQ(b.sfr("RCON") & 0xC, 8u) << c.name;  // SLEEP
   }
   // Idle leaves timer 1 its clock; the watchdog wakes from both.
