@@ -20,6 +20,14 @@ bool is_same(const trace::Signal& a, const trace::Signal& b) {
   return a.group == b.group && a.name == b.name;
 }
 
+/// Where a robot's name ends in ROBOT:SIGNAL; names may have colons, too. npos: nowhere.
+std::size_t end_of_robot(const std::string& word, const sim::WorldDesc& world) {
+  std::size_t end = word.find(':');
+  for (const sim::RobotDesc& robot : world.robots)
+    if (word.rfind(robot.name + ":", 0) == 0) end = std::max(end, robot.name.size());
+  return end;
+}
+
 }  // namespace
 
 TraceOutputs::TraceOutputs(TraceArguments arguments, twin::Twin& twin)
@@ -30,7 +38,7 @@ TraceOutputs::~TraceOutputs() = default;
 bool TraceOutputs::add(const std::string& word, const char* option,
                        std::vector<std::vector<trace::Signal>>& signals, std::vector<std::string>& problems) {
   const std::string where = "command line: " + std::string(option) + ": ";
-  const auto colon = word.find(':');
+  const auto colon = end_of_robot(word, twin_.world());
   if (colon == std::string::npos || colon == 0 || colon + 1 == word.size()) {
     problems.push_back(where + "got '" + word + "', expected ROBOT:SIGNAL; ROBOT may be '*'");
     return false;
@@ -79,7 +87,7 @@ bool TraceOutputs::choose(std::vector<std::string>& problems) {
   // the trigger is one signal of one robot; of an interrupt its flag, of a line its byte
   std::string trigger_robot, trigger_name;
   if (!a.trigger.empty()) {
-    const auto equals = a.trigger.rfind('='), colon = a.trigger.find(':');
+    const auto equals = a.trigger.rfind('='), colon = end_of_robot(a.trigger, twin_.world());
     if (equals == std::string::npos || colon == std::string::npos || colon > equals || colon == 0 ||
         a.trigger[0] == '*' || equals + 1 == a.trigger.size()) {
       problems.push_back("command line: --vcd-trigger: got '" + a.trigger + "', expected ROBOT:SIGNAL=VALUE");

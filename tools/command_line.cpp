@@ -34,6 +34,17 @@ CLI::Validator named() {
       "");
 }
 
+CLI::Validator folder() {
+  return CLI::Validator(
+      [](std::string& text) {
+        std::error_code none;
+        return std::filesystem::is_directory(text, none)
+                   ? std::string()
+                   : fmt::format("got '{}', expected a folder that is there", text);
+      },
+      "");
+}
+
 CLI::Validator seed_range() {
   return CLI::Validator(
       [](std::string& text) {

@@ -20,6 +20,8 @@ std::string world_here(const char* missing);
 
 /// Of options that name a file to be written: not an empty one.
 CLI::Validator named();
+/// A folder that is there.
+CLI::Validator folder();
 inline constexpr std::uint64_t kMostSeed = UINT64_MAX;
 /// A world's seed, exactly.
 CLI::Validator seed_range();

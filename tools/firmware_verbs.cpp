@@ -228,14 +228,11 @@ int check(const std::vector<std::string>& names) {
   return exit_code;
 }
 
-}  // namespace
-
-namespace {
-
 /// What a compiler is told besides the program.
 void add_language(CLI::App& verb, cc::BuildOptions& o) {
   one_each(verb.add_option("-D", o.defines, "NAME or NAME=value for the preprocessor"));
-  one_each(verb.add_option("-I", o.include_dirs, "folder that is searched for headers first"));
+  one_each(
+      verb.add_option("-I", o.include_dirs, "folder that is searched for headers first")->check(folder()));
   verb.add_option("--std", o.standard, "standard of C, such as gnu99; default: the project's, or XC16's")
       ->check(
           CLI::IsMember({"c89", "c90", "c99", "c11", "c17", "gnu89", "gnu90", "gnu99", "gnu11", "gnu17"}));
