@@ -249,7 +249,8 @@ std::unique_ptr<WebServer> WebServer::open(int port, const std::string& page_fol
 
 WebServer::~WebServer() {
   if (!context_) return;
-  // the library looks every two seconds whether it should end, and whenever somebody comes
+  // the library looks every two seconds whether it should end, and whenever somebody comes, writes or goes
+  for (const auto& [file, port] : connections_to(port_)) ::shutdown(file, SHUT_RD);
   std::thread visitor([port = port_] {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     char error[80];
