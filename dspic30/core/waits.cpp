@@ -77,7 +77,8 @@ void Waits::begin_here(Cpu& cpu) {
   if (const KnownWaits::Wait* known = cpu.known_waits.find(cpu)) return enter(cpu, known);
   if (const Count* known = cpu.known_counts.at(cpu.next); known && known->is_plain(cpu)) {
     const Cycle rounds = known->rounds_from(cpu);
-    if (rounds >= kFewestRounds) return enter_count(cpu, known, rounds);
+    if (rounds >= kFewestRounds || (rounds > 1 && is_rest(cpu, known->round())))
+      return enter_count(cpu, known, rounds);
     if (is_passed(cpu, *known, rounds)) return;
     if (known->is_over(cpu) && is_passed(cpu, known->round(), look_began_)) return;
   }
@@ -347,6 +348,11 @@ bool Waits::goes_on(const Cpu& cpu, const KnownWaits::Wait& wait) const {
   return before && before->memory.are_as_read(cpu.ram.data());
 }
 
+/// Is it the rest of one that an interrupt came into?
+bool Waits::is_rest(const Cpu& cpu, const KnownWaits::Wait& wait) const {
+  return look_began_own_ - cut_of(cpu).resumed <= wait.took && goes_on(cpu, wait);
+}
+
 void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   state_ = State::Waiting;
   forget_probe(wait);
@@ -359,7 +365,7 @@ void Waits::enter(Cpu& cpu, const KnownWaits::Wait* wait) {
   // ... and so were, behind an interrupt, the rest of the one that it came into and those that this look has seen
   delayed_ = round_delayed_;
   Cut& cut = cut_of(cpu);
-  if (look_began_own_ - cut.resumed <= wait->took && goes_on(cpu, *wait)) {
+  if (is_rest(cpu, *wait)) {
     waited_ += cut.between;
     entered_ = cut.resumed;
     entered_at_ = cut.resumed_at;

@@ -167,6 +167,7 @@ class Waits {
   void pass(Cpu& cpu, const KnownWaits::Wait& wait, Cycle look_in);
   void fail(Cpu& cpu);
   bool goes_on(const Cpu& cpu, const KnownWaits::Wait& wait) const;
+  bool is_rest(const Cpu& cpu, const KnownWaits::Wait& wait) const;
   void enter(Cpu& cpu, const KnownWaits::Wait* wait);
   void enter_count(Cpu& cpu, const Count* count, Cycle rounds);
   /// By the program's clock.

@@ -322,6 +322,9 @@ const Injected kInjected[] = {
      "for (odd = 0; odd < 100; odd++); } int main(void){ start(); e_init_ad_scan(1); PR1=2107; "
      "IPC0bits.T1IP=4; IEC0bits.T1IE=1; "
      "T1CONbits.TON=1; e_set_speed_left(300); while (1) seen[8]++; }"},
+    {"short_delays_beside_the_scan",
+     "int main(void){ int i; e_init_port(); e_init_ad_scan(0); while(1) { for(i=0;i<250;i++) __asm__ "
+     "volatile(\"nop\"); seen[8]++; } }"},
     {"scan_begins_beside_a_long_handler",
      "void __attribute__((interrupt,no_auto_psv)) _T1Interrupt(void){ IFS0bits.T1IF=0; spend(150); } int "
      "main(void){ start(); PR1=9000; IPC0bits.T1IP=6; IEC0bits.T1IE=1; T1CONbits.TON=1; seen[0]=1; "
