@@ -182,6 +182,10 @@ Pose Robot::pose() const {
 }
 
 void Robot::place(const Pose& pose) {
+  constexpr double kFarthest = 1000;  // m, as inputs have it
+  for (const double number : {pose.x_m, pose.y_m, pose.heading_rad})
+    if (!(std::abs(number) <= kFarthest))
+      refuse("robot '" + name() + "': place: got " + std::to_string(number) + ", expected -1000 to 1000");
   opened_->twin->simulation().move(index_, {pose.x_m, pose.y_m, pose.heading_rad});
 }
 

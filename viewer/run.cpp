@@ -64,7 +64,7 @@ void Run::begin(std::function<void(const std::string&)> say, std::function<bool(
 }
 
 void Run::record(const std::string& file, const inputs::Opening& opening) {
-  recorder_ = std::make_unique<inputs::Recorder>(file, opening, *twin_);
+  recorder_ = std::make_unique<inputs::Recorder>(file, opening, inputs::images_of(*twin_), "--record-inputs");
 }
 
 const std::string& Run::recording_error() const {

@@ -46,13 +46,17 @@ std::string hash_of(const std::string& file) {
 Json to_json(const Opening& o) {
   Json firmware = Json::array();
   for (const auto& choice : o.options.firmware) firmware.push_back({choice.robot, choice.value});
+  // coverage is counted in programs of -O0
+  const std::string level =
+      !o.options.coverage.empty() && o.options.optimisation.empty() ? "-O0" : o.options.optimisation;
   return {{"twinpuck_inputs", 1},
           {"file", o.file},
           {"text", o.text},
           {"seed", o.seed},
           {"firmware", firmware},
           {"hal", o.options.hal},
-          {"opt", o.options.optimisation},
+          {"opt", level},
+          {"sanitize", o.options.sanitize},
           {"supervisors", o.supervisors}};
 }
 
@@ -63,32 +67,44 @@ Json with_images(Json line, const std::vector<Opening::Image>& images) {
 }
 }  // namespace
 
-Recorder::Recorder(const std::string& path, const Opening& opening, const twin::Twin& twin)
-    : path_(path), file_(path, "--record-inputs") {
-  std::vector<Opening::Image> images;
+RunImages images_of(const twin::Twin& twin) {
+  RunImages run;
+  std::map<std::string, std::string> hashes;  // by file
   for (int r = 0; r < twin.robots(); ++r) {
-    if (twin.image_path(r).empty()) continue;
+    const std::string file = twin.image_path(r);
+    if (file.empty()) continue;
+    const auto [known, is_new] = hashes.try_emplace(file);
+    if (is_new) {
+      std::string bytes;
+      if (const std::string wrong = sim::read_input_file(file, kLargestImage, bytes); !wrong.empty())
+        run.error = file + ": " + wrong;
+      known->second = cc::content_hash(bytes);
+      run.bytes.try_emplace(known->second, std::move(bytes));
+    }
     const sim::RobotDesc& robot = twin.world().robots[static_cast<std::size_t>(r)];
-    std::string hash;
-    const std::string kept = keep(twin.image_path(r), hash);
-    images.push_back({robot.name, robot.firmware, kept, hash});
+    run.images.push_back({robot.name, robot.firmware, file, known->second});
   }
+  return run;
+}
+
+Recorder::Recorder(const std::string& path, const Opening& opening, const RunImages& run,
+                   const std::string& option)
+    : path_(path), option_(option), file_(path, option) {
+  if (!run.error.empty()) file_.fail(run.error);
+  std::vector<Opening::Image> images = run.images;
+  for (Opening::Image& image : images) image.file = keep(run.bytes.at(image.hash), image.hash);
   file_.append(with_images(to_json(opening), images).dump() + "\n");
 }
 
 /// A copy of an image under the name of its content; the name as it is written down.
-std::string Recorder::keep(const std::string& image, std::string& hash) {
+std::string Recorder::keep(const std::string& bytes, const std::string& hash) {
   const std::string folder = fs::path(path_).filename().string() + ".images";
-  std::string bytes;
-  if (const std::string wrong = sim::read_input_file(image, kLargestImage, bytes); !wrong.empty())
-    file_.fail(image + ": " + wrong);
-  hash = cc::content_hash(bytes);
   std::string name = folder + "/" + hash + ".elf";
   const std::string kept = beside(path_, name);
   std::error_code error;
   if (fs::exists(kept, error)) return name;
   fs::create_directories(beside(path_, folder), error);
-  sim::OutputFile copy(kept, "--record-inputs");
+  sim::OutputFile copy(kept, option_);
   copy.append(bytes);
   copy.close();
   if (!copy.error().empty()) file_.fail(copy.error());
@@ -97,21 +113,19 @@ std::string Recorder::keep(const std::string& image, std::string& hash) {
 
 void Recorder::note(sim::Clicks at, const Json& input) {
   Json noted = input;
-  std::string hash;
-  if (input.at("do") == "program") noted["image"] = keep(input.at("image").get<std::string>(), hash);
+  if (input.at("do") == "program") {
+    const std::string image = input.at("image").get<std::string>();
+    std::string bytes;
+    if (const std::string wrong = sim::read_input_file(image, kLargestImage, bytes); !wrong.empty())
+      file_.fail(image + ": " + wrong);
+    noted["image"] = keep(bytes, cc::content_hash(bytes));
+  }
   file_.append(line_of(at, noted));
 }
 
 void Recorder::end(sim::Clicks at, std::uint64_t digest) {
   note(at, {{"do", "end"}, {"digest", hex(digest)}});
   file_.close();
-}
-
-std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
-                           std::uint64_t digest) {
-  std::string text = to_json(opening).dump() + "\n";
-  for (const Json& input : inputs) text += line_of(input.at("at").get<sim::Clicks>(), input);
-  return text + line_of(end, {{"do", "end"}, {"digest", hex(digest)}});
 }
 
 std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::string>& problems) {
@@ -145,6 +159,7 @@ std::unique_ptr<Replay> Replay::open(const std::string& path, std::vector<std::s
           throw std::runtime_error("way: got native, which is gone, expected chip; record the inputs anew");
         if (way == "chip" && o.options.hal.empty()) o.options.hal = "dspic";
         o.options.optimisation = line.at("opt").get<std::string>();
+        o.options.sanitize = line.value("sanitize", false);
         o.supervisors = line.at("supervisors").get<std::vector<std::string>>();
         for (const Json& choice : line.at("firmware"))
           o.options.firmware.push_back({choice.at(0).get<std::string>(), choice.at(1).get<std::string>()});
@@ -179,6 +194,7 @@ void Replay::resume(twin::Options& options) const {
   options.hal = opening.options.hal;
   options.optimisation = opening.options.optimisation;
   options.firmware = opening.options.firmware;
+  options.sanitize |= opening.options.sanitize;
   std::map<std::string, bool> is_same;  // by image that was kept
   const std::string folder = fs::path(opening.file).parent_path().string();
   for (const Opening::Image& image : opening.images) {

@@ -7,6 +7,7 @@
 //
 // The programs that ran are kept beside the file, FILE.images/HASH.elf: sources may be others by then.
 #pragma once
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -32,24 +33,28 @@ struct Opening {
 };
 Json to_json(const Opening& opening);
 
-/// A whole recording of a run up to `end`; each input with its tick, "at".
-std::string recording_text(const Opening& opening, const std::vector<Json>& inputs, sim::Clicks end,
-                           std::uint64_t digest);
+/// What robots run, as it is now.
+struct RunImages {
+  std::vector<Opening::Image> images;        ///< `file`: where it lies
+  std::map<std::string, std::string> bytes;  ///< by hash
+  std::string error;                         ///< "FILE: what is wrong"; empty: all could be read
+};
+RunImages images_of(const twin::Twin& twin);
 
 /// Writes inputs down as they happen.
 class Recorder {
  public:
-  /// `twin`: as it was opened; the images that its robots run are kept.
-  Recorder(const std::string& path, const Opening& opening, const twin::Twin& twin);
+  /// `run`: as it was opened; its images are kept. `option`: what the file was asked for with.
+  Recorder(const std::string& path, const Opening& opening, const RunImages& run, const std::string& option);
   void note(sim::Clicks at, const Json& input);
   /// The run is over.
   void end(sim::Clicks at, std::uint64_t digest);
   const std::string& error() const { return file_.error(); }
 
  private:
-  std::string keep(const std::string& image, std::string& hash);
+  std::string keep(const std::string& bytes, const std::string& hash);
 
-  std::string path_;
+  std::string path_, option_;
   sim::OutputFile file_;
 };
 

@@ -52,6 +52,7 @@ bool World::begin(std::vector<std::string>& problems) {
       return false;
     }
   ways_ = std::make_unique<sim::Trajectories>(twin().robots());
+  images_ = inputs::images_of(twin());
   listen();
   run_->team().before_first_tick();
   sample();
@@ -185,10 +186,13 @@ void World::apply(const inputs::Json& input) {
     ways_->lift_pen(twin().find(input.at("robot").get<std::string>()));
 }
 
-std::string World::recording() const {
+std::string World::save_recording(const std::string& file) const {
   inputs::Opening opening{opening_.file,    opening_.text,        *opening_.seed,
                           opening_.options, opening_.supervisors, {}};
-  return inputs::recording_text(opening, touches_, simulation().now(), simulation().digest());
+  inputs::Recorder recorder(file, opening, images_, "save_replay");
+  for (const inputs::Json& touch : touches_) recorder.note(touch.at("at").get<sim::Clicks>(), touch);
+  recorder.end(simulation().now(), simulation().digest());
+  return recorder.error();
 }
 
 // --- asking

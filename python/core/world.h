@@ -92,8 +92,8 @@ class World {
   // --- touching
   /// An input of docs/connecting.md; throws as inputs::Inputs does.
   void apply(const inputs::Json& input);
-  /// The run so far, for `twinpuck run --replay`.
-  std::string recording() const;
+  /// The run so far, for `twinpuck run --replay`, with its images beside it. Empty, or what was lost.
+  std::string save_recording(const std::string& file) const;
 
   faults::Injector& faults() { return run_->inputs().faults(); }
 
@@ -128,6 +128,7 @@ class World {
   sim::Clicks next_look() const;
 
   Opening opening_;
+  inputs::RunImages images_;  // as the run began: a later build takes an image's place
   std::vector<std::string> notices_;
   std::map<int, std::vector<std::string>> consoles_;
   std::vector<std::array<std::string, 2>> heard_;  // UARTs keep pointers to them

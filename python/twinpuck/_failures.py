@@ -34,23 +34,29 @@ def clear(folder: pathlib.Path, nodeid: str) -> None:
     name = name_of(nodeid)
     for recording in folder.glob(f"{glob.escape(name)}*/{RECORDING}"):
         if re.fullmatch(re.escape(name) + r"(~\d+)?", recording.parent.name) and not recording.parent.is_symlink():
-            for file in (recording, recording.with_name(PICTURE)):
+            images = recording.with_name(f"{RECORDING}.images")
+            for file in (recording, recording.with_name(PICTURE), *images.glob("*.elf")):
                 file.unlink(missing_ok=True)
+            if images.is_dir() and not any(images.iterdir()):
+                images.rmdir()
             if not any(recording.parent.iterdir()):
                 recording.parent.rmdir()
 
 
 def show(world: World, folder: pathlib.Path) -> tuple[str, dict[str, typing.Any]]:
     """What is known of a run, as text; and the files that it leaves in `folder`, with the command that shows it again."""
-    folder.mkdir(parents=True, exist_ok=True)
-    picture, recording = folder / PICTURE, folder / RECORDING
-    world.picture(picture)
-    world.save_replay(recording)
     lines = [f"at {world.time_s:.3f} s, seed {world.seed}"]
     for robot in world.robots[:8]:
         lines += told(robot)
     if len(world.robots) > 8:
         lines.append(f"... and {len(world.robots) - 8} robots more")
+    picture, recording = folder / PICTURE, folder / RECORDING
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        world.picture(picture)
+        world.save_replay(recording)
+    except (OSError, RuntimeError) as wrong:
+        return "\n".join(lines + [f"no picture and no recording: {wrong}"]), {}
     again = f"twinpuck view --replay {shlex.quote(nearby(recording))}"
     lines += [f"picture: {nearby(picture)}", f"again:   {again}"]
     return "\n".join(lines), {"picture": picture, "recording": recording, "again": again}

@@ -35,7 +35,7 @@ _CODES = ("Exit codes: 0 everybody was graded, 2 bad input, 6 somebody was not: 
 
 @dataclasses.dataclass
 class Case:
-    """A test's outcome for one submission. outcome: "passed", "failed", "skipped"; text: why, first line first; has_no_world:
+    """A test's outcome for one submission. outcome: "passed", "failed", "skipped", "not run"; text: why, first line first; has_no_world:
     it failed because none could be opened."""
 
     name: str
@@ -66,8 +66,10 @@ class Grade:
         return sum(case.outcome == "passed" for case in runs) / len(runs) if runs else 0.0
 
     def told(self, test: str) -> str:
-        """Its cell in a table: "pass", "FAIL", "70 %"; "skip", where each of its runs was skipped."""
+        """Its cell in a table: "pass", "FAIL", "70 %"; "skip", where each of its runs was skipped; "-": it was not run."""
         outcomes = {case.outcome for case in self.cases if base_name(case.name) == test}
+        if outcomes <= {"not run"} and self.problem:
+            return "-"
         share = self.share(test)
         return "skip" if outcomes == {"skipped"} else "pass" if share == 1 else "FAIL" if share == 0 else f"{100 * share:.0f} %"
 
@@ -101,6 +103,7 @@ def run_tests(arguments: list[str]) -> int:
     import pytest
 
     cases: list[Case] = []
+    points_of: dict[str, float] = {}  # of all tests, by name
 
     class Collector:
         def pytest_itemcollected(self, item: pytest.Item) -> None:
@@ -108,11 +111,16 @@ def run_tests(arguments: list[str]) -> int:
             points = float(marker.args[0]) if marker and marker.args else 1.0
             item.user_properties.append(("twinpuck_points", points))
 
+        def pytest_collection_finish(self, session: pytest.Session) -> None:
+            for item in session.items:
+                points_of[item.nodeid] = dict(item.user_properties).get("twinpuck_points", 1.0)
+
         def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
             points = next((value for key, value in report.user_properties if key == "twinpuck_points"), 1.0)
             if report.when == "call" or report.outcome != "passed":
                 cases.append(Case(report.nodeid, points, report.outcome, reason(report), report.duration,
                                   said(report).startswith("twinpuck.WorldError: ")))
+                write()  # a later test may have no end
 
         def pytest_collectreport(self, report: pytest.CollectReport) -> None:
             if report.failed:
@@ -127,10 +135,18 @@ def run_tests(arguments: list[str]) -> int:
         shown = [content for name, content in report.sections if name.startswith("world ")]
         return "\n".join([first, *shown]) if report.outcome == "failed" else ""
 
+    def write() -> None:
+        whole = pathlib.Path(arguments[0])
+        half = whole.with_name(whole.name + ".half")
+        begun = {case.name for case in cases}
+        rest = [Case(name, points, "not run") for name, points in points_of.items() if name not in begun]
+        half.write_text(json.dumps([dataclasses.asdict(case) for case in cases + rest]), encoding="utf-8")
+        half.replace(whole)
+
     os.environ["TWINPUCK_TEST"] = "1"
     code = pytest.main(["-p", "twinpuck.pytest_plugin", "-p", "no:cacheprovider", "-q", "-q", *arguments[1:]],
                        plugins=[Collector()])
-    pathlib.Path(arguments[0]).write_text(json.dumps([dataclasses.asdict(case) for case in cases]), encoding="utf-8")
+    write()
     return int(code)
 
 
@@ -235,11 +251,11 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
     log = work / "log.txt"
     code = wait_for(words, environment, log, options.limit_s)
     result.cases = cases_of(work / "result.json")
-    if _is_ending.is_set() and not result.cases:
+    if _is_ending.is_set() and (code is None or not result.cases):
         result.problem = _INTERRUPTED
-    elif code is None and not _is_ending.is_set():
+    elif code is None:
         result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
-    elif code is not None and (code not in _TOLD or not result.cases):
+    elif code not in _TOLD or not result.cases:
         result.problem, result.is_broken = broken(code, result.cases, log), True
     result.problem = result.problem or result.told_by_all()
     return result
@@ -343,8 +359,8 @@ def write_junit(path: str, grades: list[Grade]) -> None:
             if case.outcome == "failed":
                 failure = ElementTree.SubElement(element, "failure", message=printable(case.text.split("\n")[0]))
                 failure.text = printable(case.text)
-            elif case.outcome == "skipped":
-                ElementTree.SubElement(element, "skipped")
+            elif case.outcome != "passed":
+                ElementTree.SubElement(element, "skipped", {"message": "not run"} if case.outcome == "not run" else {})
         if g.problem:
             element = ElementTree.SubElement(suite, "testcase", classname=printable(g.name), name="graded")
             ElementTree.SubElement(element, "error", message=printable(g.problem))

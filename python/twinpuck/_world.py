@@ -323,8 +323,9 @@ class World:
     def step(self, ticks: int = 1) -> None:
         """Runs for so many ticks."""
         __tracebackhide__ = True
-        if ticks < 0:
-            raise ValueError(f"step: ticks: got {ticks}, expected 0 or more")
+        most = int(1e8 / self.tick_s)
+        if not 0 <= ticks <= most:
+            raise ValueError(f"step: ticks: got {ticks}, expected 0 to {most}")
         for _ in range(ticks):
             self._run(self.tick_s / 2, None)
 
@@ -339,14 +340,17 @@ class World:
                     call(self)
                 return condition is not None and bool(condition())
         core = self._core
+        begun_s = self.time_s
         end = core.now + round(seconds * _core.CLICKS_PER_SECOND)
         why = core.run(end, each_tick, self.traps == "raise")
         if why == "trap":
-            raise FirmwareFault(self._newest_trap())
+            raise FirmwareFault(self._first_trap(begun_s))
         return why == "asked"
 
-    def _newest_trap(self) -> Trap:
-        return max((trap for robot in self.robots for trap in robot.traps), key=lambda trap: trap.time_s)
+    def _first_trap(self, from_s: float) -> Trap:
+        """The first one since then: others may have come of it. One that comes again has its first time."""
+        traps = sorted((trap for robot in self.robots for trap in robot.traps), key=lambda trap: trap.time_s)
+        return next((trap for trap in traps if trap.time_s >= from_s), traps[-1])
 
     def on_tick(self, call: collections.abc.Callable[[World], object]) -> collections.abc.Callable[[World], object]:
         """`call(world)` is called after each tick from now on; it may look and touch, not run. Works as a decorator."""
@@ -362,7 +366,8 @@ class World:
     def reset(self, seed: int | None = None) -> None:
         """Begins anew at time 0, as if it had just been opened: programs are built if their sources changed.
 
-        seed: another one than before. Robots of this world stay valid; callables of on_tick() stay.
+        seed: another one than before. Robots of this world stay valid; callables of on_tick() stay. Raises WorldError
+        when it cannot be opened; then it is closed, until another reset().
         """
         if seed is not None:
             _check_seed(seed)
@@ -532,8 +537,10 @@ class World:
 
     def save_replay(self, file: str | os.PathLike[str]) -> None:
         """Writes how the world was opened and every touch with its tick: `twinpuck run --replay FILE`, with any outputs,
-        does the run so far again and compares its digest."""
-        pathlib.Path(file).write_bytes(self._core.recording())
+        does the run so far again and compares its digest. The programs that ran lie in FILE.images, for their sources may
+        be others by then. Raises OSError when it cannot be written."""
+        if wrong := self._core.save_recording(os.fsencode(file)):
+            raise OSError(wrong)
 
     def __repr__(self) -> str:
         if self._core is None:

@@ -15,6 +15,7 @@ import itertools
 import os
 import pathlib
 import re
+import traceback
 import typing
 
 import pytest
@@ -375,10 +376,12 @@ def pytest_sessionfinish(session: pytest.Session) -> collections.abc.Iterator[No
     junit = getattr(session.config.option, "xmlpath", None)
     try:
         outcome.get_result()
-    except OSError as wrong:
-        if not junit:
+    except OSError as wrong:  # of a full disk, which names no file: JUnit's, or pytest's own notes for --lf and --ff
+        frames = traceback.extract_tb(wrong.__traceback__)
+        is_cache = any(pathlib.Path(frame.filename).name == "cacheprovider.py" for frame in frames)
+        if not junit and not is_cache:
             raise
-        lost.append(_outputs.lost(f"{junit}: --junitxml", wrong))
+        lost.append(_outputs.lost(".pytest_cache: cache_dir" if is_cache else f"{junit}: --junitxml", wrong))
         outcome.force_result(None)
     if hasattr(session.config, "workeroutput"):
         session.config.workeroutput["twinpuck_lost"] = lost

@@ -135,6 +135,21 @@ def test_a_failure_shows_what_it_can_and_leaves_a_run_to_look_at(mine, command):
     assert json.loads((folder / "s.json").read_text())["simulated_s"] == 0.5
 
 
+def test_a_failure_is_told_where_nothing_can_be_written(mine, command):
+    folder = mine("def test_dark(world, robot):\n    world.run(0.25)\n    assert not robot.leds[0]\n")
+    done = command("test", "--failures", "/proc/nowhere", cwd=folder)
+    assert done.returncode == 1 and "last lines of uart1:" in done.stdout
+    assert "\nno picture and no recording: " in done.stdout and "again:" not in done.stdout
+
+
+def test_pytests_own_notes_that_are_lost_are_told(mine, command):
+    folder = mine("def test_bad():\n    assert 0\n", conftest__py="import _pytest.cacheprovider\ndef full(*what):\n"
+                  "    raise OSError(28, 'No space left on device')\n_pytest.cacheprovider.Cache.set = full\n")
+    done = command("test", cwd=folder)
+    assert done.returncode == 7 and "Traceback" not in done.stdout + done.stderr
+    assert ".pytest_cache: cache_dir: cannot be written: No space left on device" in done.stdout
+
+
 def test_plain_pytest_has_long_options_and_takes_no_short_ones_away(mine):
     folder = mine("def test_a(world, hal):\n    assert hal == 'mine' and world.seed == 3\n",
                   conftest__py="import pytest\ndef pytest_addoption(parser):\n    parser.addoption('--hal')\n"
@@ -257,7 +272,7 @@ def test_only_what_its_failure_left_is_removed_and_only_when_the_test_runs(mine,
                   **{"kept/run.inputs": "mine", "test_a.py_notes/notes.txt": "mine"})
     left, too = folder / "test_mine.py_test_dark", folder / "test_mine.py_test_dark_too"
     assert command("test", "--failures", ".", cwd=folder).returncode == 1
-    assert {file.name for file in left.iterdir()} == {"picture.png", "run.inputs"}
+    assert {file.name for file in left.iterdir()} == {"picture.png", "run.inputs", "run.inputs.images"}
     assert command("test", "--failures", ".", "--collect-only", cwd=folder).returncode == 0
     assert command("test", "--failures", ".", "-k", "nothing", cwd=folder).returncode == 5
     assert (left / "run.inputs").exists() and (too / "run.inputs").exists()

@@ -314,6 +314,57 @@ def test_every_touch_is_in_the_recording_that_run_repeats(command, tmp_path, pro
     assert command("run", "--replay", tmp_path / "other.inputs", "-q").returncode == 7
 
 
+OUT_OF_BOUNDS = ("#include <p30F6014A.h>\nvolatile int a[4], n;\n"
+                 "int main(void) { TRISA = 0; while (1) { a[n & 7] = n; n++; LATAbits.LATA6 ^= 1; } }")
+
+
+@pytest.mark.parametrize("options", [{"sanitize": True}, {"coverage": "lines.info"}, {"optimise": "-O2"}, {"hal": "dspic"}])
+def test_a_recording_repeats_the_very_run_whatever_becomes_of_the_sources(command, tmp_path, programs, monkeypatch, options):
+    monkeypatch.chdir(tmp_path)
+    folder = programs(OUT_OF_BOUNDS)
+    (tmp_path / "w.toml").write_text('twinpuck = 1\n[arena]\nsize = [1, 1]\n[[robot]]\nname = "puck"\nposition = [0, 0]\n')
+    with twinpuck.World("w.toml", firmware=folder, traps="report", **options) as world:
+        world.run(0.1)
+        world.save_replay("run.inputs")
+        traps = [trap.kind for trap in world.robots[0].traps]
+    for source in folder.glob("*.c"):
+        source.write_text(OUT_OF_BOUNDS.replace("n++", "n += 3"))
+    done = command("run", "--replay", "run.inputs", "-q", "--summary", "s.json", cwd=tmp_path)
+    assert done.returncode == (3 if traps else 0), done.stderr
+    assert json.loads((tmp_path / "s.json").read_text())["robots"][0]["traps"] != [] or not traps
+    assert bool(traps) == ("sanitize" in options)
+
+
+def test_a_fault_is_the_first_one(opened):
+    world = opened(OUT_OF_BOUNDS, sanitize=True)
+    with pytest.raises(twinpuck.FirmwareFault) as fault:
+        world.run(0.5)
+    times = [trap.time_s for trap in world.robots[0].traps]
+    assert len(times) > 1 and f"{fault.value}" == f"{world.robots[0].traps[times.index(min(times))]}"
+
+
+def test_a_world_that_cannot_be_reset_is_reset_later(tmp_path, programs):
+    folder = programs(IDLE)
+    source = next(folder.glob("*.c"))
+    world = twinpuck.World({"arena": {"size": [1, 1]}, "robot": [{"name": "puck", "firmware": str(folder), "position": [0, 0]}]})
+    world.run(0.1)
+    source.write_text("int main(void) { nonsense }")
+    for _ in range(2):
+        with pytest.raises(twinpuck.WorldError, match="nonsense"):
+            world.reset()
+    source.write_text(IDLE)
+    world.reset()
+    world.run(0.1)
+    assert world.time_s == pytest.approx(0.1, abs=0.01)
+    world.close()
+
+
+@pytest.mark.parametrize("ticks", [-1, 10**30])
+def test_steps_have_bounds(opened, ticks):
+    with pytest.raises(ValueError, match="step: ticks: got"):
+        opened(IDLE).step(ticks)
+
+
 @pytest.mark.parametrize("touch", [
     lambda w: w.robots[0].uart1.send("\u0100"), lambda w: setattr(w.robots[0], "selector", 16),
     lambda w: setattr(w.robots[0], "battery_v", 12), lambda w: w.robots[0].move(float("nan"), 0),
