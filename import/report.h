@@ -7,13 +7,19 @@
 
 #include "import/import_params.h"
 #include "import/wbt_node.h"
+#include "sim_core/base/utf8.h"
 
 namespace wbt {
 
-/// Text from a file, fit for a message: no control characters, not endless.
+/// Text from a file, fit for a message: characters of UTF-8, no control characters, not endless (bytes).
 inline std::string printable(const std::string& text, std::size_t longest = 60) {
   std::string out;
-  for (const char c : text.substr(0, longest)) out += c >= ' ' && c < 127 ? c : '?';
+  for (std::size_t at = 0; at < std::min(text.size(), longest);) {
+    const std::size_t length = sim::utf8_length(text, at);
+    const bool is_shown = length > 1 || (length == 1 && text[at] >= ' ' && text[at] < 127);
+    out += is_shown ? text.substr(at, length) : "?";
+    at += std::max<std::size_t>(length, 1);
+  }
   return out;
 }
 

@@ -179,7 +179,7 @@ class Settler {
   void image(const FoundArena& a) {
     sim::FloorDesc read;
     const std::string name = relative_name(a.image, options_);
-    const std::string wrong = printable(name, 10000) != name ? "not a name of ASCII characters"
+    const std::string wrong = printable(name, 10000) != name ? "not a name of printable characters"
                                                              : sim::read_floor_image(a.image, read);
     if (wrong.empty())
       out_.world.floor.image = name;

@@ -36,9 +36,9 @@ std::string colour(const sim::Colour& c) {
 
 std::string quoted(const std::string& text) {
   std::string out = "\"";
-  for (const char c : text) {
+  for (const char c : printable(text, text.size())) {
     if (c == '"' || c == '\\') out += '\\';
-    out += c >= ' ' && c < 127 ? c : '?';
+    out += c;
   }
   return out + "\"";
 }

@@ -119,11 +119,12 @@ std::array<double, 2> Camera::scale() const {
   // the PO6030K shows upright pictures with both mirrors on, the others with both off
   double sign = sensor_.kind() == CameraKind::Po6030k ? -1 : 1;
   if (mount_ != CameraMount::Upright) sign = -sign;
-  return {(taken_.mirror_columns ? -sign : sign) / kFocalPx, (taken_.mirror_lines ? -sign : sign) / kFocalPx};
+  return {(taken_.mirror_columns ? -sign : sign) / focal_px_,
+          (taken_.mirror_lines ? -sign : sign) / focal_px_};
 }
 
 std::array<double, 4> Camera::widest_edges() const {
-  double right = kArrayWidth / (2 * kFocalPx), up = kArrayHeight / (2 * kFocalPx);
+  double right = kArrayWidth / (2 * focal_px_), up = kArrayHeight / (2 * focal_px_);
   if (mount_ == CameraMount::Sideways) std::swap(right, up);
   return {-right, right, -up, up};
 }

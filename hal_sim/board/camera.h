@@ -19,6 +19,7 @@
 #include <functional>
 #include <vector>
 
+#include "hal_sim/board/camera_params.h"
 #include "hal_sim/board/camera_sensor.h"
 #include "hal_sim/board/first_use.h"
 #include "sim_core/camera/camera.h"
@@ -71,6 +72,8 @@ class Camera {
     int first_column = 0, last_column = 0, columns = 0;
     int first_row = 0, last_row = 0, rows = 0;
   };
+  /// Another lens: its focal length in pixels of the array.
+  void set_focal_px(double focal_px) { focal_px_ = focal_px; }
   /// Somebody waits for a frame. Returns the cycle of the next VSYNC.
   Cycle await_frame(Cycle at);
   /// As the sensor is set at `at`.
@@ -131,6 +134,7 @@ class Camera {
   const Specimen& robot_;
   CameraSensor& sensor_;
   CameraMount mount_;
+  double focal_px_ = kFocalPx;
   double noise_;
 
   SensorSetup now_;  // registers as last looked at

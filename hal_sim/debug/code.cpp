@@ -178,13 +178,38 @@ std::vector<int> Code::vectors_of(std::uint32_t address) const {
   return vectors;
 }
 
-std::optional<int> Code::stack_depth(std::uint32_t pc) {
+const Code::Depth* Code::stack_at(std::uint32_t pc) {
   const auto* function = file_.code.function_at(pc);
-  if (!function) return {};
+  if (!function) return nullptr;
   if (!depths_.count(function->begin)) follow(*function);
   const auto& depths = depths_[function->begin];
   const auto found = depths.find(pc);
-  return found == depths.end() ? std::nullopt : std::optional(found->second.bytes);
+  return found == depths.end() ? nullptr : &found->second;
+}
+
+/// Is it a push of registers, before this one's instruction moves the stack?
+void Code::note_push(const Instruction& i, Depth& depth) {
+  const dspic::Fields& f = i.fields;
+  const auto note = [&](unsigned n, int at) {
+    if (n < depth.saved.size() && depth.saved[n] < 0) depth.saved[n] = static_cast<std::int16_t>(at);
+  };
+  constexpr unsigned kAfter = 3;  // of a pointer: [Wn++]
+  switch (i.row->id) {
+    case Insn::Lnk_lit14:
+      return note(kW14, depth.bytes);
+    case Insn::Push_S:
+      depth.shadows = true;
+      return;
+    case Insn::Mov_Wso_Wdo:
+      if (f.d == kW15 && f.h == kAfter && f.g == 0 && !f.B) note(static_cast<unsigned>(f.s), depth.bytes);
+      return;
+    case Insn::Mov_D_Wns_Wd:
+      if (f.d != kW15 || f.q != kAfter) return;
+      note(static_cast<unsigned>(f.s), depth.bytes);
+      return note(static_cast<unsigned>(f.s) + 1, depth.bytes + 2);
+    default:
+      return;
+  }
 }
 
 void Code::follow(const dspic::CodeMap::Function& function) {
@@ -198,6 +223,7 @@ void Code::follow(const dspic::CodeMap::Function& function) {
     const auto i = at(address);
     if (!i) continue;
     const dspic::Fields& f = i->fields;
+    note_push(*i, depth);
     if (i->row->id == Insn::Lnk_lit14) {
       depth.frame = depth.bytes + 2;
       depth.bytes = depth.frame + 2 * static_cast<int>(f.k);

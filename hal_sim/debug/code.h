@@ -2,6 +2,7 @@
 // Reads a program's instructions: which way they lead, what they do to the stack, which places in data they
 // read and write by address. For back-traces and for telling what a program waits for.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -18,11 +19,16 @@ namespace debug {
 using dspic::Cycle;
 using Address = std::uint64_t;
 
+inline constexpr Address kLost = ~Address{0};
+
 /// One level of calls.
 struct Frame {
   std::uint32_t pc = 0;
   std::uint32_t call = 0;  ///< of the instruction that is under way: pc, or the call before it
   Address base = 0;        ///< grows with each call
+  unsigned sp = 0;         ///< W15 at that instruction
+  /// Where the values of W0 to W14 lie that it has, or goes on with; kLost: nobody has kept it.
+  std::array<Address, 15> registers{};
   const dspic::CodeMap::Function* function = nullptr;
   bool is_handler = false;
 };
@@ -78,15 +84,19 @@ class Code {
   /// program: the linker's handle; 0: it does not.
   std::uint32_t host_function_called(std::uint32_t address) const;
 
-  /// Bytes by which the stack has grown since the function began, found by following every way; none where
-  /// no way leads.
-  std::optional<int> stack_depth(std::uint32_t pc);
+  /// The stack of a function at an instruction, as bytes since the function began.
+  struct Depth {
+    int bytes = 0, frame = 0;  ///< by which it has grown; ... behind LNK's word
+    /// Where the first push of W0 to W14 went: the value that its caller has. -1: none was pushed.
+    std::array<std::int16_t, 15> saved{-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+    bool shadows = false;  ///< PUSH.S has taken W0 to W3
+  };
+  /// Found by following every way; null where no way leads.
+  const Depth* stack_at(std::uint32_t pc);
 
  private:
-  struct Depth {
-    int bytes = 0, frame = 0;  // frame: at LNK
-  };
   void follow(const dspic::CodeMap::Function& function);
+  static void note_push(const Instruction& i, Depth& depth);
 
   const dspic::FirmwareFile& file_;
   std::multimap<std::uint32_t, int> vectors_;
@@ -103,20 +113,36 @@ std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, unsigne
   constexpr unsigned kRamStart = 0x800;
   std::vector<Frame> frames;
   std::uint32_t call = pc;
+  std::array<Address, 15> registers{};
+  for (std::size_t n = 0; n < registers.size(); ++n) registers[n] = 2 * n;  // in data memory
   while (frames.size() < kMostFrames) {
     const auto* function = code.function_at(pc);
     const bool is_by_heart = pc == dspic::kHostHandlerReturn;  // it has called the function before it
+    const auto* const stack = is_by_heart || dspic::is_host_place(pc) ? nullptr : code.stack_at(pc);
     const auto depth = is_by_heart                ? std::optional<int>(static_cast<int>(saved_bytes))
                        : dspic::is_host_place(pc) ? std::optional<int>(0)
-                                                  : code.stack_depth(pc);
-    Frame frame{pc, call, depth ? sp - static_cast<unsigned>(*depth) : 0, function,
-                is_by_heart || (function && code.is_handler(*function))};
+                       : stack                    ? std::optional<int>(stack->bytes)
+                                                  : std::nullopt;
+    Frame frame{pc,        call,     depth ? sp - static_cast<unsigned>(*depth) : 0,         sp,
+                registers, function, is_by_heart || (function && code.is_handler(*function))};
     frames.push_back(frame);
     const auto first = code.at(0);  // what a reset jumps to was called by nobody
     if (!depth || frame.base < kRamStart + 4 ||
         (function && first && first->target && code.file().code.function_at(*first->target) == function))
       break;
     const auto base = static_cast<unsigned>(frame.base);
+    // its caller's registers: what it has saved, or left alone
+    constexpr std::size_t kFirstKept = 8, kFirstShadowed = 0, kLastShadowed = 3;
+    for (std::size_t n = 0; n < registers.size(); ++n) {
+      const bool is_saved = stack && stack->saved[n] >= 0 && stack->saved[n] < stack->bytes;
+      const bool is_lost =
+          frame.is_handler
+              ? is_by_heart ? n < kFirstKept : stack->shadows && n >= kFirstShadowed && n <= kLastShadowed
+              : n < kFirstKept;
+      registers[n] = is_saved  ? base + static_cast<unsigned>(stack->saved[n])
+                     : is_lost ? kLost
+                               : registers[n];
+    }
     const unsigned low = word(base - 4), high = word(base - 2);
     pc = (high & 0x7F) << 16 | (low & 0xFFFE);
     sp = base - 4;

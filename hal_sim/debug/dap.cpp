@@ -14,7 +14,8 @@ namespace {
 using dspic::assembly::trimmed;
 
 constexpr int kThread = 1;  // there is one
-enum Scope { kRegisters = 1, kVariables, kPeripherals };
+// a level of calls has its scopes: the innermost one these, each further out kScopes more
+enum Scope { kRegisters = 1, kVariables, kPeripherals, kScopes };
 
 /// "0x900", or a number alone, of that key, with its offset. False: it is none.
 bool reference_of(const nlohmann::json& arguments, const char* key, std::int64_t& address) {
@@ -144,6 +145,7 @@ void DapServer::answer(const Json& request) {
       !is_id(arguments, "frameId", 0, std::max<std::int64_t>(1, frames) - 1))
     return refuse(request, fmt::format("frameId: got {}, expected 0 to {}, as stackTrace has them",
                                        arguments["frameId"].dump(), std::max<std::int64_t>(1, frames) - 1));
+  if (!select_level(arguments)) return refuse(request, "variablesReference: got none of scopes");
   if (command == "setBreakpoints") return set_breakpoints(request);
   if (command == "setFunctionBreakpoints") return set_function_breakpoints(request);
   if (command == "dataBreakpointInfo") return data_breakpoint_info(request);
@@ -152,12 +154,15 @@ void DapServer::answer(const Json& request) {
   if (command == "threads")
     return respond(request, {{"threads", {{{"id", kThread}, {"name", session_->robot()}}}}});
   if (command == "stackTrace") return stack_trace(request);
-  if (command == "scopes")
+  if (command == "scopes") {
+    const int level = kScopes * arguments.value("frameId", 0);
     return respond(
-        request, {{"scopes",
-                   {{{"name", "Variables"}, {"variablesReference", kVariables}, {"expensive", false}},
-                    {{"name", "Registers"}, {"variablesReference", kRegisters}, {"expensive", false}},
-                    {{"name", "Peripherals"}, {"variablesReference", kPeripherals}, {"expensive", true}}}}});
+        request,
+        {{"scopes",
+          {{{"name", "Variables"}, {"variablesReference", level + kVariables}, {"expensive", false}},
+           {{"name", "Registers"}, {"variablesReference", level + kRegisters}, {"expensive", false}},
+           {{"name", "Peripherals"}, {"variablesReference", level + kPeripherals}, {"expensive", true}}}}});
+  }
   if (command == "variables") return variables(request);
   if (command == "setVariable") return set_variable(request);
   if (command == "setInstructionBreakpoints") return set_instruction_breakpoints(request);
@@ -295,13 +300,27 @@ nlohmann::json DapServer::reference(const CValue& value) const {
   return address ? Json(fmt::format("{:#x}", *address)) : Json();
 }
 
+/// What is asked about a level of calls means its values; of no level: of the innermost one. False: there is none.
+bool DapServer::select_level(const Json& arguments) {
+  constexpr int kMost = 64;
+  const auto reference = arguments.find("variablesReference"), frame = arguments.find("frameId");
+  const bool is_of_scope = reference != arguments.end() && reference->is_number_integer();
+  const std::int64_t level = is_of_scope                ? reference->get<std::int64_t>() / kScopes
+                             : frame != arguments.end() ? frame->get<std::int64_t>()
+                                                        : 0;
+  if (level < 0 || level >= kMost) return false;
+  return runs_ || session_->select_frame(static_cast<std::size_t>(level)) || !is_of_scope;
+}
+
 void DapServer::variables(const Json& request) {
+  const auto* const level = session_->selected();
+  const std::uint32_t pc = level ? level->call : session_->pc();
   Json all = Json::array();
   const auto add = [&](const std::string& name, const std::string& value, const Json& memory = {}) {
     all.push_back({{"name", name}, {"value", value}, {"variablesReference", 0}, {"evaluateName", name}});
     if (!memory.is_null()) all.back()["memoryReference"] = memory;
   };
-  switch (request.at("arguments").at("variablesReference").get<int>()) {
+  switch (request.at("arguments").at("variablesReference").get<int>() % kScopes) {
     case kRegisters:
       for (const auto& [name, value] : session_->machine().register_list()) add(name, value);
       add("pc", fmt::format("{:#08x}", session_->pc()));
@@ -309,9 +328,9 @@ void DapServer::variables(const Json& request) {
       break;
     case kVariables:
       for (const auto& variable : session_->file().debug.value().variables)
-        if (session_->pc() >= variable.begin && session_->pc() < variable.end) {
+        if (pc >= variable.begin && pc < variable.end) {
           CValue value;
-          value.part = Part{{&variable, variable.type}, {}, session_->pc()};
+          value.part = Part{{&variable, variable.type}, {}, pc};
           add(variable.name, session_->values().typed(*value.part), reference(value));
         }
       // Globals that the debug information may not know, such as those of assembler text.
@@ -343,7 +362,7 @@ void DapServer::variables(const Json& request) {
 void DapServer::set_variable(const Json& request) {
   const Json& arguments = request.at("arguments");
   const std::string name = arguments.at("name");
-  const int scope = arguments.at("variablesReference");
+  const int scope = arguments.at("variablesReference").get<int>() % kScopes;
   if (scope != kVariables && scope != kRegisters && scope != kPeripherals)
     return refuse(request, "variablesReference: got none of scopes");
   std::string error;

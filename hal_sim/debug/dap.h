@@ -63,6 +63,7 @@ class DapServer {
   void data_breakpoint_info(const Json& request);
   void stack_trace(const Json& request);
   void variables(const Json& request);
+  bool select_level(const Json& arguments);
   void set_variable(const Json& request);
   void evaluate(const Json& request);
   void set_instruction_breakpoints(const Json& request);

@@ -38,8 +38,8 @@ unsigned Machine::word(Address address) const {
 }
 
 Address Machine::base() {
-  const auto depth = code_.stack_depth(pc());
-  return depth ? runner_.processor().w(kStackPointer) - static_cast<unsigned>(*depth) : 0;
+  const auto* const stack = code_.stack_at(pc());
+  return stack ? runner_.processor().w(kStackPointer) - static_cast<unsigned>(stack->bytes) : 0;
 }
 
 std::vector<Frame> Machine::frames() {

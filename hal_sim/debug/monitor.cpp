@@ -28,6 +28,7 @@ finish                  until this function has returned
 back, rs  backi, rsi    a source line or an instruction back; rc: back to the breakpoint before
 goto 1.5s | CYCLE       forwards or back to a time of the robot, or a cycle; past breakpoints
 where                   place and time; backtrace, bt: the calls that led here
+up [N]  down [N]        to a caller and back, whose variables are meant until the program runs; frame N of bt
 print EXPR, p           variables with members and elements (state.speed[1]), registers of the chip (LATA,
                         LATA.LATA6; w0, sr where there is its processor), pc, cycle, C's operators
 locals                  parameters and variables of this function
@@ -109,6 +110,7 @@ std::string Monitor::execute(const std::string& given) {
   if (word == "set") return assign(rest);
   if (word == "x") return memory(rest);
   if (word == "backtrace" || word == "bt") return backtrace();
+  if (word == "up" || word == "down" || word == "frame") return select(word, rest);
   if (word == "regs") return session_.machine().registers();
   if (word == "locals") return session_.values().locals();
   if (word == "list" || word == "l") return list(rest);
@@ -311,6 +313,27 @@ std::string Monitor::backtrace() {
   return text;
 }
 
+std::string Monitor::select(const std::string& command, const std::string& rest) {
+  const std::vector<Frame> all = session_.frames();
+  std::size_t now = 0;  // the one that was selected
+  if (const Frame* const level = session_.selected())
+    while (now + 1 < all.size() && all[now].base != level->base) ++now;
+  int given = command == "frame" ? static_cast<int>(now) : 1;
+  const bool is_read = rest.empty() || std::from_chars(rest.data(), rest.data() + rest.size(), given).ptr ==
+                                           rest.data() + rest.size();
+  const std::int64_t to = command == "frame" ? given
+                          : command == "up"  ? static_cast<std::int64_t>(now) + given
+                                             : static_cast<std::int64_t>(now) - given;
+  if (!is_read || given < 0 || to < 0 || !session_.select_frame(static_cast<std::size_t>(to)))
+    return fmt::format("{}: got {}, expected a level of backtrace, 0 to {}\n", command,
+                       is_read ? std::to_string(to) : "'" + rest + "'", all.size() - 1);
+  const Frame& f = all[static_cast<std::size_t>(to)];
+  std::string text = fmt::format("#{} {:#08x} {}\n", to, f.call, session_.machine().code().describe(f.call));
+  if (const auto* line = session_.file().code.line_at(f.call))
+    text += source_line(session_.file().code.lines().files[line->file], line->line);
+  return text;
+}
+
 std::string Monitor::source_line(const std::string& file, int line) {
   auto [at, is_new] = sources_.try_emplace(file);
   if (is_new) {
@@ -322,7 +345,8 @@ std::string Monitor::source_line(const std::string& file, int line) {
 }
 
 std::string Monitor::list(const std::string& rest) {
-  const auto* here = session_.file().code.line_at(session_.pc());
+  const Frame* const level = session_.selected();
+  const auto* here = session_.file().code.line_at(level ? level->call : session_.pc());
   if (!here) return "no source line is known here; dis shows instructions\n";
   std::string text, problem;
   const int middle = number_of("list", rest, "a line", here->line, 1'000'000, problem);

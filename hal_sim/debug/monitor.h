@@ -32,6 +32,7 @@ class Monitor {
   std::string assign(const std::string& rest);
   std::string memory(const std::string& rest);
   std::string backtrace();
+  std::string select(const std::string& command, const std::string& rest);
   std::string list(const std::string& rest);
   std::string disassemble(const std::string& rest);
   std::string go(const std::string& rest);

@@ -145,6 +145,7 @@ void Session::run_world() {
 // --- the face's side
 
 Stop Session::resume(const std::function<bool()>& idle) {
+  selected_.reset();
   std::unique_lock<std::mutex> lock(mutex_);
   if (state_ == State::Ended) return stop_;
   pause_ = false;
@@ -424,8 +425,8 @@ bool Session::watch_hit() {
     if (is_new) watched_.push_back(value);
     std::uint64_t& old = watched_[n++];
     if (is_new || old == value) continue;
-    const std::string change = b.what + ": " + std::to_string(old) + " -> " + std::to_string(value) +
-                               ", by " + file().code.describe(last_pc_);
+    const std::string change = b.what + ": " + values().brief(b.shape, old) + " -> " +
+                               values().brief(b.shape, value) + ", by " + file().code.describe(last_pc_);
     old = value;
     if (hit || !holds(b)) continue;
     if (!is_repeating_) ++b.hits;
@@ -525,8 +526,10 @@ void Session::follow_flash() {
     std::string none;
     if (b.data.bytes == 0)
       place(b, b.what, none);
-    else if (const auto data = values().find_data(b.what))
+    else if (const auto data = values().find_data(b.what)) {
       b.data = *data;
+      b.shape = values().shape_of(b.what);
+    }
   }
   set_marks();
   watched_.clear();
@@ -577,6 +580,7 @@ const Breakpoint* Session::add_watchpoint(const std::string& what, const std::st
   std::int64_t value = 0;
   if (const auto data = values().find_data(what)) {
     b.data = *data;
+    b.shape = values().shape_of(what);
     if (data->bytes > 8) {
       error = "got '" + what + "' of " + std::to_string(data->bytes) +
               " bytes, expected at most 8; watch a part of it";
@@ -624,6 +628,14 @@ void Session::set_marks() {
 }
 
 // --- data
+
+bool Session::select_frame(std::size_t number) {
+  const std::vector<Frame> all = frames();
+  if (number >= all.size()) return false;
+  selected_.reset();
+  if (number > 0) selected_ = all[number];
+  return true;
+}
 
 bool Session::assign(const std::string& name, const std::string& expression, std::string& error) {
   Data to;

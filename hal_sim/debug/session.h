@@ -54,6 +54,7 @@ struct Breakpoint {
   std::vector<std::uint32_t> addresses;  ///< empty: a watchpoint
   std::string condition;                 ///< an expression; empty: always
   Data data{0, 0};                       ///< of a watchpoint; no bytes: it is none
+  std::optional<Values::Shape> shape;    ///< of a watchpoint's bits
   bool once = false;
   std::int64_t hits = 0;
 };
@@ -96,8 +97,16 @@ class Session final : private chip::StepWatch {
   const std::string& robot() const { return setup_.robot; }
 
   // --- data
-  /// What the program's names mean; without `pc`, where it stands. Until it runs on.
-  Values values(std::optional<std::uint32_t> pc = {}) const { return Values(machine_->runner(), pc); }
+  /// The level of calls whose names and values are meant until it runs on: 0 is the innermost, as frames() has
+  /// them. False: there is none.
+  bool select_frame(std::size_t number);
+  /// Null: the innermost one.
+  const Frame* selected() const { return selected_ ? &*selected_ : nullptr; }
+  /// What the program's names mean; without `pc`, where it stands, or in the level of calls that was selected.
+  /// Until it runs on.
+  Values values(std::optional<std::uint32_t> pc = {}) const {
+    return selected_ && !pc ? Values(machine_->runner(), *selected_) : Values(machine_->runner(), pc);
+  }
   /// As C's assignment. False: `error` says why.
   bool assign(const std::string& name, const std::string& expression, std::string& error);
   /// As the debugger's doing, again in each repetition. False: not a place that can be written.
@@ -183,6 +192,7 @@ class Session final : private chip::StepWatch {
   std::mutex mutex_;
   std::condition_variable changed_;
   State state_ = State::Stopped;
+  std::optional<Frame> selected_;
   std::atomic<bool> pause_{false}, abandoned_{false};
   Cycle fast_until_ = 0;  // nobody looks before
 

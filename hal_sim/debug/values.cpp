@@ -115,6 +115,13 @@ bool Values::evaluate(const std::string& expression, std::int64_t& value, std::s
 
 // --- parts of variables
 
+std::optional<Data> Values::register_at(int n) const {
+  if (!frame_ || static_cast<std::size_t>(n) >= frame_->registers.size()) return Machine::register_data(n);
+  const Address at = frame_->registers[static_cast<std::size_t>(n)];
+  if (at == kLost) return {};
+  return Data{at};
+}
+
 // registers are data, too
 std::optional<Address> Values::address_of(const Part& part) const {
   if (part.pointed) return (*part.pointed + part.found.offset) & kAddressMask;
@@ -122,9 +129,14 @@ std::optional<Address> Values::address_of(const Part& part) const {
   if (!place || place->in == In::Value) return {};
   Address base = static_cast<Address>(static_cast<std::int64_t>(place->value));
   if (place->in == In::Frame) {
-    base += read(Machine::register_data(place->base));
+    const auto from = register_at(place->base);
+    if (!from) return {};
+    constexpr int kStackPointer = 15;
+    base += frame_ && place->base == kStackPointer ? frame_->sp : read(*from);
   } else if (place->in != In::Memory) {
-    base = Machine::register_data(place->value).address;
+    const auto in = register_at(place->value);
+    if (!in) return {};
+    base = in->address;
   }
   return (base + part.found.offset) & kAddressMask;
 }
@@ -138,34 +150,50 @@ std::optional<std::uint64_t> Values::raw_value(const Part& part) const {
     raw = read({*address, bytes_of(type, part.found)});
   } else {
     const auto* const place = dspic::DebugInfo::place_at(*part.found.variable, part.pc);
-    if (!place) return {};
-    raw = place->in == In::Register ? read(Machine::register_data(place->value))
-                                    : static_cast<std::uint64_t>(std::int64_t{place->value});
+    if (!place || place->in != In::Value) return {};
+    raw = static_cast<std::uint64_t>(std::int64_t{place->value});
   }
   const unsigned bits = bits_of(type, part.found);
   return raw << (64 - bits - static_cast<unsigned>(part.found.bit)) >> (64 - bits);
 }
 
 std::optional<CValue> Values::number(const Part& whole) const {
-  const auto& debug = debug_info();
-  const auto& type = debug.types[static_cast<std::size_t>(whole.found.type)];
   const auto raw = raw_value(whole);
   if (!raw) return {};
+  return value_of(whole.found.type, whole.found.width, *raw);
+}
+
+CValue Values::value_of(int of_type, int width, std::uint64_t raw) const {
+  const auto& debug = debug_info();
+  const auto& type = debug.types[static_cast<std::size_t>(of_type)];
   CValue value;
-  value.type = type_of(debug, whole.found.type);
-  if (whole.found.width > 0) value.type.bits = static_cast<unsigned>(whole.found.width);
-  value.raw = *raw;
+  value.type = type_of(debug, of_type);
+  if (width > 0) value.type.bits = static_cast<unsigned>(width);
+  value.raw = raw;
   if (value.type.is_float() && value.type.bits > 32) {
-    std::memcpy(&value.real, &*raw, sizeof value.real);
+    std::memcpy(&value.real, &raw, sizeof value.real);
   } else if (value.type.is_float()) {
     float number;
-    std::memcpy(&number, &*raw, sizeof number);
+    std::memcpy(&number, &raw, sizeof number);
     value.real = static_cast<double>(number);
   } else if (value.type.stars == 0 && value.type.kind == CType::Kind::Signed) {
-    const unsigned spare = 64 - bits_of(type, whole.found);
-    value.raw = static_cast<std::uint64_t>(static_cast<std::int64_t>(*raw << spare) >> spare);
+    const unsigned spare = 64 - (width > 0 ? static_cast<unsigned>(width) : 8 * type.bytes);
+    value.raw = static_cast<std::uint64_t>(static_cast<std::int64_t>(raw << spare) >> spare);
   }
   return value;
+}
+
+std::optional<Values::Shape> Values::shape_of(const std::string& name) const {
+  CValue value;
+  std::string error;
+  if (!compute(name, Want::Place, value, error) || !value.part || !raw_value(*value.part)) return {};
+  return Shape{value.part->found.type, value.part->found.width};
+}
+
+std::string Values::brief(const std::optional<Shape>& shape, std::uint64_t raw) const {
+  if (!shape) return std::to_string(raw);
+  const std::string text = number_text(value_of(shape->type, shape->width, raw));
+  return text.substr(0, text.find(" ("));
 }
 
 std::string Values::typed(const Part& whole) const {

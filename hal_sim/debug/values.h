@@ -15,6 +15,10 @@ class Values final : public Names {
   /// `runner` outlives it. With `pc` values are not the program's yet: nothing is refused for its value.
   explicit Values(const chip::ChipRunner& runner, std::optional<std::uint32_t> pc = {})
       : Values(runner, pc.value_or(runner.processor().pc()), pc.has_value()) {}
+  /// ... in a level of calls: a caller's variables are where it goes on.
+  Values(const chip::ChipRunner& runner, const Frame& frame) : Values(runner, frame.call, false) {
+    frame_ = frame;
+  }
   /// The same, said apart.
   Values(const chip::ChipRunner& runner, std::uint32_t pc, bool is_tried)
       : runner_(runner), pc_(pc), is_tried_(is_tried) {}
@@ -36,6 +40,14 @@ class Values final : public Names {
 
   /// A number or a pointer; none: it is kept nowhere, is an array or a struct, or of no known type.
   std::optional<CValue> number(const Part& part) const;
+  /// Of what kind a variable's bits are, or a part's: one of debug_info().types, and bits of a bit-field, or 0.
+  struct Shape {
+    int type = 0, width = 0;
+  };
+  /// None: it is no number, or no variable.
+  std::optional<Shape> shape_of(const std::string& name) const;
+  /// "-5536", "1.5", "0x080a": bits by their kind; of no kind as a whole number.
+  std::string brief(const std::optional<Shape>& shape, std::uint64_t raw) const;
   /// "-5536 (0xea60)", "1.5", "{mode = 1, speed = {-300, 300}}".
   std::string shown(const CValue& value) const;
   /// The same of a part.
@@ -56,6 +68,11 @@ class Values final : public Names {
   /// Symbols and registers, whatever the debug information says.
   std::optional<Data> find_untyped(const std::string& name) const;
 
+  CValue value_of(int type, int width, std::uint64_t raw) const;
+  /// Where a W register's value lies; none: it is lost.
+  std::optional<Data> register_at(int n) const;
+
+  std::optional<Frame> frame_;  // none: the registers are the processor's
   const chip::ChipRunner& runner_;
   const std::uint32_t pc_;
   const bool is_tried_;

@@ -37,6 +37,7 @@ constexpr double kAccZero = 2048, kAccPerG = 768;  // counts [lib: a_d/advance_a
 constexpr int kAccMean = 5;                        // samples
 constexpr double kG = 9.81;
 constexpr double kGyroScale = 7509.9;  // per rad/s [Webots: E-puck.proto, lookup table of the gyroscope]
+constexpr int kPlain = 1;              // a gyroscope without that table, in rad/s
 constexpr double kGyroDegPerCount = 0.00875;  // +-250 degrees/s [LSM330 table 4]
 constexpr double kRadPerDeg = 3.14159265358979323846 / 180;
 
@@ -190,7 +191,7 @@ void Puck::add_of_world() {
         add(device.name, Kind::Inertial, node, 0);
         break;
       case sim::DeviceKind::Gyro:
-        add(device.name, Kind::TrueGyro, node, 0);
+        add(device.name, Kind::TrueGyro, node, kPlain);
         break;
       case sim::DeviceKind::Distance: {
         if (device.table.empty()) {
@@ -410,7 +411,8 @@ void Puck::take(const Device& device, std::size_t number, Cycle at, link_packet&
       return put3(in_axes(board_, rates(at)));
     case Kind::TrueGyro: {
       const sim::Vec3 r = board::true_state(board_, at).rates_rad_s;
-      return put(to, tag, {r.x * kGyroScale, r.y * kGyroScale, r.z * kGyroScale});
+      const double scale = device.index == kPlain ? 1 : kGyroScale;
+      return put(to, tag, {r.x * scale, r.y * scale, r.z * scale});
     }
     case Kind::Gps: {
       const board::TrueState state = board::true_state(board_, at);

@@ -361,9 +361,12 @@ void Team::welcome(Member& member) {
         std::int64_t{world.webots.axes == sim::Axes::Nue}, std::int64_t{is_lab},
         static_cast<std::int64_t>(seed_of(world, member.robot, member.name) >> 1), ns_of(member)})
     link_int(&packet_, number);
+  std::error_code none;
+  const std::string path =
+      world.file.empty() ? "" : fs::absolute(world.file, none).lexically_normal().string();
   const std::string project = fs::path(member.launch.folder).parent_path().parent_path().string();
   for (const std::string& text : {member.name, std::string(member.robot >= 0 ? "GCtronic e-puck" : ""),
-                                  project, world.file, world.title, member.custom})
+                                  project, path, world.title, member.custom})
     link_text(&packet_, text.c_str());
   link_number(&packet_, world.webots.time_step_s * 1000);
   link_number(&packet_, world.webots.speed_unit_rad_s > 0 ? world.webots.speed_unit_rad_s : kUsualSpeedUnit);

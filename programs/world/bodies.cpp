@@ -324,6 +324,7 @@ void Bodies::put_body(int body, const Affine& frame, bool robot) {
   sim::Pose2 pose;
   double z_m = 0;
   to_body(frame, robot, pose, z_m);
+  if (robot) z_m = 0;  // it falls to the floor
   twin_.simulation().move(body, pose, z_m);
   if (robot && moved) moved(body);
 }

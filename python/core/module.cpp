@@ -623,7 +623,8 @@ PYBIND11_MODULE(_core, module) {
              return list;
            })
       .def("fault_problems", [](Handle& h) { return h.world().faults().problems(); })
-      .def("save_recording", [](Handle& h, const std::string& file) { return h.world().save_recording(file); })
+      .def("save_recording",
+           [](Handle& h, const std::string& file) { return h.world().save_recording(file); })
       .def("draw",
            [](Handle& h, const std::string& file, const std::string& caption, bool rays, int width_px) {
              const std::string wrong = h.world().draw(file, caption, rays, width_px);

@@ -352,26 +352,42 @@ class DynamicMotion final : public Motion, b2ContactFilter {
       part.body->SetAwake(true);
     }
     const LooseBody& l = desc_.loose[i - desc_.robots.size()];
+    const double radius_m = std::sqrt(desc_.solids[i]->gyration_m2());
     // How firmly what it lies on holds it.
     double force = support == kInAir ? 0 : l.floor_friction * l.mass_kg * desc_.gravity_m_s2;
     if (is_sloping()) {
       force *= slope.press * slope.steep;
       part.body->ApplyForceToCenter(units((l.mass_kg * desc_.gravity_m_s2) * slope.pull), false);
     }
-    part.joint->SetMaxForce(static_cast<float>(force * kUnits));
-    part.joint->SetMaxTorque(
-        static_cast<float>(force * std::sqrt(desc_.solids[i]->gyration_m2()) * kUnits * kUnits));
     // The ghost stands still, or moves as the body below does at this place.
     if (support < 0) {
       if (part.ghost->GetLinearVelocity().LengthSquared() > 0) part.ghost->SetLinearVelocity({0, 0});
       if (part.ghost->GetAngularVelocity() != 0) part.ghost->SetAngularVelocity(0);
-      return;
+      return hold(part, force, radius_m);
     }
     const BodyState& under = bodies_[static_cast<std::size_t>(support)];
     const Vec2 arm{bodies_[i].pose.x_m - under.pose.x_m, bodies_[i].pose.y_m - under.pose.y_m};
     const Vec2 v = under.velocity_m_s + under.spin_rad_s * Vec2{-arm.y, arm.x};
     part.ghost->SetLinearVelocity(units(v));
     part.ghost->SetAngularVelocity(static_cast<float>(under.spin_rad_s));
+    hold(part, force, radius_m);
+  }
+
+  /// What lies somewhere has one friction, for sliding and turning together: a body that slides is turned by the
+  /// least moment, as its friction acts against its way. Force and moment lie on an ellipse (the limit surface), where
+  /// the motion of the tick before has put them; of one that lies still, both are whole.
+  static void hold(Part& part, double force_n, double radius_m) {
+    constexpr double kStillM = 1e-4;  // m/s, below what a push gives in a tick [assumed]
+    const double slides = static_cast<double>(
+                              (part.body->GetLinearVelocity() - part.ghost->GetLinearVelocity()).Length()) /
+                          kUnits,
+                 turns = radius_m * std::abs(static_cast<double>(part.body->GetAngularVelocity() -
+                                                                 part.ghost->GetAngularVelocity()));
+    const double speed = std::hypot(slides, turns);
+    const bool is_still = speed < kStillM;
+    part.joint->SetMaxForce(static_cast<float>((is_still ? 1 : slides / speed) * force_n * kUnits));
+    part.joint->SetMaxTorque(
+        static_cast<float>((is_still ? 1 : turns / speed) * force_n * radius_m * kUnits * kUnits));
   }
 
   b2World world_;

@@ -57,6 +57,12 @@ expect(good("stackTrace", threadId=1)["stackFrames"][0]["source"]["path"], SOURC
 expect(good("threads")["threads"], [{"id": 1, "name": "puck"}])
 expect([s["name"] for s in good("scopes", frameId=0)["scopes"]], ["Variables", "Registers", "Peripherals"])
 shown = {v["name"]: v["value"] for v in good("variables", variablesReference=2)["variables"]}
+# main(), which called work(n), has its own
+of_main = good("scopes", frameId=1)["scopes"][0]["variablesReference"]
+callers = {v["name"]: v["value"] for v in good("variables", variablesReference=of_main)["variables"]}
+assert "n" in shown and "n" not in callers and "now" in callers and "now" not in shown, (shown, callers)
+expect(good("evaluate", expression="now", frameId=1, context="watch")["result"], callers["now"])
+assert not ask("evaluate", expression="now", frameId=0, context="watch")["success"]
 expect(shown["ticks"], "3 (0x3)")
 assert "w15" in {v["name"] for v in good("variables", variablesReference=1)["variables"]}
 pin = "LATA.LATA6"

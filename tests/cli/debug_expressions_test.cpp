@@ -316,8 +316,8 @@ TEST_P(DebugExpressions, mistakes_are_named) {
       {"break main if k +", "condition: a value is missing"},
       {"frobnicate", "unknown command 'frobnicate'; help lists them"},
       {"x nosuch", "unknown symbol 'nosuch', expected a variable of the image that is known here"},
-      {"up", "unknown command 'up'; help lists them"},
-      {"frame 9", "unknown command 'frame'; help lists them"}};
+      {"up 2", "up: got 2, expected a level of backtrace, 0 to 1"},
+      {"frame 9", "frame: got 9, expected a level of backtrace, 0 to 1"}};
   std::string commands = "break main\nc\n";
   for (const auto& [command, answer] : rows) commands += command + "\n";
   const std::string said = debug(commands + "info break\n") + "\n";

@@ -48,9 +48,10 @@ class Debug : public CommandTest, public ::testing::WithParamInterface<const cha
   std::string program() const { return path("mine.elf"); }
 
   /// Builds `source` (a main.c).
-  void build(const std::string& source) {
+  void build(const std::string& source, const std::string& level = "-O1") {
     write("mine/main.c", source);
-    const auto built = twinpuck("build '" + path("mine") + "' --hal " + hal() + " -o '" + program() + "'");
+    const auto built = twinpuck("build '" + path("mine") + "' --hal " + hal() + " --opt " + level + " -o '" +
+                                program() + "'");
     ASSERT_EQ(built.exit_code, 0) << built.text;
   }
   /// What the commands answer.

@@ -55,6 +55,67 @@ TEST_P(DebugValues, variables_have_types_and_functions_have_locals) {
   EXPECT_NE(vcd.find("b100101100 "), std::string::npos) << vcd;  // 300
 }
 
+// at each level of calls its own variables, kept in registers or on the stack, whatever the levels within have
+// saved of them; and changes by their types
+TEST_P(DebugValues, callers_have_their_own_variables) {
+  for (const std::string opt : {"-O0", "-O1", "-O2"}) {
+    const bool keeps_all = opt == "-O0";  // the optimiser needs neither the caller's argument nor its sum
+    build(R"(#include <p30F6014A.h>
+volatile int r; volatile float gain = -0.25f; volatile signed char c; struct { volatile int three : 3; } bits;
+__attribute__((noinline)) int fact(int n) {
+  if (n <= 1) { r = n; return 1; }
+  return n * fact(n - 1);
+}
+__attribute__((noinline)) int work(int a, long b) {
+  int k = a + 1;
+  r = fact(4) + k;
+  LATA = b >> 3;
+  return k + r;
+}
+int main(void) {
+  long big = 100000;
+  for (int i = 42;; i++) {
+    big += work(i, big);
+    gain -= 0.25f; c = -1; bits.three = -2;
+  }
+}
+)",
+          opt);
+    expect_in_order(
+        debug("break fact if n == 1\nc\nprint n\nup\nprint n\nup 2\nlocals\ndown\nprint n\nframe 4\nprint "
+              "a\nprint k\n"
+              "set k = 77\nprint k\nup\nprint big\nlist\nprint n\nframe 99\nup x\nframe 0\nprint n\ndelete\n"
+              "up 9\nwatch gain\nwatch c\nwatch bits.three\nc\nup\nc\nc\nc\n"),
+        {"n = 1 ",
+         "> up\n#1 0x",
+         " fact() (main.c:5)\n5\t  return n * fact(n - 1);\n",
+         "n = 2 ",
+         "> up 2\n#3 0x",
+         "  n = 4 ",
+         "> down\n#2 0x",
+         "n = 3 ",
+         "> frame 4\n#4 0x",
+         " work() (main.c:9)",
+         keeps_all ? "a = 42 " : "> print a\n",
+         "k = 43 ",
+         "k = 77 ",
+         "k = 77 ",
+         "> up\n#5 0x",
+         " main() (main.c:16)",
+         keeps_all ? "big = 100000 " : "> print big\n",
+         "16\t    big += work(i, big);",
+         "> print n\n",
+         "> frame 99\nframe: got 99, expected a level of backtrace, 0 to 6\n",
+         "> up x\nup: got 'x', expected a level of backtrace, 0 to 6\n",
+         "> frame 0\n#0 0x",
+         "n = 1 ",
+         "up: got 9, expected a level of backtrace, 0 to 6\n",
+         "gain: -0.25 -> -0.5, by main() (main.c:17)",
+         "c: 0 -> -1, by main() (main.c:17)",
+         "bits.three: 0 -> -2, by main() (main.c:17)"});
+  }
+}
+
 // what has no register lies in the frame, with arguments that found none; a function's breakpoint is behind
 // what puts them there, so that its condition sees them
 constexpr const char* kFrames = R"(#include <p30F6014A.h>

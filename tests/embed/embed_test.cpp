@@ -123,7 +123,8 @@ TEST_F(Embed, a_robot_is_seen_and_touched_by_name) {
   EXPECT_EQ(ann.variable("turn.left[1]"), 7);
   ann.set_variable("speed", 0);
   w.run(0.25);
-  for (const twinpuck::Pose& nowhere : {twinpuck::Pose{NAN, 0, 0}, {0, INFINITY, 0}, {0, 1e9, 0}, {0, 0, NAN}})
+  for (const twinpuck::Pose& nowhere :
+       {twinpuck::Pose{NAN, 0, 0}, {0, INFINITY, 0}, {0, 1e9, 0}, {0, 0, NAN}})
     EXPECT_THROW(ann.place(nowhere), twinpuck::Error);
   ann.place({-0.3, 0.1, 1.5});
   EXPECT_NEAR(ann.pose().x_m, -0.3, 1e-12);

@@ -291,6 +291,18 @@ TEST(Import, nothing_goes_without_a_line) {
   }
 }
 
+TEST(Import, texts_are_utf_8_as_the_world_file_is) {
+  const Result r = import(
+      "#VRML_SIM R2023b utf8\nWorldInfo { title \"\u00fc \\\"\u03c0\\\"\" }\nE-puck { name \"p\u00fcc\" "
+      "customData \"gr\u00f6\u00dfe\" "
+      "controller \"c\" }\nE-puck { name \"b\xff\" controller \"c\" }\n");
+  EXPECT_EQ(r.world.title, "\u00fc \"\u03c0\"");
+  ASSERT_EQ(r.world.robots.size(), 2u);
+  EXPECT_EQ(r.world.robots[0].name, "p\u00fcc");
+  EXPECT_EQ(r.world.robots[0].custom_data, "gr\u00f6\u00dfe");
+  EXPECT_EQ(r.world.robots[1].name, "b?");
+}
+
 // Webots' lidar has 512 columns and 4 rows unless its world says otherwise
 TEST(Import, distances_that_are_too_many_are_thinned_and_reported) {
   const Result r = import(kNew +

@@ -238,25 +238,28 @@ TEST_P(Gyros, tell_how_fast_the_robot_turns) {
   world.webots.axes = GetParam().axes;
   const std::size_t up = GetParam().axes == sim::Axes::Nue ? 1 : 2;
   Robot& r = add_c(
-      "WbDeviceTag gyro, imu; const double *v;",
+      "WbDeviceTag gyro, imu, own; const double *v;",
       "gyro = wb_robot_get_device(\"gyro\"); wb_gyro_enable(gyro, 64); imu = wb_robot_get_device(\"imu\");\n"
-      "wb_inertial_unit_enable(imu, 64); wb_differential_wheels_set_speed(-300, 300);",
+      "wb_inertial_unit_enable(imu, 64); own = wb_robot_get_device(\"own\"); wb_gyro_enable(own, 64);\n"
+      "wb_differential_wheels_set_speed(-300, 300);",
       "static double before; double yaw; v = wb_gyro_get_values(gyro); printf(\"gyro %g %g %g\\n\", v[0], "
       "v[1], v[2]);\n"
+      "v = wb_gyro_get_values(own); printf(\"own %g %g %g\\n\", v[0], v[1], v[2]);\n"
       "yaw = wb_inertial_unit_get_roll_pitch_yaw(imu)[2]; printf(\"rate %g\\n\", remainder(yaw - before, "
       "6.283185307) / 0.064);\n"
       "before = yaw;");
   r.settings().variation.motion_noise_scale = 0;
   r.settings().own["revision"] = GetParam().revision;
-  r.settings().devices = {device("imu", sim::DeviceKind::Inertial)};
+  r.settings().devices = {device("imu", sim::DeviceKind::Inertial), device("own", sim::DeviceKind::Gyro)};
   if (std::string(GetParam().revision) == "1.1")
     r.settings().devices.push_back(device("gyro", sim::DeviceKind::Gyro));
   run_for(2);
   const double rate = value(r, "rate");
   EXPECT_NEAR(rate, 1.458, 0.03);
-  // Webots' lookup table of the e-puck's: 7509.9 a rad/s
+  // Webots' lookup table of the e-puck's: 7509.9 a rad/s; one that a world adds has none
   EXPECT_NEAR(told(r, "gyro").at(up), rate * 7509.9, 0.03 * 1.458 * 7509.9);
   EXPECT_NEAR(told(r, "gyro").at(0), 0, 0.02 * 7509.9);
+  EXPECT_NEAR(told(r, "own").at(up), rate, 0.03 * 1.458);
 }
 INSTANTIATE_TEST_SUITE_P(Revisions, Gyros,
                          ::testing::Values(Gyro{"1.1", sim::Axes::Enu}, Gyro{"1.3", sim::Axes::Enu},
@@ -305,6 +308,36 @@ TEST_P(Cameras, show_a_red_ball_in_red) {
   expect_no_traps();
 }
 INSTANTIATE_TEST_SUITE_P(Sensors, Cameras, ::testing::Values("po3030k", "po6030k", "po8030d"));
+
+// Posts of 1 cm, 30 cm from the lens: each in the column that the field of view says, 26 / tan(0.42) pixels to the
+// tangent.
+TEST_P(Cameras, show_things_where_their_field_of_view_has_them) {
+  const std::pair<double, sim::Colour> kPosts[] = {{10, {1, 0, 0}}, {20, {0, 1, 0}}, {-20, {0, 0, 1}}};
+  for (const auto& [degrees, colour] : kPosts) {
+    sim::ObjectDesc post;
+    post.kind = sim::ObjectKind::Cylinder;
+    post.radius_m = 0.005;
+    post.size_m.z = 0.2;
+    post.material.colour = colour;
+    post.pose = {0.03 + 0.3 * std::cos(sim::radians(degrees)), 0.3 * std::sin(sim::radians(degrees)), 0};
+    world.objects.push_back(post);
+  }
+  Robot& r =
+      add_c("WbDeviceTag cam;", "cam = wb_robot_get_device(\"camera\"); wb_camera_enable(cam, 64);",
+            "const unsigned char *p = wb_camera_get_image(cam); int x, c, n[3] = {0}; double sum[3] = {0};\n"
+            "for (x = 0; p && x < 52; x++) for (c = 0; c < 3; c++) {\n"
+            "  const unsigned char *at = p + 4 * (52 * 10 + x); int mine = at[2 - c];\n"
+            "  if (mine > 40 + at[(3 - c) % 3] && mine > 40 + at[(4 - c) % 3]) { sum[c] += x; n[c]++; } }\n"
+            "if (n[0] && n[1] && n[2]) printf(\"columns %g %g %g\\n\", sum[0] / n[0], sum[1] / n[1], sum[2] "
+            "/ n[2]);");
+  r.settings().own["camera"] = GetParam();
+  r.settings().own["camera_noise"] = 0;
+  run_for(3);
+  const auto columns = told(r, "columns");
+  ASSERT_EQ(columns.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(columns[i], 25.5 - 26 / std::tan(0.42) * std::tan(sim::radians(kPosts[i].first)), 1.01);
+}
 
 // a ball of 4 cm, 20 cm before the lens and 2 cm to its left; one behind a wall; one at the robot's back
 TEST_F(Sensing, a_camera_recognises_what_has_colours_and_is_in_sight) {

@@ -299,6 +299,16 @@ TEST_F(Supervisors, things_are_thrown_moved_and_fall) {
   expect_pass();
 }
 
+TEST_F(Supervisors, a_robot_that_is_put_in_the_air_falls_to_the_floor) {
+  add_robot_with_source(kIdle, "puck").at(0.1, 0.2, 90);
+  add_judge(R"(
+    const double to[3] = {0.3, 0.4, 0.05};
+    wb_supervisor_field_set_sf_vec3f(field("puck", "translation"), to);
+    wb_robot_step(64);
+    EXPECT(fabs(place("puck")[0] - 0.3) < 1e-9 && place("puck")[2] == 0);)");
+  expect_pass();
+}
+
 TEST_F(Supervisors, a_reset_puts_everything_back) {
   add_ball();
   add_robot_with_source("volatile int runs; int main(void) { runs++; while (1) ; }", "puck").at(0.1, 0.2, 90);

@@ -64,7 +64,9 @@ def _places():
         return [told]
     package = os.path.dirname(os.path.abspath(__file__))
     clone = os.path.dirname(os.path.dirname(os.path.dirname(os.path.dirname(package))))
-    return [os.path.join(os.path.dirname(package), "libcontroller.so"), os.path.join(clone, "build", "libcontroller.so")]
+    prefix = os.path.dirname(os.path.dirname(clone))  # of PREFIX/share/twinpuck
+    return [os.path.join(os.path.dirname(package), "libcontroller.so"), os.path.join(clone, "build", "libcontroller.so"),
+            os.path.join(prefix, "lib", "twinpuck", "libcontroller.so")]
 
 
 def _load():
