@@ -104,6 +104,9 @@ void ExternalInterrupts::converter_changed(Cycle now) {
 void ExternalInterrupts::outside_changed(Cycle now) {
   for (int n = 0; n < kLines; ++n) {
     if (!f_.interrupts.sources().flag(kFlags[n])) forget_before(n, now);
+    const bool rose = f_.outside.take_edge(kPins[n], Edge::Rising),
+               fell = f_.outside.take_edge(kPins[n], Edge::Falling);
+    if (edge(n) == Edge::Rising ? rose : fell) own_flag_[static_cast<std::size_t>(n)] = now + kEdgeToFlag;
     schedule(n, now);
   }
 }

@@ -82,6 +82,9 @@ class Outside {
   /// Instant of the n-th (1 = first) edge after `after`; kNever if it does not come as far as is known.
   virtual Cycle nth_edge(Pin pin, Edge edge, Cycle after, std::int64_t n);
 
+  /// Has somebody made such an edge by hand, just now? Told once, when outside_changed() is called.
+  virtual bool take_edge(Pin /*pin*/, Edge /*edge*/) { return false; }
+
   // --- analogue inputs
   /// Counts of AN`channel` (0 to 15) against AVDD and AVSS, 0 to 4095, held at `at`. Asked once per
   /// conversion and in order, so that noise may be drawn per call.

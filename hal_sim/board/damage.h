@@ -108,7 +108,8 @@ struct Damage {
 
   /// Pins that somebody holds at a level, port by port: which, and at which.
   std::array<std::uint16_t, 6> held_pins{}, held_levels{};
-  std::uint64_t pins_changed = 0;  ///< grows with each change of these
+  std::array<std::uint16_t, 6> rose{}, fell{};  ///< inputs that were so just now, until the chip hears of it
+  std::uint64_t pins_changed = 0;               ///< grows with each change of these
 
   std::array<StepLoss, 2> steps;  ///< left, right
 

@@ -220,9 +220,29 @@ void Pins::hold(char letter, int bit, std::optional<bool> level, Cycle at) {
   Damage& d = to_.robot.be_damaged();
   const auto p = static_cast<std::size_t>(port_index(letter));
   const unsigned mask = 1u << bit;
+  const auto port = static_cast<Port>(p);
+  const unsigned before = levels(port, at);
   d.held_pins[p] = bits(level ? d.held_pins[p] | mask : d.held_pins[p] & ~mask);
   d.held_levels[p] = bits(level && *level ? d.held_levels[p] | mask : d.held_levels[p] & ~mask);
+  const unsigned changed = (levels(port, at) ^ before) & tris_[p] & mask;
+  d.rose[p] = bits(d.rose[p] | (changed & ~before));
+  d.fell[p] = bits(d.fell[p] | (changed & before));
   changed_by_hand(at);
+}
+
+bool Pins::take_edge(Port port, int bit, bool rising) {
+  if (!to_.robot.damage()) return false;
+  Damage& d = to_.robot.be_damaged();
+  auto& edges = rising ? d.rose[port] : d.fell[port];
+  const unsigned mask = 1u << bit;
+  const bool was_made = (edges & mask) != 0;
+  edges = bits(edges & ~mask);
+  return was_made;
+}
+
+std::uint16_t Pins::held(Port port) const {
+  const Damage* const damage = to_.robot.damage();
+  return damage ? damage->held_pins[port] : std::uint16_t{0};
 }
 
 void Pins::changed_by_hand(Cycle at) {

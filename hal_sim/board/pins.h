@@ -89,6 +89,10 @@ class Pins {
   static bool can_be_held(char port, int bit);
   /// Somebody holds a pin that can be held at a level, or (empty) lets it go.
   void hold(char port, int bit, std::optional<bool> level, Cycle at);
+  /// Pins that somebody holds.
+  std::uint16_t held(Port port) const;
+  /// Has hold() made such an edge on an input since this was asked?
+  bool take_edge(Port port, int bit, bool rising);
   /// Held pins, dead LEDs or the battery were changed.
   void changed_by_hand(Cycle at);
 

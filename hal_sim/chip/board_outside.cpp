@@ -126,9 +126,16 @@ void BoardOutside::follow_breaks(std::uint16_t low, Cycle at) {
 
 dspic::PinLevels BoardOutside::pin_levels(Port port, Cycle at) {
   switch (port) {
-    case Port::C:
+    case Port::A:
+      return {board_.pins().given(board::kA, at), board_.pins().held(board::kA)};
+    case Port::C: {
       asks_camera_ = true;
-      return {camera_.levels(at), board_.camera() ? kWiredC.camera : std::uint16_t{0}};
+      const unsigned held = board_.pins().held(board::kC),
+                     camera = board_.camera() ? kWiredC.camera & ~held : 0u;
+      return {static_cast<std::uint16_t>((camera_.levels(at) & camera) |
+                                         (board_.pins().given(board::kC, at) & held)),
+              static_cast<std::uint16_t>(camera | held)};
+    }
     case Port::D:
       asks_camera_ = takes_pictures_ = true;
       return {static_cast<std::uint16_t>(camera_.data(at) << board::kCameraDataBit),
@@ -155,6 +162,13 @@ Cycle BoardOutside::levels_horizon(Port port, std::uint16_t pins, Cycle after) {
     default:
       return dspic::kNever;
   }
+}
+
+bool BoardOutside::take_edge(dspic::Pin pin, dspic::Edge edge) {
+  const auto of = [&](board::Port port) {
+    return board_.pins().take_edge(port, pin.bit, edge == dspic::Edge::Rising);
+  };
+  return pin.port == Port::A ? of(board::kA) : pin.port == Port::F && of(board::kF);
 }
 
 std::int64_t BoardOutside::edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) {

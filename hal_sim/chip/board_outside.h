@@ -53,6 +53,7 @@ class BoardOutside final : public dspic::Outside {
                    Cycle at) override;
   dspic::PinLevels pin_levels(dspic::Port port, Cycle at) override;
   Cycle levels_horizon(dspic::Port port, std::uint16_t pins, Cycle after) override;
+  bool take_edge(dspic::Pin pin, dspic::Edge edge) override;
   std::int64_t edges(dspic::Pin pin, dspic::Edge edge, Cycle after, Cycle until) override;
   Cycle nth_edge(dspic::Pin pin, dspic::Edge edge, Cycle after, std::int64_t n) override;
   int analogue_counts(int channel, Cycle at) override;

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "hal_sim/api/host_index.h"
+#include "hal_sim/chip/program_places.h"
 #include "sim_core/base/did_you_mean.h"
 
 namespace chip {
@@ -16,6 +17,12 @@ std::vector<std::uint32_t> copies_of(const dspic::FirmwareFile& file, const std:
   std::vector<std::uint32_t> copies;
   for (const auto& f : file.debug.value().functions)
     if (f.name == function) copies.insert(copies.end(), f.inlined_at.begin(), f.inlined_at.end());
+  // of a function of the program's own none that the library happens to name alike
+  const auto label = file.functions.find(function);
+  if (label != file.functions.end() && ProgramPlaces::is_own(file, label->second))
+    copies.erase(std::remove_if(copies.begin(), copies.end(),
+                                [&](std::uint32_t copy) { return !ProgramPlaces::is_own(file, copy); }),
+                 copies.end());
   std::sort(copies.begin(), copies.end());
   copies.erase(std::unique(copies.begin(), copies.end()), copies.end());
   return copies;

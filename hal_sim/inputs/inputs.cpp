@@ -196,6 +196,7 @@ void Inputs::add_faults(const Json& input) {
   const faults::LoadedFaults loaded = faults::parse_faults(text(input, "text"), of);
   if (!loaded.problems.empty()) refuse_input(loaded.report(of));
   faults_.add(loaded.faults);
+  faults_.look();  // what begins now meets what is done behind it at this tick
 }
 
 void Inputs::end_fault(const Json& input) {

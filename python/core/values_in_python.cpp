@@ -72,7 +72,7 @@ std::string c_number(const std::string& what, const py::object& value) {
     std::string text = py::repr(py::float_(value)).cast<std::string>();
     if (text.find_first_of("ni") != std::string::npos)
       throw std::invalid_argument(what + ": got " + text + ", expected a finite number");
-    return text;
+    return text + "L";  // of 64 bits, as long double has them; a float is rounded once
   }
   const py::object whole = value.attr("__index__")();
   // C's widest type takes no more; a float may

@@ -100,7 +100,7 @@ class TestFile:
     def __init__(self, path: pathlib.Path) -> None:
         self.path = path
         try:
-            self._text = path.read_text(encoding="utf-8")
+            self._text = path.read_text(encoding="utf-8-sig")
             self.table = tomllib.loads(self._text)
         except OSError as wrong:
             raise TestFileError(f"{path}: cannot be read: {wrong.strerror}") from None

@@ -255,7 +255,7 @@ def grade(student: pathlib.Path, options: argparse.Namespace, base: pathlib.Path
         result.problem = _INTERRUPTED
     elif code is None:
         result.problem = f"got no end after {options.limit_s:g} s, expected one (--limit)"
-    elif code not in _TOLD or not result.cases:
+    elif code not in _TOLD or not result.cases or any(case.outcome == "not run" for case in result.cases):
         result.problem, result.is_broken = broken(code, result.cases, log), True
     result.problem = result.problem or result.told_by_all()
     return result

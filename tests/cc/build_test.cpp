@@ -186,7 +186,8 @@ TEST(build, data_and_stack_that_do_not_fit_together_are_warned_of) {
 TEST(lint, finds_plain_flags_and_timer_conflicts) {
   Folder folder;
   folder.file("prog/main.c",
-              "int flag; void _T5Interrupt(void) { flag = 1; }\n#include \"motor_led/e_motors.h\"\nint "
+              "int flag; void __attribute__((interrupt)) _T5Interrupt(void) { flag = 1; }\n#include "
+              "\"motor_led/e_motors.h\"\nint "
               "main(void) {\n  while (!flag);\n  return 0; }");
   folder.file("prog/motor_led/e_motors.h", "void e_init_motors(void);\n");
   cc::BuildOptions options;

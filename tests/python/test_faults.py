@@ -55,6 +55,48 @@ def test_faults_are_in_recordings(opened, command, tmp_path):
     assert done.returncode == 0, done.stderr
 
 
+PINS = """#include <p30F6014A.h>
+volatile unsigned a, c, f, rises0, rises1;
+void __attribute__((interrupt, auto_psv)) _INT0Interrupt(void) { IFS0bits.INT0IF = 0; rises0++; }
+void __attribute__((interrupt, auto_psv)) _INT1Interrupt(void) { IFS1bits.INT1IF = 0; rises1++; }
+int main(void) { TRISA = TRISC = TRISF = 0xFFFF; IEC0bits.INT0IE = 1; IEC1bits.INT1IE = 1;
+  while (1) { a = PORTA; c = PORTC; f = PORTF; } }
+"""
+
+
+@pytest.mark.parametrize("hal", ["sim", "dspic"])
+@pytest.mark.parametrize("pin, port, bit", [("F6", "f", 6), ("A6", "a", 6), ("A12", "a", 12), ("C1", "c", 1), ("C2", "c", 2)])
+def test_a_pin_that_is_held_is_read_and_felt(opened, hal, pin, port, bit):
+    world = opened(PINS, hal=hal)
+    robot = world.robots[0]
+    world.run(0.05)
+    usual, rises = robot.pin(pin), (robot.variable("rises0"), robot.variable("rises1"))
+    for times in range(1, 4):
+        world.inject("pin_forced", robot, pin=pin, level=int(not usual), for_s=0.01)
+        world.run(0.005)
+        assert robot.pin(pin) != usual and bool(robot.variable(port) >> bit & 1) != usual
+        world.run(0.02)
+        assert robot.pin(pin) == usual and bool(robot.variable(port) >> bit & 1) == usual
+        expected = (rises[0] + times * (pin == "F6"), rises[1] + times * (pin == "A12"))
+        assert (robot.variable("rises0"), robot.variable("rises1")) == expected
+
+
+def test_a_fault_that_has_begun_meets_what_is_sent_behind_it(opened):
+    world = opened("#include <uart/e_uart_char.h>\n#include <motor_led/e_init_port.h>\nvolatile int n;\n"
+                   "int main(void) { char c; e_init_port(); e_init_uart1(); while (1) if (e_getchar_uart1(&c)) n++; }")
+    robot = world.robots[0]
+    world.run(0.05)
+    robot.uart1.send(b"abc")
+    world.inject("line_cut", robot, uart=1, direction="rx", for_s=0.05)
+    robot.uart1.send(b"defgh")
+    world.run(0.04)
+    assert robot.variable("n") == 3
+    world.run(0.04)
+    robot.uart1.send(b"ij")
+    world.run(0.02)
+    assert robot.variable("n") == 5
+
+
 def test_faults_of_a_file(opened, tmp_path):
     (tmp_path / "bench.toml").write_text('[[fault]]\nkind = "sensor_dead"\nsensor = 0\n[[stimulus]]\nturn = 3\nat_s = 0.1\n')
     world = opened(COUNTS, more=NEAR_A_WALL)

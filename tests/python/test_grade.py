@@ -116,7 +116,7 @@ PLANTED = {
     "zero_division": ("total = sum(values, 10);", "total = 45 / (beats - beats);",
                       "puck: main (…/main.c:45): math error: division by zero, or an overflow of an accumulator; the program has no _MathError(), so the processor resets"),
     "beyond_array": ("i < 10; i++)\n    values", "i < 12; i++)\n    values",
-                     "puck: main (…/main.c:36): sanitizer: write out of bounds of …: got byte …, expected 0 to …"),
+                     "puck: main (…/main.c:36): sanitizer: array index out of bounds (… times)"),
     "null": ("values[i] = i;", "*(int *)(i - i) = i;",
              "puck: main (…/main.c:36): sanitizer: write through a null pointer, at 0x0000"),
     "no_value": ("int i, all = 0;", "int i, all;",

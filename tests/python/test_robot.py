@@ -120,6 +120,18 @@ def test_values_of_c(opened):
     assert robot.variable("T1CON.TON") == 1
 
 
+def test_what_is_read_can_be_written_back(opened):
+    world = opened("volatile long double exact; volatile float coarse; volatile int same;\n"
+                   "int main(void) { while (1) same = exact == 0.1L; }")
+    robot = world.robots[0]
+    world.run(0.01)
+    robot.set_variable("exact", 0.1)
+    robot.set_variable("coarse", 0.1)
+    world.run(0.01)
+    assert robot.variable("exact") == 0.1 and robot.variable("same") == 1
+    assert robot.variable("coarse") == numpy.float32(0.1)
+
+
 def test_values_are_changed_as_c_does(opened):
     world = opened(VALUES)
     robot = world.robots[0]
