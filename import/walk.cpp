@@ -89,7 +89,16 @@ Scene Walk::scene() {
     if (n->type == "WorldInfo") world_info(*n);
   }
   for (const NodePtr& n : text_.nodes) {
-    if (n->type != "WorldInfo") visit(*n, world_, 0);
+    if (n->type == "WorldInfo") continue;
+    // each has its own share of nodes, so that a PROTO without end takes nothing else with it
+    if (endless_ == kMostEndless) {
+      report_.add(*n, "too many nodes stand before it");
+      continue;
+    }
+    visits_ = 0;
+    exhausted_ = false;
+    visit(*n, world_, 0);
+    endless_ += exhausted_;
   }
   for (const Remark& r : text_.remarks) {
     const std::size_t colon = r.text.find(": not carried: ");

@@ -81,6 +81,8 @@ class Walk {
   int visits_ = 0;
   int pieces_ = 0;
   bool exhausted_ = false;
+  static constexpr int kMostEndless = 3;
+  int endless_ = 0;                  // nodes of the world with too many within them
   std::size_t budget_ = kMostNodes;  // of PROTOs to be unfolded
   std::vector<NodePtr> kept_;        // unfolded nodes
 };

@@ -132,13 +132,12 @@ std::vector<Frame> trace_back(Code& code, std::uint32_t pc, unsigned sp, unsigne
       break;
     const auto base = static_cast<unsigned>(frame.base);
     // its caller's registers: what it has saved, or left alone
-    constexpr std::size_t kFirstKept = 8, kFirstShadowed = 0, kLastShadowed = 3;
+    constexpr std::size_t kFirstKept = 8, kShadowed = 4;
     for (std::size_t n = 0; n < registers.size(); ++n) {
       const bool is_saved = stack && stack->saved[n] >= 0 && stack->saved[n] < stack->bytes;
-      const bool is_lost =
-          frame.is_handler
-              ? is_by_heart ? n < kFirstKept : stack->shadows && n >= kFirstShadowed && n <= kLastShadowed
-              : n < kFirstKept;
+      const bool is_lost = frame.is_handler
+                               ? is_by_heart ? n < kFirstKept : stack && stack->shadows && n < kShadowed
+                               : n < kFirstKept;
       registers[n] = is_saved  ? base + static_cast<unsigned>(stack->saved[n])
                      : is_lost ? kLost
                                : registers[n];

@@ -319,8 +319,8 @@ std::string Monitor::select(const std::string& command, const std::string& rest)
   if (const Frame* const level = session_.selected())
     while (now + 1 < all.size() && all[now].base != level->base) ++now;
   int given = command == "frame" ? static_cast<int>(now) : 1;
-  const bool is_read = rest.empty() || std::from_chars(rest.data(), rest.data() + rest.size(), given).ptr ==
-                                           rest.data() + rest.size();
+  const auto [read, wrong] = std::from_chars(rest.data(), rest.data() + rest.size(), given);
+  const bool is_read = rest.empty() || (wrong == std::errc() && read == rest.data() + rest.size());
   const std::int64_t to = command == "frame" ? given
                           : command == "up"  ? static_cast<std::int64_t>(now) + given
                                              : static_cast<std::int64_t>(now) - given;

@@ -291,6 +291,22 @@ TEST(Import, nothing_goes_without_a_line) {
   }
 }
 
+TEST(Import, a_node_without_end_takes_no_other_with_it) {
+  const auto world = [](int levels) {
+    std::string text = kNew + "RectangleArena { }\nDEF G0 Group { children [ Pose { } ] }\n";
+    for (int i = 1; i <= levels; ++i)
+      text += fmt::format("DEF G{0} Group {{ children [ USE G{1} USE G{1} ] }}\n", i, i - 1);
+    return text + "E-puck { controller \"c\" }\n";
+  };
+  const Result one = import(world(17));
+  EXPECT_EQ(one.world.robots.size(), 1u) << one.all_reports();
+  EXPECT_TRUE(one.reports(3, {"more than 200000 nodes"})) << one.all_reports();
+  // ... but for a world that is made of nothing else: then all that is left out has its line
+  const Result many = import(world(21));
+  EXPECT_EQ(many.world.robots.size(), 0u);
+  EXPECT_TRUE(many.reports(25, {"E-puck", "too many nodes stand before it"})) << many.all_reports();
+}
+
 TEST(Import, texts_are_utf_8_as_the_world_file_is) {
   const Result r = import(
       "#VRML_SIM R2023b utf8\nWorldInfo { title \"\u00fc \\\"\u03c0\\\"\" }\nE-puck { name \"p\u00fcc\" "
