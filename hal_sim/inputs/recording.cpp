@@ -71,7 +71,7 @@ RunImages images_of(const twin::Twin& twin) {
   RunImages run;
   std::map<std::string, std::string> hashes;  // by file
   for (int r = 0; r < twin.robots(); ++r) {
-    const std::string file = twin.image_path(r);
+    const std::string& file = twin.image_path(r);
     if (file.empty()) continue;
     const auto [known, is_new] = hashes.try_emplace(file);
     if (is_new) {

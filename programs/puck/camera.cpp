@@ -50,7 +50,7 @@ void PuckCamera::start(Cycle at) {
   // the robot's own picture is of the array's middle; Webots' has the whole field of view
   constexpr int kStep = 8;  // pixels of the array from one column to the next
   if (board::Camera* const camera = board_.camera())
-    camera->set_focal_px(kStep * kCameraColumns / 2 / std::tan(kCameraFovRad / 2));
+    camera->set_focal_px(0.5 * kStep * kCameraColumns / std::tan(kCameraFovRad / 2));
   taken_.assign(kCameraColumns * kCameraRows * kBytesPerPixel, 0);
   shown_.assign(kCameraColumns * kCameraRows * 4, 0);
   for (std::size_t i = 3; i < shown_.size(); i += 4) shown_[i] = 255;

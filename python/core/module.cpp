@@ -86,7 +86,7 @@ class Handle {
   };
   /// What was lost, a line each.
   std::string close() {
-    const std::string lost = finish();
+    std::string lost = finish();
     world_.reset();
     return lost;
   }
