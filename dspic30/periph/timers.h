@@ -4,9 +4,9 @@
 //   TCY or TxCK edges --> prescaler 1 8 64 256 --> TMR, back to 0 on the tick after TMR == PR --> TxIF
 //
 // Modelled: internal and external clock, prescalers, gate, 32-bit pairs with holding registers, period
-// below the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR, standing in Sleep and, with TSIDL, in
-// Idle. The count is a closed form; only matches are events, and not even those while the flag is still set and
-// nobody else listens. Not modelled: LPOSCEN's crystal, the difference of T1's asynchronous mode, edges faster than TCY/2.
+// below the count (runs through 0xFFFF), PR = 0, match on writing TMR or PR, standing in Sleep and, with
+// TSIDL, in Idle. The count is a closed form; only matches are events, and not even those while the flag is
+// still set and nobody else listens. Not modelled: the 32 kHz crystal, T1 asynchronous, edges above TCY/2.
 // Times: a write in cycle t acts from t + 1; a tick that makes TMR == PR sets the flag one cycle later; an
 // external edge ticks one cycle after it. Source: [chip P2], pins of T2CK and T3CK [DS70286C]; [?] flag
 // phase with prescalers.

@@ -6,11 +6,10 @@
 // Modelled: 8 and 9 bits, parity, stop bits, both FIFOs, TXIF and RXIF in all modes, TRMT, UTXBF, RIDLE, OERR
 // with a blocked receiver, PERR and FERR per word, address detection, break both ways, loop-back, alternate
 // pins. A word on the line is sampled in the middle of the receiver's own bits, so wrong rates and formats
-// are received as on the chip. WAKE wakes with the byte, not with its start
-// edge. Not modelled: ABAUD, USIDL, a second start edge inside one word's frame, breaking off a word that is on its
-// way out. Source: [chip P5], frame errors with two stop bits [DS70150E
-// 18.5.2], effect of UARTEN = 0 on UxSTA and of LPBACK on TX [assumed: as remembered of the family manual];
-// [?] phase of the first start bit, TXIF when UTXEN is set.
+// are received as on the chip. WAKE wakes with the byte, not with its start edge. Not modelled: ABAUD, USIDL,
+// a second start edge inside one word's frame, breaking off a word that is on its way out. Source: [chip P5],
+// frame errors with two stop bits [DS70150E 18.5.2], effect of UARTEN = 0 on UxSTA and of LPBACK on TX
+// [assumed: as remembered of the family manual]; [?] phase of the first start bit, TXIF when UTXEN is set.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -273,7 +273,7 @@ void Bodies::to_body(const Affine& frame, bool robot, sim::Pose2& pose, double& 
   pose.y_m = at.y;
   // a turn about another axis than up leaves what it does to the heading
   pose.heading_rad = std::atan2(is_nue() ? -ahead.z() : ahead.y(), ahead.x());
-  z_m = std::max(0.0, at.z);
+  z_m = robot ? 0 : std::max(0.0, at.z);  // a robot falls to the floor
 }
 
 int Bodies::moving_body(int id) const {
@@ -324,7 +324,6 @@ void Bodies::put_body(int body, const Affine& frame, bool robot) {
   sim::Pose2 pose;
   double z_m = 0;
   to_body(frame, robot, pose, z_m);
-  if (robot) z_m = 0;  // it falls to the floor
   twin_.simulation().move(body, pose, z_m);
   if (robot && moved) moved(body);
 }

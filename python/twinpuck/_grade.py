@@ -103,22 +103,17 @@ def run_tests(arguments: list[str]) -> int:
     import pytest
 
     cases: list[Case] = []
-    points_of: dict[str, float] = {}  # of all tests, by name
+    points_of: dict[str, float] = {}  # of all tests that are to run, by name
 
     class Collector:
-        def pytest_itemcollected(self, item: pytest.Item) -> None:
-            marker = item.get_closest_marker("points")
-            points = float(marker.args[0]) if marker and marker.args else 1.0
-            item.user_properties.append(("twinpuck_points", points))
-
         def pytest_collection_finish(self, session: pytest.Session) -> None:
             for item in session.items:
-                points_of[item.nodeid] = dict(item.user_properties).get("twinpuck_points", 1.0)
+                marker = item.get_closest_marker("points")
+                points_of[item.nodeid] = float(marker.args[0]) if marker and marker.args else 1.0
 
         def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-            points = next((value for key, value in report.user_properties if key == "twinpuck_points"), 1.0)
             if report.when == "call" or report.outcome != "passed":
-                cases.append(Case(report.nodeid, points, report.outcome, reason(report), report.duration,
+                cases.append(Case(report.nodeid, points_of[report.nodeid], report.outcome, reason(report), report.duration,
                                   said(report).startswith("twinpuck.WorldError: ")))
                 write()  # a later test may have no end
 

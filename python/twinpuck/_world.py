@@ -340,11 +340,11 @@ class World:
                     call(self)
                 return condition is not None and bool(condition())
         core = self._core
-        begun_s = self.time_s
-        end = core.now + round(seconds * _core.CLICKS_PER_SECOND)
+        begun = core.now
+        end = begun + round(seconds * _core.CLICKS_PER_SECOND)
         why = core.run(end, each_tick, self.traps == "raise")
         if why == "trap":
-            raise FirmwareFault(self._first_trap(begun_s))
+            raise FirmwareFault(self._first_trap(begun / _core.CLICKS_PER_SECOND))
         return why == "asked"
 
     def _first_trap(self, from_s: float) -> Trap:
